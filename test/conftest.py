@@ -1,0 +1,39 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What every system test has: a DDS domain, a log folder and processes of its own."""
+
+from collections.abc import Iterator
+import os
+from pathlib import Path
+import sys
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from playpen_testing.domain import free_domain_id  # noqa: E402
+from playpen_testing.processes import Processes  # noqa: E402
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture
+def domain_id(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> int:
+    """Give the test a DDS domain with nobody in it, also in the environment of its children."""
+    number = free_domain_id()
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(number))
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
+    monkeypatch.setenv('PYTHONUNBUFFERED', '1')
+    if not os.environ.get('FASTDDS_DEFAULT_PROFILES_FILE'):
+        profile = ROOT / 'config' / 'fastdds.xml'
+        monkeypatch.setenv('FASTDDS_DEFAULT_PROFILES_FILE', str(profile))
+    return number
+
+
+@pytest.fixture
+def processes(domain_id: int) -> Iterator[Processes]:
+    """Start real processes that all end with the test."""
+    del domain_id  # the children must be in the test's domain
+    with Processes() as started:
+        yield started

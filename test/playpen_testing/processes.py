@@ -1,0 +1,127 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Start real processes, read what they print, and end them all."""
+
+from collections.abc import Sequence
+import os
+from pathlib import Path
+import signal
+import subprocess
+import threading
+from types import TracebackType
+
+from playpen_testing.waiting import wait_until
+
+
+class Process:
+    """A child in its own process group whose output is collected line by line."""
+
+    def __init__(
+        self, command: Sequence[str], *, cwd: Path | None, environment: dict[str, str] | None
+    ) -> None:
+        self.command = list(command)
+        self.lines: list[str] = []
+        self._child = subprocess.Popen(
+            self.command,
+            cwd=cwd,
+            env={**os.environ, **(environment or {})},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            bufsize=1,
+            start_new_session=True,
+        )
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self) -> None:
+        assert self._child.stdout is not None
+        for line in self._child.stdout:
+            self.lines.append(line.rstrip('\n'))
+
+    @property
+    def output(self) -> str:
+        return '\n'.join(self.lines)
+
+    @property
+    def pid(self) -> int:
+        return self._child.pid
+
+    @property
+    def returncode(self) -> int | None:
+        return self._child.poll()
+
+    def write(self, text: str) -> None:
+        """Type something into the child's standard input."""
+        assert self._child.stdin is not None
+        self._child.stdin.write(text)
+        self._child.stdin.flush()
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to the child's whole group, as a terminal does for Ctrl-C."""
+        os.killpg(self._child.pid, number)
+
+    def wait_for_text(self, text: str, *, timeout_sec: float = 20.0) -> None:
+        """Return when some line printed holds the text."""
+        wait_until(
+            lambda: any(text in line for line in self.lines),
+            timeout_sec=timeout_sec,
+            what=lambda: f'{text!r} from {" ".join(self.command)}; it printed:\n{self.output}',
+        )
+
+    def wait(self, *, timeout_sec: float = 20.0) -> int:
+        """Return the exit status once the child has ended and all its output is read."""
+        wait_until(
+            lambda: self.returncode is not None,
+            timeout_sec=timeout_sec,
+            what=lambda: f'the end of {" ".join(self.command)}; it printed:\n{self.output}',
+        )
+        self._reader.join(timeout=5.0)
+        return self._child.wait()
+
+    def close(self) -> None:
+        """End the child's whole group, gently first; may be called twice."""
+        for number in (signal.SIGINT, signal.SIGKILL):
+            try:
+                os.killpg(self._child.pid, number)
+            except ProcessLookupError:
+                break
+            try:
+                self._child.wait(timeout=3.0)
+            except subprocess.TimeoutExpired:
+                continue
+        self._child.wait()
+        self._reader.join(timeout=5.0)
+        for stream in (self._child.stdin, self._child.stdout):
+            if stream is not None:
+                stream.close()
+
+
+class Processes:
+    """The children of one test, closed in reverse."""
+
+    def __init__(self) -> None:
+        self._started: list[Process] = []
+
+    def start(
+        self,
+        *command: str,
+        cwd: Path | None = None,
+        environment: dict[str, str] | None = None,
+    ) -> Process:
+        process = Process(command, cwd=cwd, environment=environment)
+        self._started.append(process)
+        return process
+
+    def __enter__(self) -> 'Processes':
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        for process in reversed(self._started):
+            process.close()

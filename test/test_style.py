@@ -1,0 +1,45 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""One look and checked types over every Python file."""
+
+from pathlib import Path
+import subprocess
+import sys
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDERS = ['src', 'underlay', 'test', 'benchmark']
+
+
+def python_files() -> list[Path]:
+    tracked = subprocess.run(
+        ['git', 'ls-files', '*.py'], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+    return [ROOT / line for line in tracked.stdout.splitlines()]
+
+
+@pytest.mark.parametrize('command', ['check', 'format --check'])
+def test_ruff_finds_nothing(command: str) -> None:
+    ruff = [sys.executable, '-m', 'ruff', *command.split(), '--no-cache', *FOLDERS]
+    done = subprocess.run(ruff, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.timeout(300)
+def test_mypy_strict_finds_nothing(tmp_path: Path) -> None:
+    mypy = [sys.executable, '-m', 'mypy', '--cache-dir', str(tmp_path)]
+    for target in (['underlay/src'], ['src'], ['test', 'benchmark']):
+        done = subprocess.run([*mypy, *target], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_every_file_names_its_licence() -> None:
+    header = '# SPDX-License-Identifier: Apache-2.0'
+    without = [str(path) for path in python_files() if header not in path.read_text()[:200]]
+    assert without == []
+
+
+def test_no_module_is_longer_than_500_lines() -> None:
+    long = [str(path) for path in python_files() if len(path.read_text().splitlines()) > 500]
+    assert long == []
