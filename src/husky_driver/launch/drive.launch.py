@@ -1,0 +1,60 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Drive one course in the playpen: the simulator and follow_path, until follow_path is done."""
+
+from launch import LaunchDescription
+from launch.actions import (
+    DeclareLaunchArgument,
+    IncludeLaunchDescription,
+    RegisterEventHandler,
+    Shutdown,
+)
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Return the simulator, the driver, and the end of both when the driver has ended."""
+    names = ('record', 'real_time_factor', 'lockstep', 'viewer')
+    simulator = IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(
+            PathJoinSubstitution(
+                [FindPackageShare('husky_sim'), 'launch', 'husky_playpen.launch.py']
+            )
+        ),
+        launch_arguments={name: LaunchConfiguration(name) for name in names}.items(),
+    )
+    driver = Node(
+        package='husky_driver',
+        executable='follow_path',
+        parameters=[{'use_sim_time': True}],
+        arguments=['--waypoints', LaunchConfiguration('waypoints')],
+        output='screen',
+    )
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument('waypoints', description='the waypoint file to drive'),
+            DeclareLaunchArgument(
+                'record', default_value='', description='where the simulator writes the run'
+            ),
+            DeclareLaunchArgument(
+                'real_time_factor',
+                default_value='1.0',
+                description='1.0 keeps pace with the wall, 0.0 is as fast as possible',
+            ),
+            DeclareLaunchArgument(
+                'lockstep',
+                default_value='false',
+                description='true: the simulator waits for every command, so a run repeats exactly',
+            ),
+            DeclareLaunchArgument(
+                'viewer', default_value='false', description='true: a live view in the browser'
+            ),
+            simulator,
+            driver,
+            RegisterEventHandler(OnProcessExit(target_action=driver, on_exit=[Shutdown()])),
+        ]
+    )
