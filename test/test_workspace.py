@@ -1,0 +1,95 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The workspace as colcon and ROS see it: three ament_python packages, built and found."""
+
+import os
+from pathlib import Path
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ['husky_driver', 'husky_sim', 'topic_demo']
+
+
+def run(*command: str, cwd: Path, **environment: str) -> str:
+    done = subprocess.run(
+        command, cwd=cwd, env={**os.environ, **environment}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_colcon_takes_every_package_for_an_ament_python_one(tmp_path: Path) -> None:
+    # A package.xml that does not parse silently turns a package into a plain `python` one.
+    listed = run('colcon', '--log-base', str(tmp_path), 'list', '--base-paths', 'src', cwd=ROOT)
+    kinds = {row.split('\t')[0]: row.split('\t')[2] for row in listed.splitlines()}
+    assert kinds == dict.fromkeys(PACKAGES, '(ros.ament_python)')
+
+
+@pytest.mark.parametrize('install', ['copied', 'symlinked'])
+@pytest.mark.timeout(120)
+def test_a_build_puts_every_package_on_the_ament_prefix_path(tmp_path: Path, install: str) -> None:
+    options = ['--symlink-install'] if install == 'symlinked' else []
+    bases = ['--build-base', str(tmp_path / 'build'), '--install-base', str(tmp_path / 'install')]
+    colcon = ['colcon', '--log-base', str(tmp_path / 'log'), 'build', '--base-paths', 'src']
+    run(*colcon, *bases, *options, cwd=ROOT)
+    shown = run(
+        'bash',
+        '-c',
+        'source install/local_setup.bash && echo "$AMENT_PREFIX_PATH"',
+        cwd=tmp_path,
+        AMENT_PREFIX_PATH='',
+    )
+    prefixes = [Path(folder) for folder in shown.strip().split(os.pathsep)]
+    for package in PACKAGES:
+        marker = Path('share') / 'ament_index' / 'resource_index' / 'packages' / package
+        assert [prefix.name for prefix in prefixes if (prefix / marker).is_file()] == [package]
+    world = tmp_path / 'install/husky_sim/share/husky_sim/worlds/playpen.xml'
+    course = (
+        tmp_path / 'install/husky_driver/share/husky_driver/config/waypoints/central_barrier.yaml'
+    )
+    assert world.read_text() == (ROOT / 'worlds/playpen.xml').read_text()
+    assert course.read_text() == (ROOT / 'config/waypoints/central_barrier.yaml').read_text()
+
+
+@pytest.mark.parametrize('package', PACKAGES)
+def test_a_package_declares_what_rosdep_needs(package: str) -> None:
+    root = ElementTree.parse(ROOT / 'src' / package / 'package.xml').getroot()
+    assert root.get('format') == '3'
+    assert root.findtext('license') == 'Apache-2.0'
+    assert root.findtext('export/build_type') == 'ament_python'
+    declared = {
+        element.text for element in root if element.tag.endswith('depend') and element.text
+    }
+    imported = imported_packages(ROOT / 'src' / package / package)
+    assert imported - declared - {package} == set(), 'imported, but not in package.xml'
+
+
+def imported_packages(folder: Path) -> set[str]:
+    """Return the rosdep keys of everything that the modules in the folder import from outside."""
+    keys = {
+        'numpy': 'python3-numpy',
+        'yaml': 'python3-yaml',
+        'matplotlib': 'python3-matplotlib',
+    }
+    ours = {*PACKAGES, *(path.name for path in (ROOT / 'underlay' / 'src').iterdir())}
+    found = set()
+    for path in folder.rglob('*.py'):
+        for line in path.read_text().splitlines():
+            words = line.split()
+            if len(words) > 1 and words[0] in ('import', 'from'):
+                name = words[1].split('.')[0]
+                if name in keys:
+                    found.add(keys[name])
+                elif name in ours or name.endswith('_msgs') or name in ('rclpy', 'std_srvs'):
+                    found.add(name)
+    return found
+
+
+def test_every_package_has_a_changelog_of_its_version() -> None:
+    for package in PACKAGES:
+        root = ElementTree.parse(ROOT / 'src' / package / 'package.xml').getroot()
+        changelog = (ROOT / 'src' / package / 'CHANGELOG.rst').read_text()
+        assert f'{root.findtext("version")} (' in changelog, package
