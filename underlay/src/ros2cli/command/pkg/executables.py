@@ -1,0 +1,30 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Output a list of package specific executables."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli import completion, packages
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    completion.package(
+        parser.add_argument('package_name', nargs='?', help='The package name (default: all)')
+    )
+    parser.add_argument(
+        '--full-path', action='store_true', help='Show the full path of each executable'
+    )
+
+
+def main(args: argparse.Namespace) -> None:
+    chosen = [args.package_name] if args.package_name else sorted(packages.installed())
+    for package in chosen:
+        for path in packages.executables(package):
+            if args.full_path:
+                print(path)
+            elif args.package_name:
+                print(path.name)
+            else:
+                print(f'{package} {path.name}')

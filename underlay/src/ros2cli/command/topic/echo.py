@@ -1,0 +1,176 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Output messages from a topic."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+import sys
+from typing import Any
+
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rosidl_runtime_py import message_to_csv, message_to_yaml
+
+from ros2cli import completion, discovery, expression, qos, topics
+from ros2cli.arguments import nonnegative_float, nonnegative_int
+from ros2cli.errors import CommandError
+from ros2cli.node import command_node
+
+_TRUNCATE_LENGTH = 128
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    discovery.add_arguments(parser)
+    completion.topic(
+        parser.add_argument(
+            'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
+        )
+    )
+    completion.message_type(
+        parser.add_argument(
+            'message_type', nargs='?', help="Type of the ROS message (e.g. 'std_msgs/msg/String')"
+        )
+    )
+    qos.add_arguments(parser, verb='subscribe')
+    parser.add_argument(
+        '--csv',
+        action='store_true',
+        help='Output all recursive fields separated by commas (e.g. for plotting). If '
+        '--include-message-info is also passed, it is printed as a line of its own before',
+    )
+    parser.add_argument(
+        '--field', help='Echo a selected field of a message. Use "." to select sub-fields'
+    )
+    parser.add_argument(
+        '--full-length',
+        '-f',
+        action='store_true',
+        help='Output all elements for arrays, bytes, and string with a length > '
+        "'--truncate-length', by default they are truncated after '--truncate-length' elements "
+        "with '...'",
+    )
+    parser.add_argument(
+        '--truncate-length',
+        '-l',
+        type=nonnegative_int,
+        default=_TRUNCATE_LENGTH,
+        help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
+    )
+    parser.add_argument(
+        '--no-arr', action='store_true', help="Don't print array fields of messages"
+    )
+    parser.add_argument(
+        '--no-str', action='store_true', help="Don't print string fields of messages"
+    )
+    parser.add_argument(
+        '--flow-style', action='store_true', help='Print collections in the block style'
+    )
+    parser.add_argument('--lost-messages', action='store_true', help='DEPRECATED: Does nothing')
+    parser.add_argument(
+        '--no-lost-messages', action='store_true', help="Don't report when a message is lost"
+    )
+    parser.add_argument('--raw', action='store_true', help='Echo the raw binary representation')
+    parser.add_argument(
+        '--filter',
+        dest='filter_expr',
+        metavar='FILTER',
+        help='Python expression to filter messages that are printed. Expression can use Python '
+        'builtins as well as m (the message).',
+    )
+    parser.add_argument(
+        '--once', action='store_true', help='Print the first message received and then exit.'
+    )
+    parser.add_argument(
+        '--timeout',
+        metavar='N',
+        type=nonnegative_float,
+        help='Set a timeout in seconds for waiting for a message',
+    )
+    parser.add_argument(
+        '--include-message-info', action='store_true', help='Shows the associated message info.'
+    )
+
+
+def main(args: argparse.Namespace) -> None:
+    keep = expression.message_filter(args.filter_expr)
+    topic = topics.find(args, args.topic_name, type_name=args.message_type)
+    shown = 0
+
+    def on_message(msg: Any, info: Any) -> None:
+        nonlocal shown
+        if (args.once and shown) or not (args.raw or keep(msg)):
+            return
+        if args.include_message_info:
+            print(info)
+        _print(msg, args)
+        shown += 1
+
+    with command_node(args) as node:
+        node.node.create_subscription(
+            topic.message_class,
+            topic.name,
+            on_message,
+            qos.profile_for(args, topic.publishers),
+            event_callbacks=SubscriptionEventCallbacks(message_lost=_on_lost(args)),
+            raw=args.raw,
+        )
+        if not node.spin_until(lambda: bool(args.once and shown), args.timeout) and not shown:
+            raise CommandError(
+                f"No message on '{topic.name}' within {args.timeout:g} s; "
+                f'`ros2 topic info -v {topic.name}` shows who publishes'
+            )
+
+
+def _on_lost(args: argparse.Namespace) -> Callable[[Any], None] | None:
+    if args.no_lost_messages:
+        return None
+
+    def report(status: Any) -> None:
+        print(
+            'A message was lost!!!\n\ttotal count change:'
+            f'{status.total_count_change}\n\ttotal count: {status.total_count}---',
+            file=sys.stderr,
+        )
+
+    return report
+
+
+def _print(msg: Any, args: argparse.Namespace) -> None:
+    if args.field and not args.raw:
+        msg = _field(msg, args.field)
+    length = None if args.full_length else args.truncate_length
+    options = {'truncate_length': length, 'no_arr': args.no_arr, 'no_str': args.no_str}
+    if args.raw or not hasattr(msg, 'get_fields_and_field_types'):
+        print(_plain(msg, length), end='\n' if args.csv else '\n---\n')
+    elif args.csv:
+        print(message_to_csv(msg, **options))
+    else:
+        print(message_to_yaml(msg, flow_style=args.flow_style, **options), end='---\n')
+
+
+def _plain(value: Any, length: int | None) -> Any:
+    """Cut a field that is no message, as its array or string would be cut inside one."""
+    if length is None or not hasattr(value, '__len__') or len(value) <= length:
+        return value
+    cut = value[:length]
+    return f'{cut}...' if isinstance(value, str) else [*cut, '...']
+
+
+def _field(msg: Any, path: str) -> Any:
+    value = msg
+    for name in path.split('.'):
+        try:
+            value = getattr(value, name)
+        except AttributeError:
+            raise CommandError(
+                f"Invalid field '{path}': {value.__class__.__name__} has no field "
+                f"'{name}'{_fields_of(value)}"
+            ) from None
+    return value
+
+
+def _fields_of(value: Any) -> str:
+    if not hasattr(value, 'get_fields_and_field_types'):
+        return ''
+    return f'; there is {", ".join(value.get_fields_and_field_types())}'

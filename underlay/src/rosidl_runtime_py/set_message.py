@@ -1,0 +1,189 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fill messages from what a person wrote: dictionaries, lists and scalars, as YAML gives them."""
+
+from __future__ import annotations
+
+import array
+from collections.abc import Callable, Mapping
+import contextlib
+from functools import partial
+import math
+import struct
+from typing import Any
+
+import numpy
+from rosidl_parser import definition
+
+from rosidl_runtime_py.convert import get_message_slot_types
+from rosidl_runtime_py.import_message import import_message_from_namespaced_type
+
+_SEQUENCES = (list, tuple, array.array, numpy.ndarray, bytes, bytearray)
+_HEADER = (('std_msgs', 'msg'), 'Header')
+_TIME = (('builtin_interfaces', 'msg'), 'Time')
+
+
+def set_message_fields(
+    msg: Any,
+    values: Mapping[str, Any],
+    expand_header_auto: bool = False,
+    expand_time_now: bool = False,
+) -> list[Callable[..., None]]:
+    """Set the fields of a message.
+
+    A value that does not fit its field is refused before it reaches the middleware, which
+    checks nothing: the type, the range of a number, the length of an array.
+
+    :param values: values by field, nested as the message is.
+    :param expand_header_auto: 'auto' for a std_msgs/Header asks for the time of publishing.
+    :param expand_time_now: 'now' for a builtin_interfaces/Time asks for the time of publishing.
+    :return: functions that take a Time and set it in each place that asked for it, a header
+        too.
+    :raises AttributeError: the message has no such field.
+    :raises TypeError: a value has another type than its field.
+    :raises ValueError: a value is out of the range of its field.
+    """
+    setters: list[Callable[..., None]] = []
+
+    def fill(message: Any, given: Any, path: str) -> None:
+        if not isinstance(given, Mapping):
+            raise TypeError(
+                f"Value '{given}' is expected to be a dictionary but is a {type(given).__name__}"
+                + (f' (field {path})' if path else '')
+            )
+        slots = get_message_slot_types(message)
+        for name, value in given.items():
+            if name not in slots:
+                raise AttributeError(
+                    f"'{type(message).__name__}' object has no attribute '{name}'; its fields "
+                    f'are {", ".join(slots) or "none"}'
+                )
+            field_path = f'{path}.{name}' if path else str(name)
+            kind = slots[name]
+            if isinstance(kind, definition.NamespacedType):
+                named = (tuple(kind.namespaces), kind.name)
+                if named == _HEADER and value == 'auto' and expand_header_auto:
+                    setters.append(partial(setattr, getattr(message, name), 'stamp'))
+                    continue
+                if named == _TIME and value == 'now' and expand_time_now:
+                    setters.append(partial(setattr, message, name))
+                    continue
+            setattr(message, name, convert(value, kind, field_path))
+
+    def convert(value: Any, kind: Any, path: str) -> Any:
+        if isinstance(kind, definition.AbstractNestedType):
+            items = [
+                convert(item, kind.value_type, f'{path}[{i}]')
+                for i, item in enumerate(_items(value, kind, path))
+            ]
+            return _sequence(items, kind)
+        if isinstance(kind, definition.NamespacedType):
+            message_class = import_message_from_namespaced_type(kind)
+            if isinstance(value, message_class):
+                return value
+            message = message_class()
+            fill(message, value, path)
+            return message
+        if isinstance(kind, definition.AbstractGenericString):
+            return _string(value, kind, path)
+        return _scalar(value, kind.typename, path)
+
+    fill(msg, values, '')
+    return setters
+
+
+def _items(value: Any, kind: Any, path: str) -> list[Any]:
+    if not isinstance(value, _SEQUENCES):
+        raise TypeError(f"{path}: '{value}' is a {type(value).__name__}, expected a list")
+    if isinstance(kind, definition.Array) and len(value) != kind.size:
+        raise ValueError(f'{path}: {len(value)} elements, expected exactly {kind.size}')
+    if isinstance(kind, definition.BoundedSequence) and len(value) > kind.maximum_size:
+        raise ValueError(f'{path}: {len(value)} elements, allowed are {kind.maximum_size}')
+    if getattr(kind.value_type, 'typename', '') == 'octet' and isinstance(
+        value, (bytes, bytearray)
+    ):
+        return [bytes((item,)) for item in value]
+    return list(value)
+
+
+_ARRAY_CODES = {
+    'float': ('f', 'float32'), 'double': ('d', 'float64'),
+    'int8': ('b', 'int8'), 'uint8': ('B', 'uint8'),
+    'int16': ('h', 'int16'), 'uint16': ('H', 'uint16'),
+    'int32': ('i', 'int32'), 'uint32': ('I', 'uint32'),
+    'int64': ('q', 'int64'), 'uint64': ('Q', 'uint64'),
+}  # fmt: skip
+
+
+def _sequence(items: list[Any], kind: Any) -> Any:
+    codes = _ARRAY_CODES.get(getattr(kind.value_type, 'typename', ''))
+    if codes is None:
+        return items
+    if isinstance(kind, definition.Array):
+        return numpy.array(items, dtype=codes[1])
+    return array.array(codes[0], items)
+
+
+def _string(value: Any, kind: Any, path: str) -> str:
+    if isinstance(value, (list, tuple, Mapping)):
+        raise TypeError(f"{path}: '{value}' is a {type(value).__name__}, expected a string")
+    # YAML reads an unquoted 5, true or nothing as a number, a truth value, None.
+    text = value if isinstance(value, str) else '' if value is None else str(value)
+    if '\0' in text:
+        raise ValueError(f'{path}: a string cannot hold the character NUL')
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f'{path}: {text!r} cannot be encoded in UTF-8') from None
+    if kind.has_maximum_size() and len(text) > kind.maximum_size:
+        raise ValueError(f'{path}: {len(text)} characters, allowed are {kind.maximum_size}')
+    return text
+
+
+def _scalar(value: Any, typename: str, path: str) -> Any:
+    if typename == 'boolean':
+        if isinstance(value, (bool, numpy.bool_)) or value in (0, 1):
+            return bool(value)
+        raise TypeError(f"{path}: '{value}' is refused, expected true or false")
+    if typename in ('float', 'double', 'long double'):
+        return _float(value, typename, path)
+    if typename == 'octet':
+        if isinstance(value, (bytes, str)) and len(value) == 1 and ord(value) < 256:
+            return bytes((ord(value),))
+        return bytes((_integer(value, 'uint8', path),))
+    if typename in ('char', 'wchar'):
+        return _integer(value, 'uint8' if typename == 'char' else 'uint16', path)
+    return _integer(value, typename, path)
+
+
+def _float(value: Any, typename: str, path: str) -> float:
+    try:
+        # YAML 1.1 reads 1e3 as text; a person means a number.
+        number = float(value) if not isinstance(value, bool) else None
+    except (TypeError, ValueError, OverflowError):
+        number = None
+    if number is None:
+        raise TypeError(f"{path}: '{value}' is refused, expected a number")
+    if typename == 'float' and math.isfinite(number):
+        try:
+            struct.pack('<f', number)
+        except OverflowError:
+            raise ValueError(f'{path}: {number} does not fit a float32') from None
+    return number
+
+
+def _integer(value: Any, typename: str, path: str) -> int:
+    if isinstance(value, (float, numpy.floating)) and float(value).is_integer():
+        value = int(value)
+    if isinstance(value, str):
+        with contextlib.suppress(ValueError):
+            value = int(value, 0)
+    if isinstance(value, bool) or not isinstance(value, (int, numpy.integer)):
+        raise TypeError(f"{path}: '{value}' is refused, expected a whole number")
+    bits = int(typename.removeprefix('u').removeprefix('int'))
+    low, high = (
+        (0, 2**bits - 1) if typename[0] == 'u' else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    )
+    if not low <= value <= high:
+        raise ValueError(f'{path}: {value} does not fit {typename} ({low} to {high})')
+    return int(value)
