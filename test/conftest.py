@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from playpen_testing.domain import free_domain_id  # noqa: E402
 from playpen_testing.processes import Processes  # noqa: E402
+from playpen_testing.spinning import SpunNodes  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -37,3 +38,10 @@ def processes(domain_id: int) -> Iterator[Processes]:
     del domain_id  # the children must be in the test's domain
     with Processes() as started:
         yield started
+
+
+@pytest.fixture
+def nodes(domain_id: int) -> Iterator[SpunNodes]:
+    """Spin real nodes in this process, in the test's domain."""
+    with SpunNodes(domain_id) as spun:
+        yield spun

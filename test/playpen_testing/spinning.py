@@ -1,0 +1,89 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Spin real nodes in this process, each with its own context, executor and thread."""
+
+from collections.abc import Callable
+from contextlib import suppress
+import threading
+from types import TracebackType
+from typing import TypeVar
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+AnyNode = TypeVar('AnyNode', bound=Node)
+
+
+class SpunNode:
+    """A node and the thread that serves it."""
+
+    def __init__(self, context: Context, node: Node) -> None:
+        self.context = context
+        self.node = node
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(node)
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+
+    def _spin(self) -> None:
+        with suppress(ExternalShutdownException):  # how `close` ends it
+            self._executor.spin()
+
+    def close(self) -> None:
+        """Stop serving, then let the node go; may be called twice."""
+        self.context.try_shutdown()
+        self._thread.join(timeout=10.0)
+        assert not self._thread.is_alive(), f'{self.node.get_name()} still spins after 10 s'
+        self._executor.shutdown()
+        self.node.destroy_node()
+
+
+class SpunNodes:
+    """The nodes of one test, closed in reverse."""
+
+    def __init__(self, domain_id: int) -> None:
+        self._domain_id = domain_id
+        self._spun: list[SpunNode] = []
+
+    def start(
+        self,
+        make: Callable[..., AnyNode],
+        *arguments: object,
+        before_spin: Callable[[AnyNode], object] = lambda _: None,
+        **parameters: object,
+    ) -> AnyNode:
+        """
+        Make a node with these parameters and spin it in a thread of its own.
+
+        :param before_spin: called with the node before any of its callbacks can run.
+        """
+        context = Context()
+        rclpy.init(context=context, domain_id=self._domain_id)
+        overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+        node = make(*arguments, context=context, parameter_overrides=overrides)
+        before_spin(node)
+        self._spun.append(SpunNode(context, node))
+        return node
+
+    def close(self, node: Node) -> None:
+        """End one node before the others."""
+        for spun in self._spun:
+            if spun.node is node:
+                spun.close()
+                self._spun.remove(spun)
+                return
+
+    def __enter__(self) -> 'SpunNodes':
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        for spun in reversed(self._spun):
+            spun.close()

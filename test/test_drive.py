@@ -1,0 +1,165 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulator and the driver together, over DDS: whole courses, and what goes wrong."""
+
+import json
+import math
+from pathlib import Path
+import signal
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from husky_driver.drive import Drive
+from husky_driver.node import FollowPath
+from husky_driver.scoring import score
+from husky_driver.waypoints import load_course
+from husky_sim.node import SimulatorNode
+from nav_msgs.msg import Odometry
+from playpen_testing.listener import Listener
+from playpen_testing.processes import Processes
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+COURSES = ROOT / 'config' / 'waypoints'
+THROUGH_THE_BARRIER = """\
+frame: odom
+speed: 0.6
+waypoints:
+  - [0.0, 0.0]
+  - [4.5, 0.0]
+"""
+
+
+def drive(
+    nodes: SpunNodes, course: Path, record: Path, *, timeout_sec: float, **time: object
+) -> tuple[int, dict[str, object]]:
+    """Drive a course with real nodes; return the driver's exit code and the run's record."""
+    simulator = nodes.start(SimulatorNode, record=str(record), **time)
+    driver = nodes.start(
+        FollowPath,
+        before_spin=lambda node: node.start(Drive(load_course(str(course)))),
+        progress='off',
+    )
+    wait_until(driver.finished.done, timeout_sec=timeout_sec, what=f'the end of {course.name}')
+    nodes.close(driver)
+    nodes.close(simulator)
+    exit_code = driver.finished.result()
+    assert exit_code is not None
+    return exit_code, json.loads(record.read_text())
+
+
+@pytest.mark.parametrize(
+    'time',
+    [{'lockstep': True, 'real_time_factor': 0.0}, {'lockstep': False, 'real_time_factor': 1.0}],
+    ids=['lockstep', 'real time'],
+)
+@pytest.mark.timeout(120)
+def test_the_central_barrier_is_driven_round_without_a_touch(
+    nodes: SpunNodes, tmp_path: Path, time: dict[str, object]
+) -> None:
+    course = COURSES / 'central_barrier.yaml'
+    exit_code, record = drive(nodes, course, tmp_path / 'record.json', timeout_sec=90, **time)
+    report = score(record, load_course(str(course)))
+    assert exit_code == 0
+    assert report.completed
+    assert report.waypoints_reached == report.waypoints_total == 13
+    assert report.collisions == ()
+    assert report.cross_track_rms_m <= 0.10
+    assert report.cross_track_max_m <= 0.30
+    average_m_s = report.driven_m / report.sim_time_sec
+    assert average_m_s >= 0.75 * load_course(str(course)).speed_m_s
+
+
+def test_a_course_through_the_central_barrier_reports_the_collision(
+    nodes: SpunNodes, tmp_path: Path
+) -> None:
+    course = tmp_path / 'through.yaml'
+    course.write_text(THROUGH_THE_BARRIER)
+    listener = nodes.start(Listener, {'collisions': DiagnosticStatus})
+    exit_code, record = drive(
+        nodes,
+        course,
+        tmp_path / 'record.json',
+        timeout_sec=60,
+        lockstep=True,
+        real_time_factor=0.0,
+    )
+    assert exit_code == 1, 'the driver must give up in front of the barrier'
+    touch = listener.latest('collisions')
+    assert touch.name == 'jersey_barrier_15'
+    values = {entry.key: entry.value for entry in touch.values}
+    assert values['obstacle'] == 'jersey_barrier_15'
+    assert float(values['force_n']) > 0.0
+    report = score(record, load_course(str(course)))
+    assert not report.completed
+    assert {collision.obstacle for collision in report.collisions} == {'jersey_barrier_15'}
+
+
+def test_lost_commands_stop_the_wheels_within_the_timeout(nodes: SpunNodes) -> None:
+    nodes.start(SimulatorNode)
+    listener = nodes.start(Listener, {'odometry/filtered': Odometry})
+
+    def moving_at(speed_m_s: float) -> bool:
+        return bool(listener.latest('odometry/filtered').twist.twist.linear.x > speed_m_s)
+
+    def push() -> bool:
+        listener.command(0.5)
+        return moving_at(0.45)
+
+    wait_until(push, timeout_sec=10.0, what='0.45 m/s while commanded')
+    heard = listener.heard['odometry/filtered']
+    lost_sec = stamp_sec(heard[-1])
+    wait_until(lambda: abs(heard[-1].twist.twist.linear.x) < 0.01, timeout_sec=10.0, what='a stop')
+    # 0.25 s of timeout, then 0.5 m/s at 3 m/s2; one period each for the way in and out.
+    assert stamp_sec(heard[-1]) - lost_sec < 0.25 + 0.5 / 3.0 + 0.15
+
+
+def stamp_sec(message: Odometry) -> float:
+    return float(message.header.stamp.sec + message.header.stamp.nanosec * 1e-9)
+
+
+@pytest.mark.timeout(60)
+def test_a_killed_simulator_ends_the_driver_with_a_message(processes: Processes) -> None:
+    simulator = processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    course = str(COURSES / 'straight.yaml')
+    driver = processes.start(
+        'ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', course,
+        '--ros-args', '-p', 'startup_timeout_sec:=20.0',
+    )  # fmt: skip
+    driver.wait_for_text('%')
+    simulator.signal(signal.SIGKILL)
+    assert driver.wait(timeout_sec=12.0) == 1
+    assert 'no odometry for 5 s' in driver.output
+    assert 'Traceback' not in driver.output
+
+
+@pytest.mark.parametrize(
+    ('text', 'said'),
+    [
+        ('speed: fast\nwaypoints: [[0, 0], [1, 0]]\n', ['line 1', 'speed']),
+        ('waypoints:\n  - [0, 0]\n  - [1, north]\n', ['line 3', 'waypoints']),
+        ('waypoints: [\n', ['line']),
+    ],
+)
+def test_a_bad_waypoint_file_is_refused_with_its_line(
+    processes: Processes, tmp_path: Path, text: str, said: list[str]
+) -> None:
+    course = tmp_path / 'bad.yaml'
+    course.write_text(text)
+    driver = processes.start(
+        'ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', str(course)
+    )
+    assert driver.wait() == 2
+    assert [word for word in ['bad.yaml', *said] if word not in driver.output] == []
+    assert 'Traceback' not in driver.output
+
+
+def test_the_robot_stands_where_the_facts_put_it(nodes: SpunNodes) -> None:
+    nodes.start(SimulatorNode, x=-4.0, y=1.0, yaw=math.pi / 2)
+    listener = nodes.start(Listener, {'ground_truth/odom': Odometry})
+    pose = listener.latest('ground_truth/odom').pose.pose
+    assert (pose.position.x, pose.position.y) == pytest.approx((-4.0, 1.0), abs=1e-3)
+    assert 2 * math.atan2(pose.orientation.z, pose.orientation.w) == pytest.approx(
+        math.pi / 2, abs=1e-3
+    )
