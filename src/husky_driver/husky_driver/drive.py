@@ -1,0 +1,271 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Drive a course from its first waypoint to its last: odometry in, velocity commands out.
+
+Pure: the commands are a function of the sequence of odometry alone, so that a run repeats.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator
+import math
+from typing import NamedTuple
+
+from husky_driver.route import lead_in, Leg, plan_route
+from husky_driver.tracker import DriveLimits, plan_speeds, Tracker
+from husky_driver.waypoints import Course, Waypoint
+
+ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
+ALIGNED_RAD = 0.01  # where turning on the spot ends
+ALIGNED_RAD_S = 0.15
+LOST_HEADING_RAD = 1.2  # facing this far from the path: stop and turn
+ARRIVED_M = 0.004
+STANDING_M_S = 0.01
+STANDING_RAD_S = 0.02
+SETTLE_SEC = 3.0  # a robot that does not come to rest in this time is left rolling
+STUCK_SEC = 4.0
+STUCK_MOVE_M = 0.02
+STUCK_TURN_RAD = 0.03
+MAX_PERIOD_SEC = 0.1
+
+_TWO_PI = 2 * math.pi
+
+
+class Odometry(NamedTuple):
+    """Where the robot believes to be, in its odometry frame, and how it moves."""
+
+    time_sec: float
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    speed_m_s: float
+    yaw_rate_rad_s: float
+
+    @property
+    def is_standing(self) -> bool:
+        return abs(self.speed_m_s) < STANDING_M_S and abs(self.yaw_rate_rad_s) < STANDING_RAD_S
+
+
+class Command(NamedTuple):
+    """What the velocity controller is asked for."""
+
+    speed_m_s: float
+    yaw_rate_rad_s: float
+
+
+STOP = Command(0.0, 0.0)
+
+
+class Drive:
+    """Follows a course; give it every odometry message once, in order."""
+
+    def __init__(self, course: Course, limits: DriveLimits | None = None) -> None:
+        self.course = course
+        self.limits = limits or DriveLimits()
+        self.finished = False
+        self.failure = ''  # why it gave up, if it did
+        self.reached = 0  # waypoints, counted in order
+        self.legs = plan_route(course)
+        self._leg_index = 0
+        self._tracker: Tracker | None = None
+        self._now: Odometry | None = None
+        self._started_sec = 0.0
+        self._next = 0  # the waypoint that is driven to
+        self._command = STOP
+        self._wishes: Iterator[Command] = iter(())
+
+    @property
+    def total(self) -> int:
+        return len(self.course.stops)
+
+    @property
+    def length_m(self) -> float:
+        return sum(leg.curve.length_m for leg in self.legs)
+
+    @property
+    def remaining_m(self) -> float:
+        """Length of the path that is left, along the curve."""
+        if self._tracker is None:
+            return self.length_m
+        later = sum(leg.curve.length_m for leg in self.legs[self._leg_index + 1 :])
+        return self._tracker.remaining_m + later
+
+    @property
+    def elapsed_sec(self) -> float:
+        return 0.0 if self._now is None else self._now.time_sec - self._started_sec
+
+    def summary(self) -> str:
+        return (
+            f'{self.reached} of {self.total} waypoints, '
+            f'{self.length_m:.2f} m in {self.elapsed_sec:.2f} s'
+        )
+
+    def step(self, odometry: Odometry) -> Command | None:
+        """Return the command that answers one odometry message; None when the drive is over."""
+        before, self._now = self._now, odometry
+        if before is None or odometry.time_sec < before.time_sec:
+            self._begin(odometry)  # the first, or the first after the simulator was reset
+            before = odometry
+        if self.finished:
+            return None
+        self._count_reached(odometry)
+        wish = next(self._wishes, None)
+        if wish is None:
+            self.finished = True
+            return None
+        period = min(odometry.time_sec - before.time_sec, MAX_PERIOD_SEC)
+        self._command = self._within_limits(wish, period)
+        self._watch(odometry)
+        return None if self.finished else self._command
+
+    def _begin(self, odometry: Odometry) -> None:
+        self._place(odometry)
+        self._started_sec = odometry.time_sec
+        self._command = STOP
+        self._moved = odometry
+        self._next = self.reached = 0
+        self.finished, self.failure = False, ''
+        self.legs = plan_route(self.course)
+        way = lead_in(self.course, (odometry.x_m, odometry.y_m))
+        if way is not None:
+            self.legs.insert(0, way)
+        self._wishes = self._drive()
+
+    def _place(self, start: Odometry) -> None:
+        """Fit the course to where the robot starts; a waypoint file stays as it is."""
+
+    # The course as a story: each generator yields one wished command a period and sees the
+    # newest odometry in self._now when it goes on.
+
+    def _drive(self) -> Generator[Command, None, None]:
+        for index, leg in enumerate(self.legs):
+            self._leg_index = index
+            self._tracker = tracker = self._track(leg)
+            now = self._odometry()
+            tracker.locate(now.x_m, now.y_m, now.yaw_rad)
+            yield from self._turn(now.yaw_rad - tracker.heading_error_rad, ENOUGH_RAD)
+            yield from self._follow(tracker)
+            yield from self._stand()
+            if leg.end_yaw_rad is not None:
+                yield from self._turn(leg.end_yaw_rad, ALIGNED_RAD)
+                yield from self._stand()
+            yield from self._dwell(leg.dwell_sec)
+
+    def _track(self, leg: Leg) -> Tracker:
+        speeds = plan_speeds(leg.curve, leg.speeds_m_s, self.limits)
+        return Tracker(leg.curve, speeds, reverse=leg.reverse, limits=self.limits)
+
+    def _follow(self, tracker: Tracker) -> Generator[Command, None, None]:
+        while True:
+            now = self._odometry()
+            wish = tracker.command(*now[1:])
+            if tracker.remaining_m <= ARRIVED_M:
+                return
+            if abs(tracker.heading_error_rad) > LOST_HEADING_RAD:
+                yield from self._stand()
+                yield from self._turn(now.yaw_rad - tracker.heading_error_rad, ENOUGH_RAD)
+            else:
+                yield Command(*wish)
+
+    def _turn(self, yaw_rad: float, enough_rad: float) -> Generator[Command, None, None]:
+        """Turn on the spot to a heading, unless it is right already."""
+        error = math.remainder(yaw_rad - self._odometry().yaw_rad, _TWO_PI)
+        if abs(error) <= enough_rad:
+            return
+        while abs(error) > ALIGNED_RAD or abs(self._odometry().yaw_rate_rad_s) > ALIGNED_RAD_S:
+            yield Command(0.0, self._turn_rate(error))
+            error = math.remainder(yaw_rad - self._odometry().yaw_rad, _TWO_PI)
+
+    def _stand(self) -> Generator[Command, None, None]:
+        begun_sec = self._odometry().time_sec
+        yield STOP
+        while not (now := self._odometry()).is_standing:
+            if now.time_sec - begun_sec > SETTLE_SEC:
+                return
+            yield STOP
+
+    def _dwell(self, duration_sec: float) -> Generator[Command, None, None]:
+        begun_sec = self._odometry().time_sec
+        while self._odometry().time_sec - begun_sec < duration_sec:
+            yield STOP
+
+    def _odometry(self) -> Odometry:
+        if self._now is None:
+            raise RuntimeError('no odometry yet; call step() first')
+        return self._now
+
+    def _turn_rate(self, error_rad: float) -> float:
+        limits = self.limits
+        braking = math.sqrt(2 * limits.turn_braking_rad_s2 * abs(error_rad))
+        rate = min(limits.turn_yaw_rate_rad_s, braking, 5.0 * abs(error_rad) + 0.01)
+        return math.copysign(rate, error_rad)
+
+    def _within_limits(self, wish: Command, period_sec: float) -> Command:
+        change = self.limits.acceleration_m_s2 * period_sec
+        turn = self.limits.yaw_acceleration_rad_s2 * period_sec
+        speed, yaw_rate = self._command
+        return Command(
+            min(max(wish.speed_m_s, speed - change), speed + change),
+            min(max(wish.yaw_rate_rad_s, yaw_rate - turn), yaw_rate + turn),
+        )
+
+    def _count_reached(self, odometry: Odometry) -> None:
+        """Count the next waypoint when it is within the tolerance; pass one left behind."""
+        stops, tolerance = self.course.stops, self.course.tolerance_m
+        while self._next < len(stops):
+            goal = stops[self._next]
+            away = math.hypot(goal.x_m - odometry.x_m, goal.y_m - odometry.y_m)
+            if away <= tolerance:
+                self.reached += 1
+            elif not self._left_behind(self._next, tolerance):
+                return
+            self._next += 1
+
+    def _left_behind(self, number: int, tolerance_m: float) -> bool:
+        if self._tracker is None:
+            return False
+        leg = self.legs[self._leg_index]
+        if number >= leg.last:
+            return False
+        if number <= leg.first:
+            return True
+        return self._tracker.s > leg.curve.knot_s[number - leg.first] + tolerance_m
+
+    def _watch(self, odometry: Odometry) -> None:
+        """Give up with a robot that is told to move and does not."""
+        moved = self._moved
+        told = abs(self._command[0]) > STANDING_M_S or abs(self._command[1]) > STANDING_RAD_S
+        turned = math.remainder(odometry.yaw_rad - moved.yaw_rad, _TWO_PI)
+        if (
+            not told
+            or math.hypot(odometry.x_m - moved.x_m, odometry.y_m - moved.y_m) > STUCK_MOVE_M
+            or abs(turned) > STUCK_TURN_RAD
+        ):
+            self._moved = odometry
+        elif odometry.time_sec - moved.time_sec > STUCK_SEC:
+            self.finished = True
+            self.failure = (
+                f'the robot does not move: told to drive {self._command.speed_m_s:.2f} m/s and '
+                f'turn {self._command.yaw_rate_rad_s:.2f} rad/s, but for {STUCK_SEC:g} s its '
+                f'odometry has stayed at ({odometry.x_m:.2f}, {odometry.y_m:.2f})'
+            )
+
+
+class DistanceDrive(Drive):
+    """Drives straight ahead or back from wherever the robot starts."""
+
+    def __init__(self, speed_m_s: float, distance_m: float, *, forward: bool = True) -> None:
+        self._ahead_m = distance_m if forward else -distance_m
+        self._speed_m_s = speed_m_s
+        super().__init__(self._course(Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)))
+
+    def _place(self, start: Odometry) -> None:
+        self.course = self._course(start)
+
+    def _course(self, start: Odometry) -> Course:
+        x = start.x_m + self._ahead_m * math.cos(start.yaw_rad)
+        y = start.y_m + self._ahead_m * math.sin(start.yaw_rad)
+        goal = Waypoint(x, y, reverse=self._ahead_m < 0.0)
+        begin = Waypoint(start.x_m, start.y_m)
+        return Course('distance', (begin, goal), speed_m_s=self._speed_m_s)

@@ -1,0 +1,309 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Drive the Husky along a waypoint file, or as asked at the terminal.
+
+The only module of the driver that knows ROS. It answers every odometry message with one velocity
+command; what to answer is decided by a `Drive`.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import fields
+import math
+import os
+import signal
+import sys
+import time
+from types import FrameType
+from typing import Any, NoReturn
+
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry as OdometryMsg
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.utilities import remove_ros_args
+
+from husky_driver.drive import DistanceDrive, Drive, Odometry
+from husky_driver.progress import Progress
+from husky_driver.prompt import ask_move
+from husky_driver.settings import refuse_unknown, Settings
+from husky_driver.waypoints import load_course
+
+TICK_SEC = 0.05  # wall time: progress, waiting and giving up
+HINT_AFTER_SEC = 2.0
+STOP_WITHIN_SEC = 1.5  # how long a robot is waited for when the drive is broken off
+
+DONE, GAVE_UP, BAD_INPUT, INTERRUPTED, TERMINATED = 0, 1, 2, 130, 143
+NO_STAMP = (-1, -1)
+
+
+class FollowPath(Node):
+    """Drives the Husky; `finished` becomes done with the exit code of the process."""
+
+    def __init__(self, **arguments: Any) -> None:
+        arguments.setdefault('automatically_declare_parameters_from_overrides', True)
+        super().__init__('follow_path', **arguments)
+        self.settings = declare_settings(self)
+        self.finished: Future[int] = Future()
+        self._pending: OdometryMsg | None = None
+        self._last_stamp = NO_STAMP
+        self._listened = False  # somebody takes our commands
+        self._stopping: int | None = None  # the exit code to leave with, once it stands
+        self._stop_deadline_sec = 0.0
+        self._hint = ''
+        self._command = Twist()
+        topic = 'husky_velocity_controller/cmd_vel'
+        self._commands = self.create_publisher(Twist, topic, 10)
+
+    def start(self, drive: Drive) -> None:
+        """Begin to listen to odometry and to drive."""
+        self._drive = drive
+        mode = self.settings.progress
+        bar = mode == 'bar' or (mode == 'auto' and sys.stdout.isatty())
+        line = (lambda _: None) if mode == 'off' else self.get_logger().info
+        self._progress = Progress(sys.stdout, line, bar=bar)
+        self._begun_sec = self._heard_sec = time.monotonic()
+        topic = self.settings.odometry_topic
+        self._odometry = self.create_subscription(OdometryMsg, topic, self._on_odometry, 10)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(TICK_SEC, self._on_tick, clock=steady)
+
+    def stop(self, exit_code: int, why: str) -> None:
+        """Break the drive off: stop the robot, then finish with this exit code."""
+        if self._stopping is not None or self.finished.done():
+            return
+        self._say(why, failed=True)
+        self._stopping = exit_code
+        self._stop_deadline_sec = time.monotonic() + STOP_WITHIN_SEC
+        self._publish(0.0, 0.0)
+
+    def _on_odometry(self, msg: OdometryMsg) -> None:
+        stamp = (msg.header.stamp.sec, msg.header.stamp.nanosec)
+        if stamp == self._last_stamp or self.finished.done():
+            return
+        if not self._listened:
+            self._listened = self._commands.get_subscription_count() > 0
+            if not self._listened:
+                self._pending = msg  # answered as soon as somebody listens
+                return
+        self._pending = None
+        self._last_stamp = stamp
+        self._heard_sec = time.monotonic()
+        odometry = read_odometry(msg)
+        if self._stopping is None:
+            self._answer(odometry)
+        elif odometry.is_standing:
+            self._finish(self._stopping)
+        else:
+            self._publish(0.0, 0.0)
+
+    def _answer(self, odometry: Odometry) -> None:
+        command = self._drive.step(odometry)
+        if command is not None:
+            self._publish(command.speed_m_s, command.yaw_rate_rad_s)
+        elif self._drive.failure:
+            self.stop(GAVE_UP, f'gave up: {self._drive.failure}')
+        else:
+            self._conclude()
+
+    def _publish(self, speed_m_s: float, yaw_rate_rad_s: float) -> None:
+        self._command.linear.x = speed_m_s
+        self._command.angular.z = yaw_rate_rad_s
+        self._commands.publish(self._command)
+
+    def _conclude(self) -> None:
+        drive = self._drive
+        summary = drive.summary()
+        if drive.reached == drive.total:
+            self._say(f'done: {summary}')
+            self._finish(DONE)
+        else:
+            tolerance = drive.course.tolerance_m
+            self._say(f'missed waypoints by more than {tolerance:g} m: {summary}', failed=True)
+            self._finish(GAVE_UP)
+
+    def _finish(self, exit_code: int) -> None:
+        self._progress.close()
+        if not self.finished.done():
+            self.finished.set_result(exit_code)
+
+    def _say(self, text: str, *, failed: bool = False) -> None:
+        self._progress.close()
+        if failed:  # on two lines: rclpy refuses two severities from one
+            self.get_logger().error(text)
+        else:
+            self.get_logger().info(text)
+
+    def _on_tick(self) -> None:
+        """Look after what no odometry message will tell."""
+        now = time.monotonic()
+        if self.finished.done():
+            return
+        if self._stopping is not None:
+            gone = self._commands.get_subscription_count() == 0
+            if gone or now > self._stop_deadline_sec:
+                self._finish(self._stopping)
+            else:
+                self._publish(0.0, 0.0)
+        elif self._last_stamp == NO_STAMP:
+            self._wait(now - self._begun_sec)
+        elif now - self._heard_sec > self.settings.odometry_timeout_sec:
+            self.stop(GAVE_UP, f'gave up: {self._silence(now - self._heard_sec)}')
+        else:
+            drive = self._drive
+            note = f'waypoint {min(drive.reached + 1, drive.total)} of {drive.total}'
+            self._progress.update(drive.length_m, drive.remaining_m, drive.elapsed_sec, note)
+
+    def _wait(self, waited_sec: float) -> None:
+        """Before the first answer: say what is missing, and give up in the end."""
+        if self._pending is not None:
+            self._on_odometry(self._pending)
+        elif waited_sec > self.settings.startup_timeout_sec:
+            self.stop(GAVE_UP, f'gave up: {self._silence(waited_sec)}')
+        elif waited_sec > HINT_AFTER_SEC and (missing := self._missing()) != self._hint:
+            self._hint = missing
+            self._say(f'waiting: {missing}')
+
+    def _silence(self, waited_sec: float) -> str:
+        return f'no odometry for {waited_sec:.0f} s; {self._missing()}'
+
+    def _missing(self) -> str:
+        domain = os.environ.get('ROS_DOMAIN_ID', '0')
+        where = f'is the simulator running, with ROS_DOMAIN_ID={domain} as here?'
+        if self._odometry.get_publisher_count() == 0:
+            return f'nobody publishes {self._odometry.topic_name}; {where}'
+        if self._commands.get_subscription_count() == 0:
+            return f'nobody listens to {self._commands.topic_name}; {where}'
+        return f'{self._odometry.topic_name} is silent; is the simulation paused?'
+
+
+def read_odometry(msg: OdometryMsg) -> Odometry:
+    """Take what the driver needs out of the message."""
+    stamp, pose, twist = msg.header.stamp, msg.pose.pose, msg.twist.twist
+    position, q = pose.position, pose.orientation
+    return Odometry(
+        stamp.sec + stamp.nanosec * 1e-9,
+        position.x,
+        position.y,
+        math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)),
+        twist.linear.x,
+        twist.angular.z,
+    )
+
+
+def declare_settings(node: Node) -> Settings:
+    """
+    Declare the parameters on a node and return their values.
+
+    :raises ValueError: for a parameter that does not exist or a value that is not allowed.
+    """
+    given = set(node.get_parameters_by_prefix(''))
+    refuse_unknown(given)
+    values: dict[str, Any] = {}
+    for item in fields(Settings):
+        if item.name in given:
+            node.undeclare_parameter(item.name)  # it was declared without a description
+        values[item.name] = _declare(node, item.name, item.default, item.metadata)
+    return Settings(**values)
+
+
+def _declare(node: Node, name: str, default: Any, metadata: Any) -> Any:
+    descriptor = ParameterDescriptor(description=metadata['description'])
+    low, high = metadata.get('span', (0.0, 0.0))
+    if isinstance(default, float):
+        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    try:
+        return node.declare_parameter(name, default, descriptor).value
+    except InvalidParameterTypeException:
+        kind = 'a number with a decimal point' if isinstance(default, float) else 'text'
+        raise ValueError(f'parameter {name} must be {kind}, as {default!r}') from None
+    except InvalidParameterValueException:
+        raise ValueError(f'parameter {name}: allowed is {low:g} to {high:g}') from None
+
+
+def make_executor(context: rclpy.Context | None = None) -> Executor:
+    """Return the executor with the least overhead that this rclpy has."""
+    try:
+        from rclpy.experimental import EventsExecutor
+    except ImportError:  # the first Jazzy releases
+        return SingleThreadedExecutor(context=context)
+    return EventsExecutor(context=context)
+
+
+class _Parser(argparse.ArgumentParser):
+    """Refuses with one line instead of the whole usage."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    argv = list(sys.argv if args is None else args)
+    parser = _Parser(prog='follow_path', allow_abbrev=False, description=__doc__.splitlines()[1])
+    parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
+    try:
+        options = parser.parse_args(remove_ros_args(argv)[1:])
+        # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
+        rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
+        node = FollowPath()
+    except Exception as error:  # rcl raises many types for what a person can mistype
+        return _refuse(' '.join(str(error).split()))
+    try:
+        return _run(node, options.waypoints or node.settings.waypoints)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def _refuse(message: str) -> int:
+    print(f'follow_path: {message}', file=sys.stderr)
+    return BAD_INPUT
+
+
+def _run(node: FollowPath, waypoints: str) -> int:
+    try:
+        drive = Drive(load_course(waypoints)) if waypoints else _ask()
+    except EOFError:
+        print()
+        return _refuse('nobody answers; give a file: --waypoints FILE')
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return BAD_INPUT
+    executor = make_executor()
+    executor.add_node(node)
+    node.start(drive)
+    _stop_on_signals(node)
+    while not node.finished.done():
+        # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up.
+        executor.spin_until_future_complete(node.finished, timeout_sec=1.0)
+    executor.remove_node(node)
+    return int(node.finished.result())
+
+
+def _ask() -> Drive:
+    move = ask_move()
+    return DistanceDrive(move.speed_m_s, move.distance_m, forward=move.forward)
+
+
+def _stop_on_signals(node: FollowPath) -> None:
+    def on_signal(number: int, _frame: FrameType | None) -> None:
+        code = INTERRUPTED if number == signal.SIGINT else TERMINATED
+        node.stop(code, f'stopped by {signal.Signals(number).name}')
+
+    signal.signal(signal.SIGINT, on_signal)
+    signal.signal(signal.SIGTERM, on_signal)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

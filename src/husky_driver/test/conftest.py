@@ -1,0 +1,85 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A robot simple enough for tests: limits, lag and delay, but no slip."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+import math
+from pathlib import Path
+
+from husky_driver.drive import Command, Drive, Odometry
+import pytest
+
+PERIOD_SEC = 0.02
+
+
+@dataclass
+class Plant:
+    """Unicycle behind the Husky's velocity and acceleration limits, with a lagging servo."""
+
+    lag_sec: float = 0.05
+    yaw_gain: float = 0.95
+    delay_periods: int = 1
+    now: Odometry = field(default_factory=lambda: Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+    def __post_init__(self) -> None:
+        self.commands = [Command(0.0, 0.0)]
+        self._queue = deque([(0.0, 0.0)] * self.delay_periods)
+        self._limited = (0.0, 0.0)
+
+    def advance(self, command: Command) -> None:
+        self.commands.append(command)
+        self._queue.append(command)
+        speed, yaw_rate = self._queue.popleft()
+        last_speed, last_rate = self._limited
+        speed = min(max(speed, -1.0, last_speed - 0.06), 1.0, last_speed + 0.06)
+        yaw_rate = min(max(yaw_rate, -2.0, last_rate - 0.12), 2.0, last_rate + 0.12)
+        self._limited = (speed, yaw_rate)
+        time, x, y, yaw, v, w = self.now
+        dt = PERIOD_SEC / 10
+        for _ in range(10):
+            v += (speed - v) * dt / self.lag_sec
+            w += (self.yaw_gain * yaw_rate - w) * dt / self.lag_sec
+            yaw += w * dt
+            x, y = x + v * math.cos(yaw) * dt, y + v * math.sin(yaw) * dt
+        self.now = Odometry(time + PERIOD_SEC, x, y, yaw, v, w)
+
+
+@dataclass
+class Run:
+    """What came of a drive: every odometry, every command."""
+
+    drive: Drive
+    track: list[Odometry]
+    commands: list[Command]
+
+
+@pytest.fixture
+def drive_to_end() -> Callable[..., Run]:
+    def run(drive: Drive, plant: Plant | None = None, *, limit_sec: float = 300.0) -> Run:
+        plant = plant or Plant()
+        track, commands = [plant.now], list[Command]()
+        while plant.now.time_sec < limit_sec:
+            command = drive.step(plant.now)
+            if command is None:
+                return Run(drive, track, commands)
+            commands.append(command)
+            plant.advance(command)
+            track.append(plant.now)
+        raise AssertionError(f'still driving after {limit_sec} s, {drive.summary()}')
+
+    return run
+
+
+@pytest.fixture
+def make_plant() -> type[Plant]:
+    return Plant
+
+
+@pytest.fixture
+def courses() -> Path:
+    """Return the folder of the courses that come with the lab."""
+    return Path(__file__).resolve().parents[3] / 'config' / 'waypoints'

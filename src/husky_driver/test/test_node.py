@@ -1,0 +1,245 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node as a process of its own, over DDS, against the plant as a node in lockstep."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import math
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import threading
+import time
+from typing import Any
+
+from geometry_msgs.msg import Twist
+from husky_driver.drive import Command
+from husky_driver.node import make_executor
+from nav_msgs.msg import Odometry
+import pytest
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+# The lark of the rclpy wheels imports modules that Python is about to drop.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+
+FIRST_DOMAIN = 71
+COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
+
+
+class PlantNode(Node):
+    """Publishes odometry in lockstep: the next one after each command."""
+
+    def __init__(self, plant: Any, context: rclpy.Context) -> None:
+        super().__init__('plant', context=context)
+        self.plant = plant
+        self.received: list[Command] = []
+        self.silent = False
+        self._sent_sec = 0.0
+        self._odometry = self.create_publisher(Odometry, 'odometry/filtered', 10)
+        topic = 'husky_velocity_controller/cmd_vel'
+        self.commands = self.create_subscription(Twist, topic, self._on_command, 10)
+        self.create_timer(0.02, self._on_tick, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def _on_tick(self) -> None:
+        matched = self._odometry.get_subscription_count() and self.commands.get_publisher_count()
+        if matched and not self.received and time.monotonic() - self._sent_sec > 0.5:
+            self._sent_sec = time.monotonic()
+            self._publish()
+
+    def _on_command(self, msg: Twist) -> None:
+        self.received.append(Command(msg.linear.x, msg.angular.z))
+        self.plant.advance(self.received[-1])
+        if not self.silent:
+            self._publish()
+
+    def _publish(self) -> None:
+        now, msg = self.plant.now, Odometry()
+        nanoseconds = round(now.time_sec * 1e9)
+        msg.header.stamp.sec, msg.header.stamp.nanosec = divmod(nanoseconds, 10**9)
+        msg.pose.pose.position.x, msg.pose.pose.position.y = now.x_m, now.y_m
+        msg.pose.pose.orientation.z = math.sin(now.yaw_rad / 2)
+        msg.pose.pose.orientation.w = math.cos(now.yaw_rad / 2)
+        msg.twist.twist.linear.x, msg.twist.twist.angular.z = now.speed_m_s, now.yaw_rate_rad_s
+        self._odometry.publish(msg)
+
+
+@pytest.fixture
+def domain(request: pytest.FixtureRequest) -> int:
+    """Give each test of this module a domain of its own."""
+    names = [item.name for item in request.session.items if item.path == request.node.path]
+    return FIRST_DOMAIN + names.index(request.node.name) % 13
+
+
+@pytest.fixture
+def plant_node(
+    domain: int, make_plant: Any, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[PlantNode]:
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain)
+    node = PlantNode(make_plant(), context)
+    executor = make_executor(context)
+    executor.add_node(node)
+    done = threading.Event()
+
+    def spin() -> None:
+        while not done.is_set():
+            executor.spin_once(timeout_sec=0.1)
+
+    thread = threading.Thread(target=spin)
+    thread.start()
+    yield node
+    done.set()
+    thread.join(timeout=5.0)
+    executor.remove_node(node)
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+@pytest.fixture
+def follow_path(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Start the node as a process; what is still running at the end of the test is killed."""
+    running: list[subprocess.Popen[str]] = []
+
+    def start(*arguments: str | Path) -> subprocess.Popen[str]:
+        environment = dict(os.environ, ROS_DOMAIN_ID=str(domain), PYTHONWARNINGS='default')
+        environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+        environment['PYTHONPATH'] = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
+        process = subprocess.Popen(
+            [sys.executable, '-m', 'husky_driver.node', *map(str, arguments)],
+            env=environment,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        running.append(process)
+        return process
+
+    yield start
+    for process in running:
+        process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def course(tmp_path: Path) -> Path:
+    path = tmp_path / 'course.yaml'
+    path.write_text(COURSE)
+    return path
+
+
+def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> None:
+    deadline = time.monotonic() + timeout_sec
+    while not fact():
+        assert time.monotonic() < deadline, f'after {timeout_sec} s still no {what}'
+        time.sleep(0.01)
+
+
+def test_a_waypoint_file_is_driven_to_its_end_with_one_command_for_each_odometry(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    process = follow_path('--waypoints', course)
+    output, _ = process.communicate(timeout=20)
+    assert process.returncode == 0, output
+    assert 'done: 3 of 3 waypoints' in output
+    assert '50 %:' in output or '60 %:' in output or '100 %:' in output or 'done:' in output
+    end = plant_node.plant.now
+    assert (end.x_m, end.y_m) == pytest.approx((4.0, 0.0), abs=0.02)
+    assert end.is_standing
+    assert len(plant_node.received) == round(end.time_sec / 0.02)
+
+
+def test_the_sheet_s_questions_are_asked_and_the_distance_is_driven(
+    plant_node: PlantNode, follow_path: Any
+) -> None:
+    process = follow_path()
+    output, _ = process.communicate('fast\n0.6\n1.5\n0\n', timeout=20)
+    assert process.returncode == 0, output
+    assert "'fast' is not a number; allowed is 0.05 to 1 m/s" in output
+    assert output.index('Input your speed:') < output.index('Type your distance:')
+    assert output.index('Type your distance:') < output.index('Forward?:')
+    assert plant_node.plant.now.x_m == pytest.approx(-1.5, abs=0.02)
+    assert plant_node.plant.now.is_standing
+
+
+def test_odometry_that_ends_is_given_up_with_a_message(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    process = follow_path('--waypoints', course, '--ros-args', '-p', 'odometry_timeout_sec:=0.5')
+    wait_until(lambda: len(plant_node.received) > 50, timeout_sec=15, what='50 commands')
+    plant_node.silent = True
+    output, _ = process.communicate(timeout=10)
+    assert process.returncode == 1
+    assert 'gave up: no odometry for' in output
+    assert '/odometry/filtered is silent' in output
+    assert plant_node.received[-1] == (0.0, 0.0)
+
+
+def test_without_a_simulator_it_says_what_is_missing_and_gives_up(
+    follow_path: Any, course: Path, domain: int
+) -> None:
+    process = follow_path('--waypoints', course, '--ros-args', '-p', 'startup_timeout_sec:=0.5')
+    output, _ = process.communicate(timeout=10)
+    assert process.returncode == 1
+    assert 'nobody publishes /odometry/filtered' in output
+    assert f'ROS_DOMAIN_ID={domain}' in output
+    assert 'Traceback' not in output
+
+
+@pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_stops_the_robot_and_then_the_node(
+    plant_node: PlantNode, follow_path: Any, course: Path, number: int, code: int
+) -> None:
+    process = follow_path('--waypoints', course)
+    wait_until(lambda: plant_node.plant.now.speed_m_s > 0.5, timeout_sec=15, what='motion')
+    begun = time.monotonic()
+    process.send_signal(number)
+    output, _ = process.communicate(timeout=10)
+    assert time.monotonic() - begun < 2.0
+    assert process.returncode == code, output
+    assert 'Traceback' not in output
+    assert plant_node.plant.now.is_standing
+
+
+def test_a_namespace_and_remaps_apply(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    process = follow_path(
+        *('--waypoints', course, '--ros-args', '-r', '__ns:=/beta'),
+        *('-r', 'odometry/filtered:=/odometry/filtered'),
+        *('-r', 'husky_velocity_controller/cmd_vel:=/husky_velocity_controller/cmd_vel'),
+    )
+    output, _ = process.communicate(timeout=20)
+    assert process.returncode == 0, output
+    assert '[beta.follow_path]' in output
+    assert plant_node.plant.now.x_m == pytest.approx(4.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'expected'),
+    [
+        (['--wayponts', 'x'], 'follow_path: unrecognized arguments: --wayponts x'),
+        (
+            ['--ros-args', '-p', 'wayponts:=x'],
+            'follow_path: parameter wayponts does not exist; did you mean waypoints?',
+        ),
+        (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
+        (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be a number'),
+        (['--waypoints', 'no.yaml'], 'no.yaml:1:1: no such file'),
+        ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
+    ],
+)
+def test_bad_input_is_refused_with_one_line(
+    follow_path: Any, arguments: list[str], expected: str
+) -> None:
+    process = follow_path(*arguments)
+    output, _ = process.communicate('', timeout=10)
+    assert process.returncode == 2
+    assert expected in output.splitlines()[-1]
+    assert 'Traceback' not in output

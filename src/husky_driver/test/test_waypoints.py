@@ -1,0 +1,144 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from pathlib import Path
+
+from husky_driver.waypoints import Course, load_course, parse_course
+from husky_driver.yaml_tree import FileRefused, Problem
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import pytest
+
+
+def problems(text: str) -> list[str]:
+    with pytest.raises(FileRefused) as refused:
+        parse_course(text, 'course.yaml')
+    return str(refused.value).splitlines()
+
+
+def test_a_complete_file_becomes_the_course_it_describes() -> None:
+    course = parse_course(
+        'frame: odom\nspeed: 0.8\ntolerance: 0.3\nloop: true\ncorners: sharp\nwaypoints:\n'
+        '  - [1.3, -1.2]\n  - {x: 2.7, y: -2.6, speed: 0.5, reverse: true}\n'
+        '  - {x: 3, y: 1e0, yaw: 1.5, dwell: 2}\n'
+    )
+    assert (course.speed_m_s, course.tolerance_m, course.loop) == (0.8, 0.3, True)
+    assert course.corners == 'sharp'
+    first, second, third = course.waypoints
+    assert (first.x_m, first.y_m, first.line) == (1.3, -1.2, 7)
+    assert (second.speed_m_s, second.reverse) == (0.5, True)
+    assert (third.y_m, third.yaw_rad, third.dwell_sec) == (1.0, 1.5, 2.0)
+    assert course.stops == (first, second, third, first)
+
+
+def test_every_course_of_the_lab_is_valid(courses: Path) -> None:
+    loaded = [load_course(path) for path in sorted(courses.glob('*.yaml'))]
+    assert {'central_barrier', 'straight'} <= {course.name for course in loaded}
+
+
+def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
+    assert problems(
+        'spede: 0.5\nspeed: 1.4\nloop: yes\nframe: map\nwaypoints:\n  - [1,2, 3,4]\n'
+        '  - {x: 1, yaw: 90}\n'
+    ) == [
+        'course.yaml:1:1: spede is no field; did you mean speed? '
+        'allowed: frame, speed, tolerance, loop, corners, waypoints',
+        'course.yaml:2:8: speed: 1.4 is out of range; allowed is 0.05 to 1 m/s',
+        'course.yaml:3:7: loop: yes is not allowed; write true or false; did you mean true?',
+        'course.yaml:4:8: frame: map is not allowed; allowed: odom',
+        'course.yaml:6:5: waypoints[0]: 4 values instead of 2; '
+        'write [x, y], with a decimal point and not a comma',
+        'course.yaml:7:5: waypoints[1].y: missing; every waypoint needs x and y',
+        'course.yaml:7:17: waypoints[1].yaw: 90 is out of range; '
+        'allowed is -6.2832 to 6.2832 rad; 90 degrees would be 1.5708',
+    ]
+
+
+@pytest.mark.parametrize(
+    ('text', 'expected'),
+    [
+        ('', '1:1: nothing instead of a waypoint file'),
+        ('speed: 1', '1:1: waypoints: missing'),
+        ('waypoints: 5', '1:12: waypoints: 5 instead of a list'),
+        ('waypoints: [[0, 0]]', '1:12: waypoints: 1 given; allowed are 2 to 1000'),
+        ('waypoints: [[0, 0], [.nan, 1]]', '1:22: waypoints[1].x: .nan is not a number'),
+        ('waypoints: [[0, 0], [.inf, 1]]', '1:22: waypoints[1].x: .inf is not a number'),
+        ('waypoints: [[0, 0], [1e999, 1]]', '1:22: waypoints[1].x: 1e999 is out of range'),
+        ('waypoints: [[0, 0], [true, 1]]', '1:22: waypoints[1].x: true is not a number'),
+        ('waypoints: [[0, 0], ["3", 1]]', "waypoints[1].x: '3' is not a number (a number without"),
+        ('waypoints: [[0, 0], [3m, 1]]', 'waypoints[1].x: 3m is not a number (write 3, without'),
+        ('waypoints: [[0, 0], [0, 0.01]]', 'waypoints[1]: 0.010 m from waypoints[0]'),
+        ('loop: true\nwaypoints: [[0, 0], [1, 0]]', 'waypoints: 2 given; a loop needs at least 3'),
+        ('loop: true\nwaypoints: [[0, 0], [1, 0], [0, 0]]', 'a loop comes back by itself'),
+        ('speed: -0.5\nwaypoints: [[0, 0], [1, 0]]', 'to drive backwards write reverse: true'),
+        ('speed: 0.5\nspeed: 0.6\nwaypoints: [[0, 0], [1, 0]]', '2:1: speed: given again'),
+        ('waypoints: &a [*a]', "1:12: anchor '&a' is not allowed"),
+        ('a: *b', "1:4: alias '*b' is not allowed"),
+        ('waypoints: !!python/tuple [1]', '1:12: tag'),
+        ('waypoints: [[0, 0], [1, 0]]\n---\na: 1', "2:1: a second document ('---')"),
+        ('waypoints:\n\t- [0, 0]', 'indent with spaces, not with tabs'),
+        ('[' * 50_000, '1:9: nested deeper than 8 levels'),
+        ('a: \x00', '1:4: character U+0000 is not allowed'),
+        ('waypoints: [[0, 0], [999, 0], [-999, 0]]', '2997 m from first to last'),
+    ],
+)
+def test_a_mistake_is_refused_with_its_place_and_what_is_allowed(text: str, expected: str) -> None:
+    assert any(expected in line for line in problems(text))
+
+
+def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -> None:
+    (tmp_path / 'square.yaml').write_bytes(b'speed: \xff')
+    (tmp_path / 'large.yaml').write_bytes(b'#' * 200_000)
+    for path, reason in {
+        'square.yaml': '1:8: byte 0xff is not UTF-8',
+        'large.yaml': '1:1: larger than 100000 bytes',
+        'squre.yaml': 'no such file; did you mean .*square.yaml',
+        '.': 'not a file',
+        'nul\0': 'cannot be read|no such file',
+    }.items():
+        with pytest.raises(FileRefused, match=reason):
+            load_course(tmp_path / path)
+
+
+scalars = st.one_of(
+    st.floats().map(str),
+    st.integers().map(str),
+    st.sampled_from(['true', '~', '', '.nan', '-.inf', '1e999', '&a 1', '*a', '!!int 3', '- -']),
+    st.text(max_size=12),
+)
+values = st.recursive(
+    scalars,
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=4).map(lambda items: f'[{", ".join(items)}]'),
+        st.lists(st.tuples(scalars, inner), max_size=3).map(
+            lambda pairs: '{' + ', '.join(f'{key}: {value}' for key, value in pairs) + '}'
+        ),
+    ),
+    max_leaves=12,
+)
+keys = st.sampled_from(
+    ['frame', 'speed', 'tolerance', 'loop', 'corners', 'waypoints', 'spede', '', '?', '-']
+)
+documents = st.one_of(
+    st.text(),
+    values,
+    st.lists(st.tuples(keys, values), max_size=6).map(
+        lambda pairs: '\n'.join(f'{key}: {value}' for key, value in pairs)
+    ),
+    st.lists(st.tuples(values, values), min_size=2, max_size=6).map(
+        lambda points: 'waypoints:\n' + '\n'.join(f'  - [{x}, {y}]' for x, y in points)
+    ),
+)
+
+
+@settings(max_examples=500, deadline=2000, database=None)
+@given(documents)
+def test_any_file_is_either_a_course_or_refused_with_a_line(text: str) -> None:
+    try:
+        found: Course | tuple[Problem, ...] = parse_course(text, 'course.yaml')
+    except FileRefused as refused:
+        found = refused.problems
+    if isinstance(found, tuple):
+        assert found
+        assert all(problem.line >= 1 and problem.column >= 1 for problem in found)
+    else:
+        assert len(found.waypoints) >= 2
