@@ -1,0 +1,404 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run a process and look after it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+import os
+import signal
+from typing import Any, Optional
+
+from ..action import Action
+from ..child_process import ChildProcess, printable_command, start_child_process
+from ..conditions import evaluate_condition_expression
+from ..descriptions import Executable
+from ..event_handler import EventHandler
+from ..event_handlers import OnProcessExit, OnProcessStart, OnShutdown
+from ..events import matches_action, Shutdown
+from ..events.process import (
+    ProcessExited,
+    ProcessStarted,
+    ProcessStderr,
+    ProcessStdin,
+    ProcessStdout,
+    ShutdownProcess,
+    SignalProcess,
+)
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..logging import get_logger, get_output_loggers
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..substitutions import LaunchConfiguration, PythonExpression
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from .emit_event import EmitEvent
+from .opaque_function import OpaqueFunction
+from .process_output import ProcessOutput
+from .timer_action import TimerAction
+
+_Entities = Optional[list[LaunchDescriptionEntity]]
+
+
+class ExecuteLocal(Action):
+    """Starts a process on this machine, logs its output and ends it with the launch.
+
+    :param sigterm_timeout: seconds after SIGINT until SIGTERM.
+    :param sigkill_timeout: seconds after SIGTERM until SIGKILL.
+    :param emulate_tty: let the process believe that it writes to a terminal.
+    :param output: see :func:`launch.logging.get_output_loggers`; the environment variable
+        OVERRIDE_LAUNCH_PROCESS_OUTPUT wins.
+    :param output_format: of a line, with ``{line}`` and ``{this}``.
+    :param cached_output: keep the output for get_stdout() and get_stderr().
+    :param on_exit: actions, or a function of the event and the context that returns some.
+    :param respawn: start it again when it has ended by itself.
+    :param respawn_max_retries: how often at most; any negative number: without end.
+    """
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: Any = False,
+        sigterm_timeout: float | SomeSubstitutionsType = LaunchConfiguration(
+            'sigterm_timeout', default=5
+        ),
+        sigkill_timeout: float | SomeSubstitutionsType = LaunchConfiguration(
+            'sigkill_timeout', default=5
+        ),
+        emulate_tty: Any = False,
+        output: SomeSubstitutionsType | Mapping[str, Any] = 'log',
+        output_format: str = '[{this.process_description.final_name}] {line}',
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: Any = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | SomeSubstitutionsType | None = None,
+        respawn_max_retries: int | SomeSubstitutionsType = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__process_description = process_description
+        self.__shell = normalize_typed_substitution(shell, bool)
+        self.__sigterm_timeout = _seconds(sigterm_timeout)
+        self.__sigkill_timeout = _seconds(sigkill_timeout)
+        self.__emulate_tty = normalize_typed_substitution(emulate_tty, bool)
+        override = os.environ.get('OVERRIDE_LAUNCH_PROCESS_OUTPUT')
+        wanted = override if override else output
+        self.__output: Any = wanted
+        if not isinstance(wanted, Mapping):
+            self.__output = normalize_to_list_of_substitutions(wanted)
+        self.__output_format = output_format
+        self.__cached_output = cached_output
+        self.__log_cmd = log_cmd
+        self.__on_exit = on_exit
+        self.__respawn = normalize_typed_substitution(respawn, bool)
+        self.__respawn_delay: Any = None if respawn_delay is None else _seconds(respawn_delay)
+        self.__respawn_max_retries = normalize_typed_substitution(respawn_max_retries, int)
+        self.__respawn_retries = 0
+        self.__process_event_args: dict[str, Any] | None = None
+        self.__child: ChildProcess | None = None
+        self.__outputs: dict[int, ProcessOutput] = {}
+        self.__handlers: list[Any] = []
+        self.__timers: list[TimerAction] = []
+        self.__completed: asyncio.Future[None] | None = None
+        self.__shutdown: asyncio.Future[None] | None = None
+        self.__return_code: int | None = None
+
+    @property
+    def process_description(self) -> Executable:
+        return self.__process_description
+
+    @property
+    def shell(self) -> Any:
+        return self.__shell
+
+    @property
+    def emulate_tty(self) -> Any:
+        return self.__emulate_tty
+
+    @property
+    def sigkill_timeout(self) -> list[Substitution]:
+        return self.__sigkill_timeout
+
+    @property
+    def sigterm_timeout(self) -> list[Substitution]:
+        return self.__sigterm_timeout
+
+    @property
+    def output(self) -> Any:
+        return self.__output
+
+    @property
+    def process_details(self) -> dict[str, Any] | None:
+        """Name, cmd, cwd, env and (once started) pid of the process, None before execution."""
+        return self.__process_event_args
+
+    @property
+    def return_code(self) -> int | None:
+        return self.__return_code
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        return self.__completed
+
+    def get_stdout(self) -> str:
+        return self.__get_cached(1, 'stdout')
+
+    def get_stderr(self) -> str:
+        return self.__get_cached(2, 'stderr')
+
+    def __get_cached(self, fd: int, name: str) -> str:
+        if not self.__cached_output:
+            raise RuntimeError(f'cached_output must be true to be able to get {name}')
+        return self.__outputs[fd].text if fd in self.__outputs else ''
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        return self.__on_exit if isinstance(self.__on_exit, list) else []
+
+    # ---- execution ----
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Perform the substitutions; subclasses add to it."""
+        description = self.__process_description
+        description.prepare(context, self)
+        self.__process_event_args = {
+            'action': self,
+            'name': description.final_name,
+            'cmd': description.final_cmd,
+            'cwd': description.final_cwd,
+            'env': description.final_env,
+        }
+        self.__respawn = perform_typed_substitution(context, self.__respawn, bool)
+        self.__shell = perform_typed_substitution(context, self.__shell, bool)
+        self.__respawn_max_retries = perform_typed_substitution(
+            context, self.__respawn_max_retries, int
+        )
+        if self.__respawn_delay is not None:
+            self.__respawn_delay = float(perform_substitutions(context, self.__respawn_delay))
+        if 'emulate_tty' in context.launch_configurations:
+            configured = str(context.launch_configurations['emulate_tty'])
+            expression = normalize_to_list_of_substitutions(configured)
+            self.__emulate_tty = evaluate_condition_expression(context, expression)
+        self.__emulate_tty = perform_typed_substitution(context, self.__emulate_tty, bool)
+
+    def execute(self, context: LaunchContext) -> _Entities:
+        if self.__process_event_args is not None:
+            raise RuntimeError(
+                f"{type(self).__name__} action '{self.__process_description.final_name}': "
+                'executed more than once'
+            )
+        self.prepare(context)
+        if context.is_shutdown:
+            return None
+        name = str(self.__process_description.final_name)
+        output = self.__output
+        if not isinstance(output, Mapping):
+            output = perform_substitutions(context, output)
+        for fd, logger in enumerate(get_output_loggers(name, output), start=1):
+            self.__outputs[fd] = ProcessOutput(
+                logger, self.__format_line, cached=self.__cached_output
+            )
+        assert context.asyncio_loop is not None
+        self.__completed = context.asyncio_loop.create_future()
+        self.__shutdown = context.asyncio_loop.create_future()
+        self.__register_handlers(context)
+        context.asyncio_loop.create_task(self.__run(context))
+        return None
+
+    def __format_line(self, line: str) -> str:
+        return self.__output_format.format(line=line, this=self)
+
+    def __register_handlers(self, context: LaunchContext) -> None:
+        for kind, function in (
+            (ShutdownProcess, self.__on_shutdown_process),
+            (SignalProcess, self.__on_signal_process),
+            (ProcessStdin, self.__on_stdin),
+        ):
+            self.__handlers.append(
+                EventHandler(
+                    matcher=lambda event, kind=kind: isinstance(event, kind),
+                    entities=OpaqueFunction(function=function),
+                )
+            )
+        self.__handlers.append(OnShutdown(on_shutdown=self.__on_launch_shutdown))
+        if self.__on_exit is not None:
+            self.__handlers.append(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+        for handler in self.__handlers:
+            context.register_event_handler(handler)
+
+    @property
+    def __details(self) -> dict[str, Any]:
+        assert self.__process_event_args is not None
+        return self.__process_event_args
+
+    async def __run(self, context: LaunchContext) -> None:
+        """Start the process, as often as it is to be, and see it end."""
+        try:
+            while await self.__run_once(context):
+                self.__respawn_retries += 1
+        finally:
+            for timer in self.__timers:
+                timer.cancel()
+            assert self.__completed is not None
+            if not self.__completed.done():
+                self.__completed.set_result(None)
+
+    async def __run_once(self, context: LaunchContext) -> bool:
+        """Run the process to its end and return whether it is to run again."""
+        details = self.__details
+        logger = get_logger(details['name'])
+        cmd = details['cmd']
+        if self.__log_cmd:
+            logger.info(
+                f"process details: cmd='{printable_command(cmd)}', cwd='{details['cwd']}', "
+                f'custom_env?={self.__process_description.env is not None}'
+            )
+        try:
+            child = await start_child_process(
+                cmd,
+                on_output=lambda fd, data: self.__on_output(context, fd, data),
+                cwd=details['cwd'],
+                env=details['env'],
+                shell=self.__shell,
+                emulate_tty=self.__emulate_tty,
+            )
+        except (OSError, ValueError) as error:
+            logger.error(f"cannot start the process: {error}, cmd '{printable_command(cmd)}'")
+            return False
+        self.__child = child
+        details['pid'] = child.pid
+        logger.info(f'process started with pid [{child.pid}]')
+        context.emit_event_sync(ProcessStarted(**details))
+        returncode = await child.complete
+        self.__return_code = returncode
+        for output in self.__outputs.values():
+            output.flush()
+        if returncode == 0:
+            logger.info(f'process has finished cleanly [pid {child.pid}]')
+        else:
+            logger.error(
+                f'process has died [pid {child.pid}, exit code {returncode}, cmd '
+                f"'{printable_command(cmd)}']."
+            )
+        context.emit_event_sync(ProcessExited(returncode=returncode, **details))
+        return await self.__is_to_respawn(context)
+
+    async def __is_to_respawn(self, context: LaunchContext) -> bool:
+        assert self.__shutdown is not None
+        limit = self.__respawn_max_retries
+        if not self.__respawn or (0 <= limit <= self.__respawn_retries):
+            return False
+        if self.__respawn_delay:
+            await asyncio.wait((self.__shutdown,), timeout=self.__respawn_delay)
+        return not (context.is_shutdown or self.__shutdown.done())
+
+    def __on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
+        if 'pid' in self.__details:
+            kind = ProcessStdout if fd == 1 else ProcessStderr
+            event = kind(text=data, **self.__details)
+            if context.would_handle_event(event):
+                context.emit_event_sync(event)
+        self.__outputs[fd].feed(data)
+
+    # ---- events ----
+
+    def __on_stdin(self, context: LaunchContext) -> None:
+        event = context.locals.event
+        if event.action is self and self.__child is not None:
+            self.__child.write(event.text)
+
+    def __on_shutdown_process(self, context: LaunchContext) -> _Entities:
+        if not context.locals.event.process_matcher(self):
+            return None
+        return self._shutdown_process(context, send_sigint=True)
+
+    def __on_launch_shutdown(self, event: Shutdown, context: LaunchContext) -> _Entities:
+        by_terminal = event.due_to_sigint and not context.noninteractive
+        return self._shutdown_process(context, send_sigint=not by_terminal)
+
+    def __on_signal_process(self, context: LaunchContext) -> None:
+        event = context.locals.event
+        if not event.process_matcher(self):
+            return
+        if self.__child is None:
+            raise RuntimeError('Signal event received before execution.')
+        if self.__child.complete.done():
+            return
+        name = self.__details['name']
+        get_logger(name).info(f"sending signal '{event.signal_name}' to process[{name}]")
+        try:
+            self.__child.send_signal(event.signal)
+        except ProcessLookupError:
+            get_logger(name).debug(f"signal '{event.signal_name}' not sent: it has ended")
+
+    def _shutdown_process(self, context: LaunchContext, *, send_sigint: bool) -> _Entities:
+        """Begin to end the process; return the actions that do it."""
+        if self.__shutdown is None or self.__shutdown.done():
+            return None
+        assert self.__completed is not None
+        if self.__completed.done():
+            self.__shutdown.set_result(None)
+            return None
+        if self.__child is None:
+            # It is just being started: end it as soon as it runs.
+            context.register_event_handler(
+                OnProcessStart(
+                    target_action=self,
+                    on_start=lambda _event, context: self._shutdown_process(
+                        context, send_sigint=True
+                    ),
+                    handle_once=True,
+                )
+            )
+            return None
+        self.__shutdown.set_result(None)
+        if self.__child.complete.done():
+            return None
+        self.__timers = self.__escalation(context)
+        actions: list[LaunchDescriptionEntity] = list(self.__timers)
+        if send_sigint:
+            actions.append(self.__signal(signal.SIGINT))
+        return actions
+
+    def __signal(self, number: signal.Signals) -> EmitEvent:
+        return EmitEvent(
+            event=SignalProcess(signal_number=number, process_matcher=matches_action(self))
+        )
+
+    def __escalation(self, context: LaunchContext) -> list[TimerAction]:
+        """Return timers for SIGTERM, and for SIGKILL after it."""
+        later = PythonExpression(
+            ['float(', *self.__sigterm_timeout, ') + float(', *self.__sigkill_timeout, ')']
+        )
+        waited_sigterm = perform_substitutions(context, self.__sigterm_timeout)
+        waited_sigkill = perform_substitutions(context, [later])
+        steps = (
+            (waited_sigterm, signal.SIGINT, signal.SIGTERM),
+            (waited_sigkill, signal.SIGTERM, signal.SIGKILL),
+        )
+        name = self.__details['name']
+        timers = []
+        for waited, before, number in steps:
+            text = (
+                f"process[{name}] failed to terminate '{waited}' seconds after receiving "
+                f"'{before.name}', escalating to '{number.name}'"
+            )
+            complain = OpaqueFunction(
+                function=lambda _context, text=text: get_logger(name).error(text)
+            )
+            timers.append(
+                TimerAction(
+                    period=float(waited),
+                    actions=[complain, self.__signal(number)],
+                    cancel_on_shutdown=False,
+                )
+            )
+        return timers
+
+
+def _seconds(value: Any) -> list[Substitution]:
+    return normalize_to_list_of_substitutions(
+        str(value) if isinstance(value, (int, float)) else value
+    )

@@ -1,0 +1,136 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Actions, again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+import inspect
+from typing import Any, Optional
+
+import yaml
+
+from ..action import Action
+from ..frontend import Entity, expose_action, Parser
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .opaque_function import OpaqueFunction
+
+_Entities = Optional[list[LaunchDescriptionEntity]]
+
+
+class _Turn(Action):
+    """Sets the variables of one turn of a loop, or takes them away."""
+
+    def __init__(self, values: Mapping[str, Any], **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__values = dict(values)
+
+    def execute(self, context: LaunchContext) -> None:
+        context.extend_locals(self.__values)
+
+
+@expose_action('for_each')
+class ForEach(Action):
+    """Executes what a function returns for each of some sets of values.
+
+    :param input_values: YAML mappings separated by ``;``, as ``{name: a, x: 1}; {name: b}``.
+    :param function: gets the values of a set by name and returns actions; in a markup file the
+        actions inside use ``$(for-var name)``.
+    """
+
+    def __init__(
+        self,
+        input_values: SomeSubstitutionsType,
+        *,
+        function: Callable[..., Iterable[LaunchDescriptionEntity] | None],
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self._input_values = normalize_to_list_of_substitutions(input_values)
+        self._function = function
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        kwargs['input_values'] = parser.parse_substitution(entity.get_attr('values'))
+        children = entity.children
+
+        def function(**values: Any) -> list[LaunchDescriptionEntity]:
+            return [_Turn(values), *(parser.parse_action(child) for child in children)]
+
+        kwargs['function'] = function
+        return cls, kwargs
+
+    def execute(self, context: LaunchContext) -> _Entities:
+        entities: list[LaunchDescriptionEntity] = []
+        text = perform_substitutions(context, self._input_values)
+        for part in text.split(';'):
+            if not part.strip():
+                continue
+            values = yaml.safe_load(part)
+            if not isinstance(values, dict):
+                raise ValueError(f"'{part.strip()}' is not a mapping as {{name: value}}")
+            entities.extend(self.__call(values) or ())
+        return entities
+
+    def __call(self, values: dict[str, Any]) -> Iterable[LaunchDescriptionEntity] | None:
+        try:
+            inspect.signature(self._function).bind(**values)
+        except TypeError as error:
+            raise SyntaxError(f'{error}, given the values {values}') from None
+        return self._function(**values)
+
+
+@expose_action('for')
+class ForLoop(Action):
+    """Executes what a function returns for each index from 0 up to a length.
+
+    :param function: gets the index and returns actions; in a markup file the actions inside use
+        ``$(index name)``.
+    """
+
+    def __init__(
+        self,
+        length: int | SomeSubstitutionsType,
+        *,
+        function: Callable[[int], Iterable[LaunchDescriptionEntity] | None],
+        name: SomeSubstitutionsType | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        length = str(length) if isinstance(length, int) else length
+        self.__length = normalize_to_list_of_substitutions(length)
+        self.__function = function
+        self.__name = None if name is None else normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        kwargs['length'] = parser.parse_substitution(entity.get_attr('len'))
+        kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
+        children = entity.children
+
+        def function(_index: int) -> list[LaunchDescriptionEntity]:
+            return [parser.parse_action(child) for child in children]
+
+        kwargs['function'] = function
+        return cls, kwargs
+
+    def execute(self, context: LaunchContext) -> _Entities:
+        text = perform_substitutions(context, self.__length)
+        try:
+            length = int(text)
+        except ValueError:
+            raise ValueError(f"the length of a loop is '{text}', not a whole number") from None
+        name = None if self.__name is None else perform_substitutions(context, self.__name)
+        entities: list[LaunchDescriptionEntity] = []
+        for index in range(length):
+            if name is not None:
+                entities.append(_Turn({name: index}))
+            entities.append(
+                OpaqueFunction(function=lambda _context, turn=index: self.__function(turn))
+            )
+        return entities

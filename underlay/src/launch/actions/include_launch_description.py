@@ -1,0 +1,134 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Include another launch file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from typing import Any
+
+from ..action import Action
+from ..frontend import Entity, expose_action, Parser
+from ..launch_context import LaunchContext
+from ..launch_description import LaunchDescription
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..launch_description_source import LaunchDescriptionSource
+from ..launch_description_sources import AnyLaunchDescriptionSource
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitutions import TextSubstitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .opaque_function import OpaqueFunction
+from .set_launch_configuration import SetLaunchConfiguration
+
+_PLACE = ('current_launch_file_path', 'current_launch_file_directory')
+
+
+@expose_action('include')
+class IncludeLaunchDescription(Action):
+    """Includes the launch description of a source, with arguments.
+
+    The arguments become launch configurations and, as everything that the included file sets,
+    stay so afterwards; a GroupAction around it keeps them inside.
+
+    :param launch_description_source: a source or the path of a launch file of any kind.
+    :param launch_arguments: names and values.
+    """
+
+    def __init__(
+        self,
+        launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
+        *,
+        launch_arguments: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        if not isinstance(launch_description_source, LaunchDescriptionSource):
+            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
+        self.__source = launch_description_source
+        if isinstance(launch_arguments, dict):
+            launch_arguments = launch_arguments.items()
+        self.__launch_arguments = tuple(launch_arguments or ())
+        self.__outer_place: dict[str, Any] = {}
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        file = parser.parse_substitution(entity.get_attr('file'))
+        kwargs['launch_description_source'] = file
+        arguments = []
+        for tag in ('let', 'arg'):
+            for arg in entity.get_attr(tag, data_type=list[Entity], optional=True) or ():
+                name = parser.parse_substitution(arg.get_attr('name'))
+                arguments.append((name, parser.parse_substitution(arg.get_attr('value'))))
+                arg.assert_entity_completely_parsed()
+        kwargs['launch_arguments'] = arguments
+        return cls, kwargs
+
+    @property
+    def launch_description_source(self) -> LaunchDescriptionSource:
+        return self.__source
+
+    @property
+    def launch_arguments(
+        self,
+    ) -> tuple[tuple[SomeSubstitutionsType, SomeSubstitutionsType], ...]:
+        return self.__launch_arguments
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        description = self.__source.try_get_launch_description_without_context()
+        return [] if description is None else [description]
+
+    def _try_get_arguments_names_without_context(self) -> list[str] | None:
+        names = []
+        for name, _ in self.__launch_arguments:
+            subs = normalize_to_list_of_substitutions(name)
+            if not all(isinstance(sub, TextSubstitution) for sub in subs):
+                return None
+            names.append(''.join(sub.text for sub in subs if isinstance(sub, TextSubstitution)))
+        return names
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        description = self.__source.get_launch_description(context)
+        self.__enter_place(context)
+        self.__check_arguments(context, description)
+        return [
+            *(SetLaunchConfiguration(name, value) for name, value in self.launch_arguments),
+            description,
+            OpaqueFunction(function=self.__leave_place),
+        ]
+
+    def __enter_place(self, context: LaunchContext) -> None:
+        known = context.get_locals_as_dict()
+        self.__outer_place = {name: known[name] for name in _PLACE if name in known}
+        path = os.path.abspath(self.__source.location)
+        if os.path.exists(path):
+            place = dict(zip(_PLACE, (path, os.path.dirname(path))))
+        else:
+            place = dict.fromkeys(_PLACE, self.__source.location)
+        context.extend_globals(place)
+        context.extend_locals(place)
+
+    def __leave_place(self, context: LaunchContext) -> None:
+        context.extend_globals(self.__outer_place)
+        context.extend_locals(self.__outer_place)
+
+    def __check_arguments(self, context: LaunchContext, description: LaunchDescription) -> None:
+        """Refuse a missing argument before anything of the file is started."""
+        given = [
+            perform_substitutions(context, normalize_to_list_of_substitutions(name))
+            for name, _ in self.launch_arguments
+        ]
+        pairs = description.get_launch_arguments_with_include_launch_description_actions()
+        for argument, includes in pairs:
+            if argument._conditionally_included or argument.default_value is not None:
+                continue
+            names = set(given)
+            for include in includes:
+                names |= set(include._try_get_arguments_names_without_context() or ())
+            if argument.name not in names:
+                raise RuntimeError(
+                    'Included launch description missing required argument '
+                    f"'{argument.name}' (description: '{argument.description}'), given: "
+                    f'[{", ".join(given)}]'
+                )

@@ -1,0 +1,15 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Restore the environment."""
+
+from __future__ import annotations
+
+from ..action import Action
+from ..launch_context import LaunchContext
+
+
+class PopEnvironment(Action):
+    """Goes back to the environment last put on the stack."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._pop_environment()

@@ -1,0 +1,121 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Actions after a while."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterable
+from typing import Any
+
+from ..action import Action
+from ..event import Event
+from ..event_handler import EventHandler
+from ..event_handlers import OnShutdown
+from ..events import TimerEvent
+from ..frontend import Entity, expose_action, Parser
+from ..launch_context import LaunchContext
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from .opaque_function import OpaqueFunction
+
+
+@expose_action('timer')
+class TimerAction(Action):
+    """Executes its actions after a period, if it is not cancelled before.
+
+    :param period: seconds.
+    :param cancel_on_shutdown: the end of the launch cancels it.
+    """
+
+    def __init__(
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[LaunchDescriptionEntity],
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        period = float(period) if isinstance(period, (int, str)) else period
+        self.__period = normalize_typed_substitution(period, float)
+        self.__actions = list(actions)
+        self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
+        self.__completed: asyncio.Future[None] | None = None
+        self.__alarm: asyncio.TimerHandle | None = None
+        self.__canceled = False
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        period = entity.get_attr('period', data_type=float, optional=False)
+        kwargs['period'] = parser.parse_if_substitutions(period)
+        kwargs['actions'] = [parser.parse_action(child) for child in entity.children]
+        return cls, kwargs
+
+    @property
+    def period(self) -> Any:
+        return self.__period
+
+    @property
+    def actions(self) -> list[LaunchDescriptionEntity]:
+        return self.__actions
+
+    @property
+    def is_canceled(self) -> bool:
+        return self.__canceled
+
+    def describe(self) -> str:
+        return f'TimerAction(period={self.__period}, actions=<actions>)'
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Any]]:
+        return [(f'after {self.__period} second(s)', self.__actions)]
+
+    def cancel(self) -> None:
+        """Let it never come to the actions; does nothing where it already has."""
+        self.__canceled = True
+        if self.__alarm is not None:
+            self.__alarm.cancel()
+        self.__complete()
+
+    def reset(self) -> None:
+        """Make it ready to be executed once more."""
+        self.cancel()
+        self.__canceled = False
+        self.__completed = None
+
+    def __complete(self) -> None:
+        if self.__completed is not None and not self.__completed.done():
+            self.__completed.set_result(None)
+
+    def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the actions, when the period is over."""
+        context.extend_locals({'timer_action': self})
+        self.__complete()
+        return [] if self.__canceled else self.__actions
+
+    def __on_shutdown(self, event: Event, context: LaunchContext) -> None:
+        del event
+        if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
+            self.cancel()
+
+    def execute(self, context: LaunchContext) -> None:
+        if self.__canceled:
+            return
+        assert context.asyncio_loop is not None
+        period = perform_typed_substitution(context, self.__period, float)
+        event = TimerEvent(timer_action=self)
+        self.__completed = context.asyncio_loop.create_future()
+        self.__alarm = context.asyncio_loop.call_later(period, context.emit_event_sync, event)
+        context.register_event_handler(
+            EventHandler(
+                matcher=lambda other: other is event,
+                entities=OpaqueFunction(function=self.handle),
+                handle_once=True,
+            )
+        )
+        context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        return self.__completed

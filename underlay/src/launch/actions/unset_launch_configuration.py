@@ -1,0 +1,36 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Forget a launch configuration."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..action import Action
+from ..frontend import Entity, expose_action, Parser
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action('unlet')
+class UnsetLaunchConfiguration(Action):
+    """Forgets a launch configuration, if it is set."""
+
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
+        return cls, kwargs
+
+    @property
+    def name(self) -> list[Substitution]:
+        return self.__name
+
+    def execute(self, context: LaunchContext) -> None:
+        context.launch_configurations.pop(perform_substitutions(context, self.name), None)

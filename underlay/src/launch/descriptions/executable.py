@@ -1,0 +1,163 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A program with its arguments and environment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+import itertools
+import os
+from pathlib import Path
+import re
+import shlex
+from typing import TYPE_CHECKING
+
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..substitutions import LaunchConfiguration
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from ..action import Action
+
+_process_numbers = itertools.count(1)
+
+_Pairs = list[tuple[list[Substitution], list[Substitution]]]
+_Env = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
+
+
+def _normalize_env(env: _Env | None) -> _Pairs | None:
+    if env is None:
+        return None
+    return [
+        (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
+        for name, value in env.items()
+    ]
+
+
+def _perform_env(context: LaunchContext, pairs: _Pairs) -> dict[str, str]:
+    return {
+        perform_substitutions(context, name): perform_substitutions(context, value)
+        for name, value in pairs
+    }
+
+
+class Executable:
+    """What a process is started with.
+
+    :param cmd: program and arguments; each may be several texts and substitutions, joined.
+    :param prefix: words to go before, as of a debugger; default: launch configuration
+        ``launch-prefix``, where the program matches ``launch-prefix-filter``.
+    :param env: the whole environment; default: that of the launch.
+    :param additional_env: variables on top of it.
+    """
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: _Env | None = None,
+        additional_env: _Env | None = None,
+        arguments: Iterable[SomeSubstitutionsType] | None = None,
+    ) -> None:
+        self.__cmd = [normalize_to_list_of_substitutions(part) for part in cmd]
+        self.__arguments = [normalize_to_list_of_substitutions(part) for part in arguments or ()]
+        self.__prefix = normalize_to_list_of_substitutions(
+            LaunchConfiguration('launch-prefix', default='') if prefix is None else prefix
+        )
+        self.__prefix_filter = (
+            normalize_to_list_of_substitutions(
+                LaunchConfiguration('launch-prefix-filter', default='')
+            )
+            if prefix is None
+            else None
+        )
+        self.__name = None if name is None else normalize_to_list_of_substitutions(name)
+        self.__cwd = None if cwd is None else normalize_to_list_of_substitutions(cwd)
+        self.__env = _normalize_env(env)
+        self.__additional_env = _normalize_env(additional_env)
+        self.__final_name: str | None = None
+        self.__final_cmd: list[str] | None = None
+        self.__final_cwd: str | None = None
+        self.__final_env: dict[str, str] | None = None
+
+    @property
+    def name(self) -> list[Substitution] | None:
+        return self.__name
+
+    @property
+    def prefix(self) -> list[Substitution]:
+        return self.__prefix
+
+    @property
+    def cmd(self) -> list[list[Substitution]]:
+        return self.__cmd
+
+    @property
+    def cwd(self) -> list[Substitution] | None:
+        return self.__cwd
+
+    @property
+    def env(self) -> _Pairs | None:
+        return self.__env
+
+    @property
+    def additional_env(self) -> _Pairs | None:
+        return self.__additional_env
+
+    @property
+    def arguments(self) -> list[list[Substitution]]:
+        return self.__arguments
+
+    @property
+    def final_name(self) -> str | None:
+        """The unique name of the process, once prepared."""
+        return self.__final_name
+
+    @property
+    def final_cmd(self) -> list[str] | None:
+        return self.__final_cmd
+
+    @property
+    def final_cwd(self) -> str | None:
+        return self.__final_cwd
+
+    @property
+    def final_env(self) -> dict[str, str] | None:
+        return self.__final_env
+
+    def prepare(self, context: LaunchContext, action: Action) -> None:
+        """Perform the substitutions and give the process its name."""
+        del action
+        parts = self.__cmd + self.__arguments
+        cmd = [perform_substitutions(context, part) for part in parts]
+        if not cmd or not cmd[0].strip():
+            raise ValueError(f'the command {cmd} is empty: its first item is the program')
+        program = os.path.basename(cmd[0])
+        name = program
+        if self.__name is not None:
+            name = perform_substitutions(context, self.__name)
+        self.__final_name = f'{name}-{next(_process_numbers)}'
+        self.__final_cmd = self.__prefix_words(context, program) + cmd
+        if self.__cwd is not None:
+            self.__final_cwd = str(Path(perform_substitutions(context, self.__cwd)).expanduser())
+        if self.__env is None:
+            env = dict(context.environment)
+        else:
+            env = _perform_env(context, self.__env)
+        env.update(_perform_env(context, self.__additional_env or []))
+        # A node's print() is to be seen when it happens, not when 8 KiB have come together.
+        env.setdefault('PYTHONUNBUFFERED', '1')
+        self.__final_env = env
+
+    def __prefix_words(self, context: LaunchContext, program: str) -> list[str]:
+        words = shlex.split(perform_substitutions(context, self.__prefix))
+        if self.__prefix_filter is not None:
+            pattern = perform_substitutions(context, self.__prefix_filter)
+            if pattern and re.match(pattern, program) is None:
+                return []
+        return words

@@ -1,0 +1,42 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Types of attributes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .entity import Entity
+
+_IDENTIFIERS: dict[str, Any] = {
+    'int': int,
+    'float': float,
+    'bool': bool,
+    'str': str,
+    'list_of_int': list[int],
+    'list_of_float': list[float],
+    'list_of_bool': list[bool],
+    'list_of_str': list[str],
+}
+
+
+def check_is_list_entity(data_type: Any) -> bool:
+    """Return whether elements are asked for, not a value."""
+    if data_type in (list[Entity], list[Entity]):
+        return True
+    arguments = getattr(data_type, '__args__', ())
+    return bool(
+        getattr(data_type, '__origin__', None) is list
+        and isinstance(arguments[0], type)
+        and issubclass(arguments[0], Entity)
+    )
+
+
+def get_data_type_from_identifier(identifier: str) -> Any:
+    """Return the type of a name as 'int' or 'list_of_str'.
+
+    :raises ValueError: there is no such name.
+    """
+    if identifier not in _IDENTIFIERS:
+        raise ValueError(f"unknown type '{identifier}': allowed are {', '.join(_IDENTIFIERS)}")
+    return _IDENTIFIERS[identifier]

@@ -1,0 +1,55 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Log handlers whose format depends on the logger."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from typing import Any
+
+
+class FormatPerLogger(logging.Handler):
+    """Mixes a formatter a logger into a handler."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._formatters: dict[str, logging.Formatter] = {}
+
+    def setFormatterFor(self, logger: logging.Logger, formatter: logging.Formatter) -> None:  # noqa: N802
+        self._formatters[logger.name] = formatter
+
+    def getFormatterFor(self, logger: logging.Logger) -> logging.Formatter | None:  # noqa: N802
+        return self._formatters.get(logger.name, self.formatter)
+
+    def unsetFormatterFor(self, logger: logging.Logger) -> None:  # noqa: N802
+        self._formatters.pop(logger.name, None)
+
+    def format(self, record: logging.LogRecord) -> str:
+        formatter = self._formatters.get(record.name)
+        return super().format(record) if formatter is None else formatter.format(record)
+
+
+class StreamHandler(FormatPerLogger, logging.StreamHandler):  # type: ignore[type-arg]
+    """Writes to a stream."""
+
+
+class ScreenHandler(FormatPerLogger):
+    """Writes to whatever is standard output at the moment, whatever its encoding."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        text = self.format(record) + '\n'
+        encoding = getattr(sys.stdout, 'encoding', None) or 'utf-8'
+        try:
+            sys.stdout.write(text.encode(encoding, 'replace').decode(encoding))
+            sys.stdout.flush()
+        except (BrokenPipeError, ValueError):
+            # The reader has gone (`ros2 launch ... | head`): the nodes go on, unseen.
+            return
+
+
+class FileHandler(FormatPerLogger, logging.FileHandler):
+    """Writes to a file, made with the first line."""
+
+    def __init__(self, filename: str, *, encoding: str = 'utf-8') -> None:
+        super().__init__(filename, encoding=encoding, delay=True)

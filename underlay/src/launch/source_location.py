@@ -1,0 +1,63 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where in a launch file something was written, for error messages."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import sys
+from types import TracebackType
+
+_OWN_FOLDERS = tuple(
+    f'{Path(__file__).resolve().parent.parent / name}/'
+    for name in ('launch', 'launch_ros', 'launch_xml', 'launch_yaml')
+)
+_launch_files: set[str] = set()
+
+
+def register_launch_file(path: str) -> None:
+    """Remember a Python launch file, whose lines then name themselves in errors."""
+    _launch_files.add(path)
+
+
+def caller_location() -> tuple[str, int] | None:
+    """Return file and line of the nearest caller outside of the launch packages."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        if not frame.f_code.co_filename.startswith(_OWN_FOLDERS):
+            return frame.f_code.co_filename, frame.f_lineno
+        if frame.f_back is None:
+            break
+        frame = frame.f_back
+    return None
+
+
+def traceback_location(trace: TracebackType | None) -> tuple[str, int] | None:
+    """Return the innermost place of a traceback that is in a launch file."""
+    found = None
+    while trace is not None:
+        name = trace.tb_frame.f_code.co_filename
+        if name in _launch_files:
+            found = name, trace.tb_lineno
+        trace = trace.tb_next
+    return found
+
+
+def attach_location(error: Exception, entity: object) -> None:
+    """Note at an error where it came from, unless an inner place is already known."""
+    if getattr(error, 'launch_location', None) is not None:
+        return
+    location = traceback_location(error.__traceback__) or getattr(entity, '_location', None)
+    if location is not None:
+        error.launch_location = location  # type: ignore[attr-defined]
+
+
+def describe_error(error: BaseException) -> str:
+    """Return the message with the launch file and line, where they are known."""
+    message = str(error) or type(error).__name__
+    if isinstance(error, KeyError):
+        message = f'KeyError: {message}'
+    location = getattr(error, 'launch_location', None) or traceback_location(error.__traceback__)
+    if location is None or f'{location[0]}:{location[1]}' in message:
+        return message
+    return f'{message} (at {location[0]}:{location[1]})'

@@ -1,0 +1,48 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A unique name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import os
+import random
+import socket
+from typing import Any, cast
+
+from ..frontend.expose import expose_substitution
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution('anon')
+class AnonName(Substitution):
+    """Becomes a name with a unique tail, the same one each time in one launch."""
+
+    def __init__(self, name: SomeSubstitutionsType) -> None:
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 1:
+            raise TypeError(f'anon substitution expects 1 argument, got {len(data)}')
+        return cls, {'name': data[0]}
+
+    @property
+    def name(self) -> list[Substitution]:
+        return self.__name
+
+    def describe(self) -> str:
+        return f'AnonName({" + ".join(sub.describe() for sub in self.name)})'
+
+    def perform(self, context: LaunchContext) -> str:
+        name = perform_substitutions(context, self.name)
+        key = 'anon' + name
+        if key not in context.launch_configurations:
+            tail = f'{socket.gethostname()}_{os.getpid()}_{random.randint(0, 2**32)}'
+            for character in '.-:':
+                tail = tail.replace(character, '_')
+            context.launch_configurations[key] = f'{name}_{tail}'
+        return cast(str, context.launch_configurations[key])

@@ -1,0 +1,126 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Not, and, or, any and all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ..frontend.expose import expose_substitution
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions
+from ..utilities.type_utils import perform_typed_substitution
+from .substitution_failure import SubstitutionFailure
+
+
+def _truth(context: LaunchContext, value: list[Substitution]) -> bool:
+    try:
+        return bool(perform_typed_substitution(context, value, bool))
+    except (TypeError, ValueError) as error:
+        raise SubstitutionFailure(error) from error
+
+
+def _text(truth: bool) -> str:
+    return 'true' if truth else 'false'
+
+
+@expose_substitution('not')
+class NotSubstitution(Substitution):
+    """Becomes 'true' where its value says false, and 'false' where it says true."""
+
+    def __init__(self, value: SomeSubstitutionsType) -> None:
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 1:
+            raise TypeError(f'not substitution expects 1 argument, got {len(data)}')
+        return cls, {'value': data[0]}
+
+    @property
+    def value(self) -> list[Substitution]:
+        return self.__value
+
+    def describe(self) -> str:
+        return f'NotSubstitution({self.value})'
+
+    def perform(self, context: LaunchContext) -> str:
+        return _text(not _truth(context, self.value))
+
+
+class _TwoSided(Substitution):
+    """Base of the substitutions with a left and a right value."""
+
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        self.__left = normalize_to_list_of_substitutions(left)
+        self.__right = normalize_to_list_of_substitutions(right)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 2:
+            raise TypeError(f'{cls.__name__} expects 2 arguments, got {len(data)}')
+        return cls, {'left': data[0], 'right': data[1]}
+
+    @property
+    def left(self) -> list[Substitution]:
+        return self.__left
+
+    @property
+    def right(self) -> list[Substitution]:
+        return self.__right
+
+    def describe(self) -> str:
+        return f'{type(self).__name__}({self.left} {self.right})'
+
+
+@expose_substitution('and')
+class AndSubstitution(_TwoSided):
+    """Becomes 'true' where both values say true."""
+
+    def perform(self, context: LaunchContext) -> str:
+        return _text(all([_truth(context, self.left), _truth(context, self.right)]))
+
+
+@expose_substitution('or')
+class OrSubstitution(_TwoSided):
+    """Becomes 'true' where at least one of two values says true."""
+
+    def perform(self, context: LaunchContext) -> str:
+        return _text(any([_truth(context, self.left), _truth(context, self.right)]))
+
+
+class _ManyValued(Substitution):
+    """Base of the substitutions with any number of values."""
+
+    def __init__(self, *args: SomeSubstitutionsType) -> None:
+        self.__args = [normalize_to_list_of_substitutions(arg) for arg in args]
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        return cls, {'args': data}
+
+    @property
+    def args(self) -> list[list[Substitution]]:
+        return self.__args
+
+    def describe(self) -> str:
+        return f'{type(self).__name__}({" ".join(str(arg) for arg in self.args)})'
+
+
+@expose_substitution('any')
+class AnySubstitution(_ManyValued):
+    """Becomes 'true' where at least one of the values says true."""
+
+    def perform(self, context: LaunchContext) -> str:
+        return _text(any([_truth(context, arg) for arg in self.args]))
+
+
+@expose_substitution('all')
+class AllSubstitution(_ManyValued):
+    """Becomes 'true' where all of the values say true."""
+
+    def perform(self, context: LaunchContext) -> str:
+        return _text(all([_truth(context, arg) for arg in self.args]))

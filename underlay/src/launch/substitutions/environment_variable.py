@@ -1,0 +1,57 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The value of an environment variable."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ..frontend.expose import expose_substitution
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .substitution_failure import SubstitutionFailure
+
+
+@expose_substitution('env')
+class EnvironmentVariable(Substitution):
+    """Becomes the value of an environment variable, as it is then."""
+
+    def __init__(
+        self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None
+    ) -> None:
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__default_value = (
+            None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        )
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if not 1 <= len(data) <= 2:
+            raise TypeError(f'env substitution expects 1 or 2 arguments, got {len(data)}')
+        kwargs: dict[str, Any] = {'name': data[0]}
+        if len(data) == 2:
+            kwargs['default_value'] = data[1]
+        return cls, kwargs
+
+    @property
+    def name(self) -> list[Substitution]:
+        return self.__name
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        return self.__default_value
+
+    def describe(self) -> str:
+        return f'EnvVar({" + ".join(sub.describe() for sub in self.name)})'
+
+    def perform(self, context: LaunchContext) -> str:
+        name = perform_substitutions(context, self.name)
+        value = context.environment.get(name)
+        if value is not None:
+            return value
+        if self.__default_value is None:
+            raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+        return perform_substitutions(context, self.__default_value)

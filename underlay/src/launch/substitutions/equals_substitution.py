@@ -1,0 +1,68 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether two values are equal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+from typing import Any
+
+from ..frontend.expose import expose_substitution
+from ..launch_context import LaunchContext
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ..utilities.type_utils import is_substitution
+
+
+def _normalize(value: Any) -> list[Substitution]:
+    if is_substitution(value):
+        return normalize_to_list_of_substitutions(value)
+    if isinstance(value, bool):
+        value = str(value).lower()
+    return normalize_to_list_of_substitutions('' if value is None else str(value))
+
+
+def _as_bool(text: str) -> bool | None:
+    return {'true': True, '1': True, 'false': False, '0': False}.get(text.lower())
+
+
+def _are_equal(left: str, right: str) -> bool:
+    left_bool, right_bool = _as_bool(left), _as_bool(right)
+    if left_bool is not None and right_bool is not None:
+        return left_bool == right_bool
+    try:
+        return math.isclose(float(left), float(right))
+    except ValueError:
+        return left == right
+
+
+@expose_substitution('equals')
+class EqualsSubstitution(Substitution):
+    """Becomes 'true' where both are the same text, truth value or number, else 'false'."""
+
+    def __init__(self, left: Any, right: Any) -> None:
+        self.__left = _normalize(left)
+        self.__right = _normalize(right)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 2:
+            raise TypeError(f'{cls.__name__} expects 2 arguments, got {len(data)}')
+        return cls, {'left': data[0], 'right': data[1]}
+
+    @property
+    def left(self) -> list[Substitution]:
+        return self.__left
+
+    @property
+    def right(self) -> list[Substitution]:
+        return self.__right
+
+    def describe(self) -> str:
+        return f'{type(self).__name__}({self.left} {self.right})'
+
+    def perform(self, context: LaunchContext) -> str:
+        left = perform_substitutions(context, self.left)
+        right = perform_substitutions(context, self.right)
+        return str(_are_equal(left, right)).lower()

@@ -1,0 +1,44 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The content of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..frontend.expose import expose_substitution
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .substitution_failure import SubstitutionFailure
+
+
+@expose_substitution('file-content')
+class FileContent(Substitution):
+    """Becomes the content of a text file."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        self.__path = normalize_to_list_of_substitutions(path)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 1:
+            raise TypeError(f'file-content substitution expects 1 argument, got {len(data)}')
+        return cls, {'path': data[0]}
+
+    @property
+    def path(self) -> list[Substitution]:
+        return self.__path
+
+    def describe(self) -> str:
+        return f'FileContent({" + ".join(sub.describe() for sub in self.path)})'
+
+    def perform(self, context: LaunchContext) -> str:
+        path = perform_substitutions(context, self.path)
+        try:
+            return Path(path).read_text(encoding='utf-8')
+        except (OSError, UnicodeDecodeError) as error:
+            raise SubstitutionFailure(f"cannot read the file '{path}': {error}") from None

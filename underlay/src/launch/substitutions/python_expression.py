@@ -1,0 +1,72 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The value of a Python expression."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import importlib
+from typing import Any
+
+from ..frontend.expose import expose_substitution
+from ..launch_context import LaunchContext
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from .substitution_failure import SubstitutionFailure
+
+
+@expose_substitution('eval')
+class PythonExpression(Substitution):
+    """Becomes ``str()`` of what a Python expression evaluates to.
+
+    :param python_modules: names of modules the expression may use; what is in ``math`` is also
+        known by itself.
+    """
+
+    def __init__(
+        self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ('math',)
+    ) -> None:
+        self.__expression = normalize_to_list_of_substitutions(expression)
+        self.__python_modules = normalize_to_list_of_substitutions(python_modules)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if not 1 <= len(data) <= 2:
+            raise TypeError(f'eval substitution expects 1 or 2 arguments, got {len(data)}')
+        kwargs: dict[str, Any] = {'expression': data[0]}
+        if len(data) == 2:
+            names = ''.join(sub.text for sub in data[1])
+            kwargs['python_modules'] = [name.strip() for name in names.split(',')]
+        return cls, kwargs
+
+    @property
+    def expression(self) -> list[Substitution]:
+        return self.__expression
+
+    @property
+    def python_modules(self) -> list[Substitution]:
+        return self.__python_modules
+
+    def describe(self) -> str:
+        return 'PythonExpr({}, [{}])'.format(
+            ' + '.join(sub.describe() for sub in self.expression),
+            ', '.join(sub.describe() for sub in self.python_modules),
+        )
+
+    def perform(self, context: LaunchContext) -> str:
+        names: dict[str, Any] = {}
+        for sub in self.python_modules:
+            module = importlib.import_module(context.perform_substitution(sub))
+            if module.__name__ == 'math':
+                names.update(vars(module))
+            names[module.__name__.partition('.')[0]] = importlib.import_module(
+                module.__name__.partition('.')[0]
+            )
+        text = perform_substitutions(context, self.expression)
+        try:
+            return str(eval(text, {}, names))
+        except Exception as error:
+            raise SubstitutionFailure(
+                f"cannot evaluate the Python expression '{text}': {type(error).__name__}: {error}"
+            ) from error

@@ -1,0 +1,26 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Actions that know ROS."""
+
+from .composable_node_container import ComposableNodeContainer
+from .load_composable_nodes import LoadComposableNodes
+from .node import Node
+from .push_ros_namespace import PushROSNamespace, PushRosNamespace
+from .set_parameter import SetParameter
+from .set_parameters_from_file import SetParametersFromFile
+from .set_remap import SetRemap
+from .set_ros_log_dir import SetROSLogDir
+from .set_use_sim_time import SetUseSimTime
+
+__all__ = [
+    'ComposableNodeContainer',
+    'LoadComposableNodes',
+    'Node',
+    'PushROSNamespace',
+    'PushRosNamespace',
+    'SetParameter',
+    'SetParametersFromFile',
+    'SetROSLogDir',
+    'SetRemap',
+    'SetUseSimTime',
+]

@@ -1,0 +1,49 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Push a namespace."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import Entity, expose_action, Parser
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+from ..utilities import make_namespace_absolute, prefix_namespace
+from ..utilities.namespace_utils import validate_namespace
+
+
+@expose_action('push_ros_namespace')
+@expose_action('push-ros-namespace')
+class PushROSNamespace(Action):
+    """Puts the nodes that follow, in its scope, below a namespace."""
+
+    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__namespace = normalize_to_list_of_substitutions(namespace)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        kwargs['namespace'] = parser.parse_substitution(entity.get_attr('namespace'))
+        return cls, kwargs
+
+    @property
+    def namespace(self) -> list[Substitution]:
+        return self.__namespace
+
+    def execute(self, context: LaunchContext) -> None:
+        pushed = perform_substitutions(context, self.namespace)
+        previous = context.launch_configurations.get('ros_namespace')
+        namespace = make_namespace_absolute(prefix_namespace(previous, pushed))
+        if namespace is None:
+            return
+        validate_namespace(namespace)
+        context.launch_configurations['ros_namespace'] = namespace
+
+
+PushRosNamespace = PushROSNamespace

@@ -1,0 +1,46 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Remap a name of every node."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import Entity, expose_action, Parser
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action('set_remap')
+class SetRemap(Action):
+    """Remaps a name in the nodes that follow in its scope."""
+
+    def __init__(
+        self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__src = normalize_to_list_of_substitutions(src)
+        self.__dst = normalize_to_list_of_substitutions(dst)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        kwargs['src'] = parser.parse_substitution(entity.get_attr('from'))
+        kwargs['dst'] = parser.parse_substitution(entity.get_attr('to'))
+        return cls, kwargs
+
+    @property
+    def src(self) -> list[Substitution]:
+        return self.__src
+
+    @property
+    def dst(self) -> list[Substitution]:
+        return self.__dst
+
+    def execute(self, context: LaunchContext) -> None:
+        pair = perform_substitutions(context, self.src), perform_substitutions(context, self.dst)
+        known = context.launch_configurations.get('ros_remaps', [])
+        context.launch_configurations['ros_remaps'] = [*known, pair]

@@ -1,0 +1,31 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Set the log folder of the nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import Entity, expose_action, Parser
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action('set_ros_log_dir')
+class SetROSLogDir(Action):
+    """Sets ROS_LOG_DIR of what is started afterwards."""
+
+    def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__new_log_dir = normalize_to_list_of_substitutions(new_log_dir)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+        kwargs = super().parse(entity, parser)[1]
+        kwargs['new_log_dir'] = parser.parse_substitution(entity.get_attr('path'))
+        return cls, kwargs
+
+    def execute(self, context: LaunchContext) -> None:
+        context.environment['ROS_LOG_DIR'] = perform_substitutions(context, self.__new_log_dir)

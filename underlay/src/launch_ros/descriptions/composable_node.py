@@ -1,0 +1,102 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A node to be loaded into a container."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.condition import Condition
+from launch.conditions import IfCondition, UnlessCondition
+from launch.frontend import Entity, Parser
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions
+
+from ..utilities import normalize_parameters, normalize_remap_rules
+
+
+def _optional(value: SomeSubstitutionsType | None) -> list[Substitution] | None:
+    return None if value is None else normalize_to_list_of_substitutions(value)
+
+
+class ComposableNode:
+    """Describes a node that is a plugin of a package."""
+
+    def __init__(
+        self,
+        *,
+        package: SomeSubstitutionsType,
+        plugin: SomeSubstitutionsType,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
+        parameters: Any = None,
+        remappings: Any = None,
+        extra_arguments: Any = None,
+        condition: Condition | None = None,
+    ) -> None:
+        self.__package = normalize_to_list_of_substitutions(package)
+        self.__plugin = normalize_to_list_of_substitutions(plugin)
+        self.__name = _optional(name)
+        self.__namespace = _optional(namespace)
+        self.__parameters = None if parameters is None else normalize_parameters(parameters)
+        self.__remappings = None if remappings is None else normalize_remap_rules(remappings)
+        self.__extra_arguments = (
+            None if extra_arguments is None else normalize_parameters(extra_arguments)
+        )
+        self.__condition = condition
+
+    @classmethod
+    def parse(cls, parser: Parser, entity: Entity) -> tuple[type[ComposableNode], dict[str, Any]]:
+        from ..actions.markup import parse_nested_parameters, parse_remappings
+
+        kwargs: dict[str, Any] = {
+            'package': parser.parse_substitution(entity.get_attr('pkg')),
+            'plugin': parser.parse_substitution(entity.get_attr('plugin')),
+        }
+        for name in ('name', 'namespace'):
+            text = entity.get_attr(name, optional=True)
+            if text is not None:
+                kwargs[name] = parser.parse_substitution(text)
+        for name, condition in (('if', IfCondition), ('unless', UnlessCondition)):
+            text = entity.get_attr(name, optional=True)
+            if text is not None:
+                kwargs['condition'] = condition(parser.parse_substitution(text))
+        for tag, keyword in (('param', 'parameters'), ('extra_arg', 'extra_arguments')):
+            items = entity.get_attr(tag, data_type=list[Entity], optional=True)
+            if items:
+                kwargs[keyword] = parse_nested_parameters(items, parser)
+        kwargs['remappings'] = parse_remappings(entity, parser)
+        entity.assert_entity_completely_parsed()
+        return cls, kwargs
+
+    @property
+    def package(self) -> list[Substitution]:
+        return self.__package
+
+    @property
+    def node_plugin(self) -> list[Substitution]:
+        return self.__plugin
+
+    @property
+    def node_name(self) -> list[Substitution] | None:
+        return self.__name
+
+    @property
+    def node_namespace(self) -> list[Substitution] | None:
+        return self.__namespace
+
+    @property
+    def parameters(self) -> Any:
+        return self.__parameters
+
+    @property
+    def remappings(self) -> Any:
+        return self.__remappings
+
+    @property
+    def extra_arguments(self) -> Any:
+        return self.__extra_arguments
+
+    def condition(self) -> Condition | None:
+        return self.__condition

@@ -1,0 +1,39 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What parameters may be written as."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Union
+
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+
+from .parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+EvaluatedParameterValue = Union[
+    str, Sequence[str], Sequence[int], int, float, bool, Sequence[float], Sequence[bool], bytes
+]
+EvaluatedParameters = Sequence[Path | dict[str, EvaluatedParameterValue] | Parameter]
+SomeParameterFile = Union[SomeSubstitutionsType, Path, ParameterFile]
+SomeParameterValue = Any
+SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
+SomeParameters = Sequence[SomeParameterFile | Parameter | Mapping[Any, Any]]
+ParametersDict = dict[tuple[Substitution, ...], ParameterValue]
+Parameters = Sequence[ParameterFile | ParametersDict | Parameter]
+
+__all__ = [
+    'EvaluatedParameterValue',
+    'EvaluatedParameters',
+    'Parameter',
+    'ParameterFile',
+    'ParameterValue',
+    'Parameters',
+    'ParametersDict',
+    'SomeParameterFile',
+    'SomeParameterValue',
+    'SomeParameters',
+    'SomeParametersDict',
+]

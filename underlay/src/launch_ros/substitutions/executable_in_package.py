@@ -1,0 +1,69 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Executables of packages."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import difflib
+import os
+from pathlib import Path
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+from .find_package import FindPackagePrefix
+
+
+@expose_substitution('exec-in-pkg')
+class ExecutableInPackage(FindPackagePrefix):
+    """Becomes the path of an executable of a package."""
+
+    def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
+        super().__init__(package)
+        self.__executable = normalize_to_list_of_substitutions(executable)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 2:
+            raise AttributeError(f'exec-in-pkg substitution expects 2 arguments, got {len(data)}')
+        return cls, {'executable': data[0], 'package': data[1]}
+
+    @property
+    def executable(self) -> list[Substitution]:
+        return self.__executable
+
+    def describe(self) -> str:
+        package = ' + '.join(sub.describe() for sub in self.package)
+        executable = ' + '.join(sub.describe() for sub in self.executable)
+        return f'ExecInPkg(pkg={package}, exec={executable})'
+
+    def perform(self, context: LaunchContext) -> str:
+        executable = perform_substitutions(context, self.executable)
+        package = perform_substitutions(context, self.package)
+        folder = Path(super().perform(context)) / 'lib' / package
+        path = folder / executable
+        if path.is_file() and os.access(path, os.X_OK):
+            return str(path)
+        known = _executables(folder)
+        near = difflib.get_close_matches(executable, known, 1)
+        if not folder.is_dir():
+            hint = 'the package has none (is it built? does its setup.cfg name the folder?)'
+        else:
+            hint = f"is '{near[0]}' meant?" if near else f'there are: {", ".join(known) or "none"}'
+        raise SubstitutionFailure(
+            f"executable '{executable}' not found on the libexec directory '{folder}': {hint}"
+        )
+
+
+def _executables(folder: Path) -> list[str]:
+    if not folder.is_dir():
+        return []
+    return sorted(
+        entry.name for entry in folder.iterdir() if entry.is_file() and os.access(entry, os.X_OK)
+    )

@@ -1,0 +1,79 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Folders of packages."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import difflib
+from typing import Any, cast
+
+from launch.frontend import expose_substitution
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions import PathJoinSubstitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class FindPackage(Substitution):
+    """Base of the substitutions for a folder of a package on the AMENT_PREFIX_PATH."""
+
+    def __init__(self, package: SomeSubstitutionsType) -> None:
+        self.__package = normalize_to_list_of_substitutions(package)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
+        if len(data) != 1:
+            raise AttributeError(f'{cls.__name__} expects 1 argument, got {len(data)}')
+        return cls, {'package': data[0]}
+
+    @property
+    def package(self) -> list[Substitution]:
+        return self.__package
+
+    def __truediv__(self, part: SomeSubstitutionsType) -> PathJoinSubstitution:
+        return PathJoinSubstitution([self, part])
+
+    def find(self, package_name: str) -> str:
+        """Return the folder.
+
+        :raises LookupError: there is no such package.
+        """
+        raise NotImplementedError
+
+    def describe(self) -> str:
+        name = ' + '.join(sub.describe() for sub in self.package)
+        return f'{type(self).__name__}(pkg={name})'
+
+    def perform(self, context: LaunchContext) -> str:
+        package = perform_substitutions(context, self.package)
+        from ament_index_python import packages
+
+        try:
+            return self.find(package)
+        except packages.PackageNotFoundError as error:
+            known = packages.get_packages_with_prefixes()
+            near = difflib.get_close_matches(package, known, 1)
+            hint = f": is '{near[0]}' meant?" if near else ': is its workspace built and sourced?'
+            raise packages.PackageNotFoundError(f'{error.args[0]}{hint}') from None
+
+
+@expose_substitution('find-pkg-prefix')
+class FindPackagePrefix(FindPackage):
+    """Becomes the prefix that a package is installed to."""
+
+    def find(self, package_name: str) -> str:
+        from ament_index_python.packages import get_package_prefix
+
+        return cast(str, get_package_prefix(package_name))
+
+
+@expose_substitution('find-pkg-share')
+class FindPackageShare(FindPackage):
+    """Becomes the share folder of a package, where launch files and the like are."""
+
+    def find(self, package_name: str) -> str:
+        from ament_index_python.packages import get_package_share_directory
+
+        return cast(str, get_package_share_directory(package_name))

@@ -1,0 +1,97 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""XML elements as entities."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import Entity as BaseEntity
+from launch.frontend.type_utils import check_is_list_entity
+from launch.utilities.type_utils import get_typed_value
+
+from .element import Element
+
+
+class Entity(BaseEntity):
+    """One XML element, whose attributes are read as the wanted types."""
+
+    def __init__(self, xml_element: Element, *, parent: Entity | None = None) -> None:
+        text = xml_element.text.strip()
+        if text:
+            raise ValueError(
+                f"unexpected text '{text}' in element '{xml_element.tag}': values are attributes"
+            )
+        self.__xml = xml_element
+        self.__parent = parent
+        self.__read_attributes: set[str] = set()
+        self.__read_children: set[str] = set()
+
+    @property
+    def type_name(self) -> str:
+        return self.__xml.tag
+
+    @property
+    def parent(self) -> Entity | None:
+        return self.__parent
+
+    @property
+    def location(self) -> tuple[str, int]:
+        return self.__xml.location
+
+    @property
+    def children(self) -> list[BaseEntity]:
+        self.__read_children = {child.tag for child in self.__xml.children}
+        return [Entity(child, parent=self) for child in self.__xml.children]
+
+    def assert_entity_completely_parsed(self) -> None:
+        tags = {child.tag for child in self.__xml.children} - self.__read_children
+        if tags:
+            raise ValueError(
+                f'Unexpected nested tag(s) found in `{self.type_name}`: {", ".join(sorted(tags))}'
+            )
+        attributes = set(self.__xml.attributes) - self.__read_attributes
+        if attributes:
+            raise ValueError(
+                f'Unexpected attribute(s) found in `{self.type_name}`: '
+                f'{", ".join(sorted(attributes))}'
+            )
+
+    def get_attr(
+        self,
+        name: str,
+        *,
+        data_type: Any = str,
+        optional: bool = False,
+        can_be_str: bool = True,
+    ) -> Any:
+        value: Any
+        if check_is_list_entity(data_type):
+            value = [
+                Entity(child, parent=self) for child in self.__xml.children if child.tag == name
+            ]
+            self.__read_children.add(name)
+            value = value or None
+        else:
+            value = self.__value(name, data_type, can_be_str)
+        if value is None and not optional:
+            kind = getattr(data_type, '__name__', data_type)
+            raise AttributeError(
+                f"Attribute '{name}' of type '{kind}' not found in Entity '{self.type_name}'"
+            )
+        return value
+
+    def __value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
+        self.__read_attributes |= {name, f'{name}-sep'} & set(self.__xml.attributes)
+        text = self.__xml.attributes.get(name)
+        if text is None:
+            return None
+        separator = self.__xml.attributes.get(f'{name}-sep')
+        value = text if separator is None else text.split(separator)
+        try:
+            return get_typed_value(value, data_type, can_be_str=can_be_str)
+        except ValueError:
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type "
+                f"'{data_type}'. '{text}' can not be converted to one of those types"
+            ) from None

@@ -1,0 +1,28 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""From XML to launch descriptions."""
+
+from __future__ import annotations
+
+from typing import TextIO
+
+from launch.frontend import Parser as BaseParser
+
+from .element import read_xml
+from .entity import Entity
+
+
+class Parser(BaseParser):
+    """Reads launch files in XML."""
+
+    @classmethod
+    def load(cls, file: str | TextIO) -> tuple[Entity, BaseParser]:
+        if isinstance(file, str):
+            with open(file, encoding='utf-8') as opened:
+                return cls.load(opened)
+        root = read_xml(file.read(), str(getattr(file, 'name', '<text>')))
+        return Entity(root), cls()
+
+    @classmethod
+    def get_file_extensions(cls) -> set[str]:
+        return {'launch.xml', 'xml', 'launch'}
