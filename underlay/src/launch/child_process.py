@@ -53,7 +53,7 @@ class ChildProcess(asyncio.SubprocessProtocol):
     @property
     def pid(self) -> int:
         assert self._transport is not None
-        return cast(int, self._transport.get_pid())
+        return self._transport.get_pid()
 
     @property
     def returncode(self) -> int | None:

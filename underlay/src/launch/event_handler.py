@@ -41,7 +41,10 @@ class BaseEventHandler:
         return self.__matcher(event)
 
     def describe(self) -> tuple[str, list[Any]]:
-        text = f"{self.__class__.__name__}(matcher='{self.matcher_description}', handler='{self.handler_description}', handle_once={self.__handle_once})"
+        text = (
+            f"{self.__class__.__name__}(matcher='{self.matcher_description}', "
+            f"handler='{self.handler_description}', handle_once={self.__handle_once})"
+        )
         return text, []
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:

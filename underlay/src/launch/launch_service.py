@@ -183,7 +183,11 @@ class LaunchService:
     def __watch(self, futures: Iterable[asyncio.Future[None]]) -> None:
         for future in futures:
             self.__futures.append(future)
-            future.add_done_callback(lambda _: self.__wakeup and self.__wakeup.set())
+            future.add_done_callback(self.__wake)
+
+    def __wake(self, _future: asyncio.Future[None]) -> None:
+        if self.__wakeup is not None:
+            self.__wakeup.set()
 
     def __process_event(self, event: Event) -> None:
         self.__logger.debug(f"processing event: '{event}'")
@@ -239,7 +243,7 @@ class LaunchService:
     def __install_signal_handlers(self, loop: asyncio.AbstractEventLoop) -> dict[int, Any]:
         if threading.current_thread() is not threading.main_thread():
             return {}
-        previous = {number: signal.getsignal(number) for number in _SIGNALS}
+        previous: dict[int, Any] = {number: signal.getsignal(number) for number in _SIGNALS}
         loop.add_signal_handler(signal.SIGINT, self.__on_sigint)
         for number in (signal.SIGTERM, signal.SIGQUIT):
             loop.add_signal_handler(number, self.__on_termination, number)

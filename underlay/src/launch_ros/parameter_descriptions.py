@@ -114,7 +114,7 @@ class ParameterFile:
 
     def __str__(self) -> str:
         return (
-            f'launch_ros.description.ParameterFile(param_file={self.param_file}, '
+            f'launch_ros.description.ParameterFile(param_file={self.param_file!r}, '
             f'allow_substs={self.allow_substs})'
         )
 
@@ -146,4 +146,4 @@ class ParameterFile:
         return write_temporary_file(text)
 
     def cleanup(self) -> None:
-        """Does nothing: temporary files are removed when the launch ends."""
+        """Do nothing: temporary files are removed when the launch ends."""

@@ -6,18 +6,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 
 from .parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
-EvaluatedParameterValue = Union[
-    str, Sequence[str], Sequence[int], int, float, bool, Sequence[float], Sequence[bool], bytes
-]
+EvaluatedParameterValue = (
+    bool
+    | int
+    | float
+    | str
+    | bytes
+    | Sequence[bool]
+    | Sequence[int]
+    | Sequence[float]
+    | Sequence[str]
+)
 EvaluatedParameters = Sequence[Path | dict[str, EvaluatedParameterValue] | Parameter]
-SomeParameterFile = Union[SomeSubstitutionsType, Path, ParameterFile]
+SomeParameterFile = SomeSubstitutionsType | ParameterFile
 SomeParameterValue = Any
 SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
 SomeParameters = Sequence[SomeParameterFile | Parameter | Mapping[Any, Any]]

@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Union
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 
-SomeRemapRule = Union[
-    tuple[SomeSubstitutionsType, SomeSubstitutionsType], Iterable[SomeSubstitutionsType]
-]
+SomeRemapRule = (
+    tuple[SomeSubstitutionsType, SomeSubstitutionsType] | Iterable[SomeSubstitutionsType]
+)
 SomeRemapRules = Iterable[SomeRemapRule]
 RemapRule = tuple[tuple[Substitution, ...], tuple[Substitution, ...]]
 RemapRules = Iterable[RemapRule]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TextIO
 
 from launch.frontend import Parser as BaseParser
@@ -18,7 +19,7 @@ class Parser(BaseParser):
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, BaseParser]:
         if isinstance(file, str):
-            with open(file, encoding='utf-8') as opened:
+            with Path(file).open(encoding='utf-8') as opened:
                 return cls.load(opened)
         root = read_xml(file.read(), str(getattr(file, 'name', '<text>')))
         return Entity(root), cls()

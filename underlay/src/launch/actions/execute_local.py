@@ -5,18 +5,17 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
-import os
+from collections.abc import Callable, Mapping
 import signal
-from typing import Any, Optional
+from typing import Any
 
 from ..action import Action
 from ..child_process import ChildProcess, printable_command, start_child_process
-from ..conditions import evaluate_condition_expression
 from ..descriptions import Executable
+from ..event import Event
 from ..event_handler import EventHandler
 from ..event_handlers import OnProcessExit, OnProcessStart, OnShutdown
-from ..events import matches_action, Shutdown
+from ..events import Shutdown
 from ..events.process import (
     ProcessExited,
     ProcessStarted,
@@ -31,15 +30,13 @@ from ..launch_description_entity import LaunchDescriptionEntity
 from ..logging import get_logger, get_output_loggers
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
-from ..substitutions import LaunchConfiguration, PythonExpression
-from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
-from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
-from .emit_event import EmitEvent
+from .escalation import emit_signal, escalation_timers
 from .opaque_function import OpaqueFunction
 from .process_output import ProcessOutput
+from .process_settings import perform_seconds, ProcessSettings, SIGKILL_TIMEOUT, SIGTERM_TIMEOUT
 from .timer_action import TimerAction
 
-_Entities = Optional[list[LaunchDescriptionEntity]]
+_Entities = list[LaunchDescriptionEntity] | None
 
 
 class ExecuteLocal(Action):
@@ -62,12 +59,8 @@ class ExecuteLocal(Action):
         *,
         process_description: Executable,
         shell: Any = False,
-        sigterm_timeout: float | SomeSubstitutionsType = LaunchConfiguration(
-            'sigterm_timeout', default=5
-        ),
-        sigkill_timeout: float | SomeSubstitutionsType = LaunchConfiguration(
-            'sigkill_timeout', default=5
-        ),
+        sigterm_timeout: float | SomeSubstitutionsType = SIGTERM_TIMEOUT,
+        sigkill_timeout: float | SomeSubstitutionsType = SIGKILL_TIMEOUT,
         emulate_tty: Any = False,
         output: SomeSubstitutionsType | Mapping[str, Any] = 'log',
         output_format: str = '[{this.process_description.final_name}] {line}',
@@ -81,22 +74,20 @@ class ExecuteLocal(Action):
     ) -> None:
         super().__init__(**kwargs)
         self.__process_description = process_description
-        self.__shell = normalize_typed_substitution(shell, bool)
-        self.__sigterm_timeout = _seconds(sigterm_timeout)
-        self.__sigkill_timeout = _seconds(sigkill_timeout)
-        self.__emulate_tty = normalize_typed_substitution(emulate_tty, bool)
-        override = os.environ.get('OVERRIDE_LAUNCH_PROCESS_OUTPUT')
-        wanted = override if override else output
-        self.__output: Any = wanted
-        if not isinstance(wanted, Mapping):
-            self.__output = normalize_to_list_of_substitutions(wanted)
+        self.__settings = ProcessSettings(
+            shell=shell,
+            sigterm_timeout=sigterm_timeout,
+            sigkill_timeout=sigkill_timeout,
+            emulate_tty=emulate_tty,
+            output=output,
+            respawn=respawn,
+            respawn_delay=respawn_delay,
+            respawn_max_retries=respawn_max_retries,
+        )
         self.__output_format = output_format
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
         self.__on_exit = on_exit
-        self.__respawn = normalize_typed_substitution(respawn, bool)
-        self.__respawn_delay: Any = None if respawn_delay is None else _seconds(respawn_delay)
-        self.__respawn_max_retries = normalize_typed_substitution(respawn_max_retries, int)
         self.__respawn_retries = 0
         self.__process_event_args: dict[str, Any] | None = None
         self.__child: ChildProcess | None = None
@@ -113,23 +104,23 @@ class ExecuteLocal(Action):
 
     @property
     def shell(self) -> Any:
-        return self.__shell
+        return self.__settings.shell
 
     @property
     def emulate_tty(self) -> Any:
-        return self.__emulate_tty
+        return self.__settings.emulate_tty
 
     @property
     def sigkill_timeout(self) -> list[Substitution]:
-        return self.__sigkill_timeout
+        return self.__settings.sigkill_timeout
 
     @property
     def sigterm_timeout(self) -> list[Substitution]:
-        return self.__sigterm_timeout
+        return self.__settings.sigterm_timeout
 
     @property
     def output(self) -> Any:
-        return self.__output
+        return self.__settings.output
 
     @property
     def process_details(self) -> dict[str, Any] | None:
@@ -170,18 +161,7 @@ class ExecuteLocal(Action):
             'cwd': description.final_cwd,
             'env': description.final_env,
         }
-        self.__respawn = perform_typed_substitution(context, self.__respawn, bool)
-        self.__shell = perform_typed_substitution(context, self.__shell, bool)
-        self.__respawn_max_retries = perform_typed_substitution(
-            context, self.__respawn_max_retries, int
-        )
-        if self.__respawn_delay is not None:
-            self.__respawn_delay = float(perform_substitutions(context, self.__respawn_delay))
-        if 'emulate_tty' in context.launch_configurations:
-            configured = str(context.launch_configurations['emulate_tty'])
-            expression = normalize_to_list_of_substitutions(configured)
-            self.__emulate_tty = evaluate_condition_expression(context, expression)
-        self.__emulate_tty = perform_typed_substitution(context, self.__emulate_tty, bool)
+        self.__settings.perform(context)
 
     def execute(self, context: LaunchContext) -> _Entities:
         if self.__process_event_args is not None:
@@ -193,10 +173,7 @@ class ExecuteLocal(Action):
         if context.is_shutdown:
             return None
         name = str(self.__process_description.final_name)
-        output = self.__output
-        if not isinstance(output, Mapping):
-            output = perform_substitutions(context, output)
-        for fd, logger in enumerate(get_output_loggers(name, output), start=1):
+        for fd, logger in enumerate(get_output_loggers(name, self.__settings.output), start=1):
             self.__outputs[fd] = ProcessOutput(
                 logger, self.__format_line, cached=self.__cached_output
             )
@@ -211,16 +188,14 @@ class ExecuteLocal(Action):
         return self.__output_format.format(line=line, this=self)
 
     def __register_handlers(self, context: LaunchContext) -> None:
-        for kind, function in (
-            (ShutdownProcess, self.__on_shutdown_process),
-            (SignalProcess, self.__on_signal_process),
-            (ProcessStdin, self.__on_stdin),
-        ):
+        functions: dict[type[Event], Callable[[LaunchContext], Any]] = {
+            ShutdownProcess: self.__on_shutdown_process,
+            SignalProcess: self.__on_signal_process,
+            ProcessStdin: self.__on_stdin,
+        }
+        for kind, function in functions.items():
             self.__handlers.append(
-                EventHandler(
-                    matcher=lambda event, kind=kind: isinstance(event, kind),
-                    entities=OpaqueFunction(function=function),
-                )
+                EventHandler(matcher=_matches(kind), entities=OpaqueFunction(function=function))
             )
         self.__handlers.append(OnShutdown(on_shutdown=self.__on_launch_shutdown))
         if self.__on_exit is not None:
@@ -238,6 +213,7 @@ class ExecuteLocal(Action):
         try:
             while await self.__run_once(context):
                 self.__respawn_retries += 1
+                self.__child = None
         finally:
             for timer in self.__timers:
                 timer.cancel()
@@ -249,49 +225,46 @@ class ExecuteLocal(Action):
         """Run the process to its end and return whether it is to run again."""
         details = self.__details
         logger = get_logger(details['name'])
-        cmd = details['cmd']
+        cmd = printable_command(details['cmd'])
         if self.__log_cmd:
-            logger.info(
-                f"process details: cmd='{printable_command(cmd)}', cwd='{details['cwd']}', "
-                f'custom_env?={self.__process_description.env is not None}'
-            )
+            logger.info(f"process details: cmd='{cmd}', cwd='{details['cwd']}'")
         try:
-            child = await start_child_process(
-                cmd,
-                on_output=lambda fd, data: self.__on_output(context, fd, data),
-                cwd=details['cwd'],
-                env=details['env'],
-                shell=self.__shell,
-                emulate_tty=self.__emulate_tty,
-            )
+            child = await self.__start(context)
         except (OSError, ValueError) as error:
-            logger.error(f"cannot start the process: {error}, cmd '{printable_command(cmd)}'")
+            logger.error(f"cannot start the process: {error}, cmd '{cmd}'")
             return False
+        pid = details['pid'] = child.pid
         self.__child = child
-        details['pid'] = child.pid
-        logger.info(f'process started with pid [{child.pid}]')
+        logger.info(f'process started with pid [{pid}]')
         context.emit_event_sync(ProcessStarted(**details))
         returncode = await child.complete
         self.__return_code = returncode
         for output in self.__outputs.values():
             output.flush()
         if returncode == 0:
-            logger.info(f'process has finished cleanly [pid {child.pid}]')
+            logger.info(f'process has finished cleanly [pid {pid}]')
         else:
-            logger.error(
-                f'process has died [pid {child.pid}, exit code {returncode}, cmd '
-                f"'{printable_command(cmd)}']."
-            )
+            logger.error(f"process has died [pid {pid}, exit code {returncode}, cmd '{cmd}'].")
         context.emit_event_sync(ProcessExited(returncode=returncode, **details))
         return await self.__is_to_respawn(context)
 
+    async def __start(self, context: LaunchContext) -> ChildProcess:
+        details = self.__details
+        return await start_child_process(
+            details['cmd'],
+            on_output=lambda fd, data: self.__on_output(context, fd, data),
+            cwd=details['cwd'],
+            env=details['env'],
+            shell=self.__settings.shell,
+            emulate_tty=self.__settings.emulate_tty,
+        )
+
     async def __is_to_respawn(self, context: LaunchContext) -> bool:
         assert self.__shutdown is not None
-        limit = self.__respawn_max_retries
-        if not self.__respawn or (0 <= limit <= self.__respawn_retries):
+        if not self.__settings.respawns(self.__respawn_retries):
             return False
-        if self.__respawn_delay:
-            await asyncio.wait((self.__shutdown,), timeout=self.__respawn_delay)
+        if self.__settings.respawn_delay:
+            await asyncio.wait((self.__shutdown,), timeout=self.__settings.respawn_delay)
         return not (context.is_shutdown or self.__shutdown.done())
 
     def __on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
@@ -322,9 +295,7 @@ class ExecuteLocal(Action):
         event = context.locals.event
         if not event.process_matcher(self):
             return
-        if self.__child is None:
-            raise RuntimeError('Signal event received before execution.')
-        if self.__child.complete.done():
+        if self.__child is None or self.__child.complete.done():
             return
         name = self.__details['name']
         get_logger(name).info(f"sending signal '{event.signal_name}' to process[{name}]")
@@ -356,49 +327,18 @@ class ExecuteLocal(Action):
         self.__shutdown.set_result(None)
         if self.__child.complete.done():
             return None
-        self.__timers = self.__escalation(context)
+        settings = self.__settings
+        self.__timers = escalation_timers(
+            self,
+            self.__details['name'],
+            sigterm_sec=perform_seconds(context, settings.sigterm_timeout, 'sigterm_timeout'),
+            sigkill_sec=perform_seconds(context, settings.sigkill_timeout, 'sigkill_timeout'),
+        )
         actions: list[LaunchDescriptionEntity] = list(self.__timers)
         if send_sigint:
-            actions.append(self.__signal(signal.SIGINT))
+            actions.append(emit_signal(self, signal.SIGINT))
         return actions
 
-    def __signal(self, number: signal.Signals) -> EmitEvent:
-        return EmitEvent(
-            event=SignalProcess(signal_number=number, process_matcher=matches_action(self))
-        )
 
-    def __escalation(self, context: LaunchContext) -> list[TimerAction]:
-        """Return timers for SIGTERM, and for SIGKILL after it."""
-        later = PythonExpression(
-            ['float(', *self.__sigterm_timeout, ') + float(', *self.__sigkill_timeout, ')']
-        )
-        waited_sigterm = perform_substitutions(context, self.__sigterm_timeout)
-        waited_sigkill = perform_substitutions(context, [later])
-        steps = (
-            (waited_sigterm, signal.SIGINT, signal.SIGTERM),
-            (waited_sigkill, signal.SIGTERM, signal.SIGKILL),
-        )
-        name = self.__details['name']
-        timers = []
-        for waited, before, number in steps:
-            text = (
-                f"process[{name}] failed to terminate '{waited}' seconds after receiving "
-                f"'{before.name}', escalating to '{number.name}'"
-            )
-            complain = OpaqueFunction(
-                function=lambda _context, text=text: get_logger(name).error(text)
-            )
-            timers.append(
-                TimerAction(
-                    period=float(waited),
-                    actions=[complain, self.__signal(number)],
-                    cancel_on_shutdown=False,
-                )
-            )
-        return timers
-
-
-def _seconds(value: Any) -> list[Substitution]:
-    return normalize_to_list_of_substitutions(
-        str(value) if isinstance(value, (int, float)) else value
-    )
+def _matches(kind: type[Event]) -> Callable[[Event], bool]:
+    return lambda event: isinstance(event, kind)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 import inspect
-from typing import Any, Optional
+from typing import Any
 
 import yaml
 
@@ -18,7 +18,7 @@ from ..some_substitutions_type import SomeSubstitutionsType
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .opaque_function import OpaqueFunction
 
-_Entities = Optional[list[LaunchDescriptionEntity]]
+_Entities = list[LaunchDescriptionEntity] | None
 
 
 class _Turn(Action):

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
+from pathlib import Path
 from typing import Any
 
 from ..action import Action
@@ -21,6 +22,7 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from .opaque_function import OpaqueFunction
 from .set_launch_configuration import SetLaunchConfiguration
 
+_Argument = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
 _PLACE = ('current_launch_file_path', 'current_launch_file_directory')
 
 
@@ -39,7 +41,7 @@ class IncludeLaunchDescription(Action):
         self,
         launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
         *,
-        launch_arguments: Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]] | None = None,
+        launch_arguments: Iterable[_Argument] | None = None,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
@@ -101,9 +103,10 @@ class IncludeLaunchDescription(Action):
     def __enter_place(self, context: LaunchContext) -> None:
         known = context.get_locals_as_dict()
         self.__outer_place = {name: known[name] for name in _PLACE if name in known}
-        path = os.path.abspath(self.__source.location)
-        if os.path.exists(path):
-            place = dict(zip(_PLACE, (path, os.path.dirname(path))))
+        path = Path(self.__source.location).absolute()
+        if path.exists():
+            path = Path(os.path.normpath(path))
+            place = {_PLACE[0]: str(path), _PLACE[1]: str(path.parent)}
         else:
             place = dict.fromkeys(_PLACE, self.__source.location)
         context.extend_globals(place)

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 import itertools
-import os
 from pathlib import Path
 import re
 import shlex
@@ -137,7 +136,7 @@ class Executable:
         cmd = [perform_substitutions(context, part) for part in parts]
         if not cmd or not cmd[0].strip():
             raise ValueError(f'the command {cmd} is empty: its first item is the program')
-        program = os.path.basename(cmd[0])
+        program = Path(cmd[0]).name
         name = program
         if self.__name is not None:
             name = perform_substitutions(context, self.__name)

@@ -111,8 +111,7 @@ def parse_substitution(value: str) -> list[Substitution]:
 def parse_if_substitutions(value: Any) -> Any:
     """Return a value with every text in it parsed, where it has substitutions."""
     if isinstance(value, str):
-        parsed = parse_substitution(value)
-        return parsed
+        return parse_substitution(value)
     if isinstance(value, list):
         return [parse_if_substitutions(item) for item in value]
     return value

@@ -135,20 +135,17 @@ class Parser:
 
         :raises InvalidFrontendLaunchFileError: none could.
         """
-        opened = file if not isinstance(file, (str, Path)) else Path(file).open(encoding='utf-8')
-        name = str(getattr(opened, 'name', ''))
-        try:
-            parsers = cls.get_parsers_from_filename(name) or list(cls._parsers().values())
-            errors: list[Exception] = []
-            for parser in parsers:
-                try:
-                    return parser.load(opened)
-                except Exception as error:
-                    errors.append(error)
-                    opened.seek(0)
-        finally:
-            if opened is not file:
-                opened.close()
+        if isinstance(file, (str, Path)):
+            with Path(file).open(encoding='utf-8') as opened:
+                return Parser.load(opened)
+        name = str(getattr(file, 'name', ''))
+        errors: list[Exception] = []
+        for parser in cls.get_parsers_from_filename(name) or list(cls._parsers().values()):
+            try:
+                return parser.load(file)
+            except Exception as error:
+                errors.append(error)
+                file.seek(0)
         known = bool(cls.get_parsers_from_filename(name))
         extension = Path(name).suffix[1:] if known else ''
         raise InvalidFrontendLaunchFileError(extension, likely_errors=errors)

@@ -22,11 +22,10 @@ _IDENTIFIERS: dict[str, Any] = {
 
 def check_is_list_entity(data_type: Any) -> bool:
     """Return whether elements are asked for, not a value."""
-    if data_type in (list[Entity], list[Entity]):
-        return True
     arguments = getattr(data_type, '__args__', ())
     return bool(
-        getattr(data_type, '__origin__', None) is list
+        getattr(data_type, '__origin__', None) is list  # of list[...] and typing.List[...]
+        and arguments
         and isinstance(arguments[0], type)
         and issubclass(arguments[0], Entity)
     )

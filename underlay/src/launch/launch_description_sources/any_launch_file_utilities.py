@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+import errno
 from pathlib import Path
 
 from ..frontend import Parser
@@ -24,9 +26,10 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
     :raises FileNotFoundError: there is no such file.
     """
     path = str(launch_file_path)
-    with open(path, encoding='utf-8'):
-        pass  # a missing file is no file of a wrong format
-    loaders = [
+    if not Path(path).is_file():
+        # A missing file is no file of a wrong format.
+        raise FileNotFoundError(errno.ENOENT, 'there is no such launch file', path)
+    loaders: list[Callable[[str], LaunchDescription]] = [
         get_launch_description_from_python_launch_file,
         get_launch_description_from_frontend_launch_file,
     ]

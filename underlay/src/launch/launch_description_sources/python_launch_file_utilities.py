@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import ModuleType
-from typing import cast
 
 from ..launch_description import LaunchDescription
 from ..source_location import register_launch_file, traceback_location
@@ -58,4 +57,4 @@ def get_launch_description_from_python_launch_file(
             f"generate_launch_description() of '{path}' returns {description!r}, not a "
             'LaunchDescription'
         )
-    return cast(LaunchDescription, description)
+    return description

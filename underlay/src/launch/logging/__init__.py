@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 import logging
 import os
 from pathlib import Path
-from typing import Any, Literal, Union
+from typing import Any, Literal
 
 from . import handlers
 from .log_folder import new_log_folder
@@ -28,8 +28,8 @@ _OUTPUT_ON_SCREEN = logging.Formatter('{message}', style='{')
 _OUTPUT_IN_FILE = logging.Formatter('{created:.7f} {message}', style='{')
 
 _Style = Literal['%', '{', '$']
-_Destinations = Union[str, Iterable[str]]
-OutputConfig = Union[str, Mapping[str, _Destinations]]
+_Destinations = str | Iterable[str]
+OutputConfig = str | Mapping[str, _Destinations]
 
 
 def _formatter(
@@ -234,12 +234,13 @@ def get_output_loggers(
 
 def reset() -> None:
     """Forget every handler and setting, as a test wants between two launches."""
-    known = {launch_config.screen_handler, *launch_config.file_handlers.values()}
+    known: list[logging.Handler] = [*launch_config.file_handlers.values()]
+    if launch_config.screen_handler is not None:
+        known.append(launch_config.screen_handler)
     for logger in [logging.root, *logging.root.manager.loggerDict.values()]:
         if isinstance(logger, logging.Logger):
             for handler in [handler for handler in logger.handlers if handler in known]:
                 logger.removeHandler(handler)
     for handler in known:
-        if handler is not None:
-            handler.close()
+        handler.close()
     launch_config.reset()

@@ -17,7 +17,7 @@ def logging_directory() -> Path:
     folder = os.environ.get('ROS_LOG_DIR')
     if not folder:
         folder = str(Path(os.environ.get('ROS_HOME') or '~/.ros') / 'log')
-    return Path(os.path.normpath(os.path.expanduser(folder)))
+    return Path(os.path.normpath(Path(folder).expanduser()))
 
 
 def make_unique_log_dir(*, base_path: Path) -> Path:

@@ -115,7 +115,7 @@ class AnySubstitution(_ManyValued):
     """Becomes 'true' where at least one of the values says true."""
 
     def perform(self, context: LaunchContext) -> str:
-        return _text(any([_truth(context, arg) for arg in self.args]))
+        return _text(any(_truth(context, arg) for arg in self.args))
 
 
 @expose_substitution('all')
@@ -123,4 +123,4 @@ class AllSubstitution(_ManyValued):
     """Becomes 'true' where all of the values say true."""
 
     def perform(self, context: LaunchContext) -> str:
-        return _text(all([_truth(context, arg) for arg in self.args]))
+        return _text(all(_truth(context, arg) for arg in self.args))

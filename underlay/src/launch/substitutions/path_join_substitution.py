@@ -42,7 +42,7 @@ class PathJoinSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         parts = [perform_substitutions(context, part) for part in self.substitutions]
-        return os.path.join(*parts) if parts else ''
+        return os.path.join('', *parts)  # noqa: PTH118
 
 
 class PathSubstitution(PathJoinSubstitution):

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TYPE_CHECKING, Union
+from typing import Any, TYPE_CHECKING
 
 import yaml
 
@@ -19,8 +19,8 @@ ScalarTypesTuple = (int, float, bool, str)
 ListTypesTuple = (list[int], list[float], list[bool], list[str])
 AllowedTypesTuple = (*ScalarTypesTuple, *ListTypesTuple)
 AllowedTypesType = Any
-AllowedValueType = Union[int, float, bool, str, list[Any]]
-ScalarValueType = Union[int, float, bool, str]
+ScalarValueType = int | float | bool | str
+AllowedValueType = ScalarValueType | list[Any]
 SomeValueType = Any
 NormalizedValueType = Any
 StrSomeValueType = Any
@@ -33,8 +33,10 @@ def extract_type(data_type: Any) -> tuple[type, bool]:
     """
     if data_type in ScalarTypesTuple:
         return data_type, False
-    if data_type in ListTypesTuple or data_type in (list[int], list[float], list[bool], list[str]):
-        return data_type.__args__[0], True
+    arguments = getattr(data_type, '__args__', ())
+    is_list = getattr(data_type, '__origin__', None) is list  # of list[int] and typing.List[int]
+    if is_list and arguments and arguments[0] in ScalarTypesTuple:
+        return arguments[0], True
     raise ValueError(f'Unrecognized data type: {data_type}')
 
 
@@ -173,9 +175,7 @@ def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
     return [normalize_typed_substitution(item, scalar) for item in value]
 
 
-def perform_typed_substitution(
-    context: LaunchContext, value: Any, data_type: Any | None
-) -> Any:
+def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any | None) -> Any:
     """Return the value of a normalized mix as the type.
 
     :raises ValueError: the text of a substitution does not mean the type.

@@ -46,4 +46,5 @@ class ComposableNodeContainer(Node):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        del context
         raise RuntimeError(f'ComposableNodeContainer: {REFUSAL}')

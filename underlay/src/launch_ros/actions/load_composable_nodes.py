@@ -41,4 +41,5 @@ class LoadComposableNodes(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
+        del context
         raise RuntimeError(f'LoadComposableNodes: {REFUSAL}')

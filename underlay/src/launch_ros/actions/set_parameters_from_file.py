@@ -18,9 +18,7 @@ from ..parameter_descriptions import ParameterFile
 class SetParametersFromFile(Action):
     """Gives a parameter file to the nodes that follow in its scope; their own settings win."""
 
-    def __init__(
-        self, filename: ParameterFile | SomeSubstitutionsType, **kwargs: Any
-    ) -> None:
+    def __init__(self, filename: ParameterFile | SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         is_file = isinstance(filename, ParameterFile)
         self.__file: ParameterFile = filename if is_file else ParameterFile(filename)  # type: ignore[assignment, arg-type]
