@@ -1,0 +1,76 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Settings of the simulator: the only place a default lives.
+
+Values of the velocity controller are those of husky_control for ROS Noetic
+(husky/husky noetic-devel, config/control.yaml) and of the A200's URDF. The metadata of a field
+are its description and its range as a ROS parameter.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+CONTROL_PERIOD_SEC = 0.02
+"""The velocity controller, the odometry and the IMU all run at 50 Hz."""
+
+ROBOT_LENGTH_M = 0.9874
+ROBOT_WIDTH_M = 0.6851
+
+
+def setting(default: Any, description: str, low: float = 0.0, high: float = 0.0) -> Any:
+    """Declare a field that is also a ROS parameter; low < high gives it a range."""
+    metadata = {'description': description, 'low': low, 'high': high}
+    return field(default=default, metadata=metadata)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriveConfig:
+    """What the velocity controller knows of the robot, and what it allows."""
+
+    wheel_separation_m: float = setting(
+        0.5708 * 1.875, 'Track of the kinematic model: 1.875 times the geometric one.', 0.1, 5.0
+    )
+    wheel_radius_m: float = setting(0.1651, 'Wheel radius of the kinematic model.', 0.01, 1.0)
+    speed_limit_m_s: float = setting(1.0, 'Greatest speed, forward and backward.', 0.0, 10.0)
+    acceleration_limit_m_s2: float = setting(3.0, 'Greatest change of speed.', 0.01, 100.0)
+    yaw_rate_limit_rad_s: float = setting(2.0, 'Greatest turn rate, left and right.', 0.0, 20.0)
+    yaw_acceleration_limit_rad_s2: float = setting(
+        6.0, 'Greatest change of the turn rate.', 0.01, 200.0
+    )
+    command_timeout_sec: float = setting(
+        0.25, 'The wheels stop when the last command is older than this, in sim time.', 0.02, 60.0
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotStart:
+    """A robot's name and where it starts: metres and radians in the frame `world`."""
+
+    name: str = 'husky'
+    x: float = setting(0.0, 'Start in the frame world, m.', -1000.0, 1000.0)
+    y: float = setting(0.0, 'Start in the frame world, m.', -1000.0, 1000.0)
+    yaw: float = setting(0.0, 'Heading at the start, rad.', -1000.0, 1000.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunConfig:
+    """How time passes, and what is kept of a run."""
+
+    world: str = setting('', 'MJCF file of the world; empty: the playpen.')
+    real_time_factor: float = setting(
+        1.0, 'Simulated seconds a second; 0: as fast as possible.', 0.0, 1000.0
+    )
+    lockstep: bool = setting(
+        False, 'Wait for a command after each odometry message, then advance one control period.'
+    )
+    record: str = setting('', 'File for the record of the run, written at the end; empty: none.')
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimulationConfig:
+    """What a run is a function of, besides the commands."""
+
+    world: str
+    robots: tuple[RobotStart, ...] = (RobotStart(),)
+    drive: DriveConfig = field(default_factory=DriveConfig)

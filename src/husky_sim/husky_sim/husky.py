@@ -1,0 +1,143 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A Husky in the physics: its wheels, its true state and what its IMU feels."""
+
+import math
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+WHEELS = ('front_left', 'front_right', 'rear_left', 'rear_right')
+JOINTS = tuple(f'{wheel}_wheel_joint' for wheel in WHEELS)
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+
+class RobotState(NamedTuple):
+    """
+    The true state of a robot, in metres, radians and seconds.
+
+    Position and orientation are in the frame `world`; the twist is in base_link, as REP-103 and
+    nav_msgs/Odometry want it. The quaternion is w, x, y, z.
+    """
+
+    position: Vector
+    orientation: Quaternion
+    velocity: Vector
+    angular_velocity: Vector
+
+    @property
+    def yaw(self) -> float:
+        """Return the heading, from -pi to pi."""
+        return yaw_of(self.orientation)
+
+
+class WheelState(NamedTuple):
+    """Angles, speeds and torques of the four wheels, in the order of JOINTS."""
+
+    angles_rad: tuple[float, ...]
+    speeds_rad_s: tuple[float, ...]
+    torques_n_m: tuple[float, ...]
+
+    @property
+    def left_rad(self) -> float:
+        """Return the mean angle of the left wheels."""
+        return (self.angles_rad[0] + self.angles_rad[2]) / 2.0
+
+    @property
+    def right_rad(self) -> float:
+        """Return the mean angle of the right wheels."""
+        return (self.angles_rad[1] + self.angles_rad[3]) / 2.0
+
+
+class Husky:
+    """One robot of a world: reads and drives it by the names in husky.xml."""
+
+    def __init__(self, name: str, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.name = name
+        base = model.joint(f'{name}/base_joint')
+        self._pose = data.qpos[int(base.qposadr[0]) :][:7]
+        self._twist = data.qvel[int(base.dofadr[0]) :][:6]
+        joints = [model.joint(f'{name}/{joint}') for joint in JOINTS]
+        self._angles = [int(joint.qposadr[0]) for joint in joints]
+        self._speeds = [int(joint.dofadr[0]) for joint in joints]
+        self._actuators = [model.actuator(f'{name}/{wheel}_wheel').id for wheel in WHEELS]
+        self._data = data
+        self._gravity_m_s2 = -float(model.opt.gravity[2])
+        # The joints and the actuators of one robot lie side by side, so that slices do.
+        self._wheel_angles = _block(data.qpos, self._angles)
+        self._wheel_speeds = _block(data.qvel, self._speeds)
+        self._torques = _block(data.actuator_force, self._actuators)
+        self._control = _block(data.ctrl, self._actuators)
+
+    def drive(self, left_rad_s: float, right_rad_s: float) -> None:
+        """Set the speeds the servos of the wheels aim at."""
+        self._control[:] = (left_rad_s, right_rad_s, left_rad_s, right_rad_s)
+
+    def state(self) -> RobotState:
+        """Read the true pose and twist."""
+        x, y, z, qw, qx, qy, qz = self._pose.tolist()
+        vx, vy, vz, wx, wy, wz = self._twist.tolist()
+        orientation = (qw, qx, qy, qz)
+        return RobotState(
+            (x, y, z), orientation, into_body(orientation, (vx, vy, vz)), (wx, wy, wz)
+        )
+
+    def wheels(self) -> WheelState:
+        """Read the wheels."""
+        return WheelState(
+            tuple(self._wheel_angles.tolist()),
+            tuple(self._wheel_speeds.tolist()),
+            tuple(self._torques.tolist()),
+        )
+
+    def world_velocity(self) -> Vector:
+        """Return the velocity of base_link along the axes of the world, in m/s."""
+        vx, vy, vz = self._twist[:3].tolist()
+        return vx, vy, vz
+
+    def specific_force(self, before: Vector, after: Vector, period_sec: float) -> Vector:
+        """
+        Return what an accelerometer at base_link feels, in m/s2, in base_link.
+
+        It is the mean over the time from one world velocity to the next, which is how an IMU
+        keeps the shaking of contacts out of samples 20 ms apart.
+        """
+        return into_body(
+            tuple(self._pose[3:].tolist()),  # type: ignore[arg-type]
+            (
+                (after[0] - before[0]) / period_sec,
+                (after[1] - before[1]) / period_sec,
+                (after[2] - before[2]) / period_sec + self._gravity_m_s2,
+            ),
+        )
+
+
+def _block(values: np.ndarray, indices: list[int]) -> np.ndarray:
+    """Return a view on consecutive entries."""
+    if indices != list(range(indices[0], indices[0] + len(indices))):
+        raise RuntimeError(f'the wheels lie apart in the model: {indices}')
+    return values[indices[0] : indices[0] + len(indices)]
+
+
+def yaw_of(orientation: Quaternion) -> float:
+    """Return the heading of a quaternion w, x, y, z."""
+    w, x, y, z = orientation
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def into_body(orientation: Quaternion, vector: Vector) -> Vector:
+    """Turn a vector of the world into the axes of a body."""
+    w, x, y, z = orientation
+    a, b, c = vector
+    # v' = v + 2 u x (u x v + w v), with u the conjugate's vector part.
+    tx = -(y * c - z * b) + w * a
+    ty = -(z * a - x * c) + w * b
+    tz = -(x * b - y * a) + w * c
+    return (
+        a - 2.0 * (y * tz - z * ty),
+        b - 2.0 * (z * tx - x * tz),
+        c - 2.0 * (x * ty - y * tx),
+    )

@@ -1,0 +1,115 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulator's states as ROS messages.
+
+Each function fills a message that was made once: what never changes is already in it, since
+building a message costs more than the physics between two of them.
+"""
+
+import math
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu, JointState
+
+from husky_sim.contacts import Touch
+from husky_sim.diff_drive import VelocityController, WheelOdometry
+from husky_sim.husky import JOINTS, Quaternion, Vector
+from husky_sim.localization import FusedOdometry
+from husky_sim.simulation import SimulatedRobot
+
+# Diagonals of the velocity controller (husky_control, control.yaml).
+ODOMETRY_VARIANCES = (0.001, 0.001, 0.001, 0.001, 0.001, 0.03)
+
+
+def new_odometry(frame_id: str, variances: tuple[float, ...]) -> Odometry:
+    """Make an odometry message of base_link with a diagonal covariance."""
+    message = Odometry()
+    message.header.frame_id = frame_id
+    message.child_frame_id = 'base_link'
+    for place, variance in enumerate(variances):
+        message.pose.covariance[7 * place] = variance
+        message.twist.covariance[7 * place] = variance
+    return message
+
+
+def new_imu() -> Imu:
+    """Make an IMU message; its variances are filled in where noise is switched on."""
+    message = Imu()
+    message.header.frame_id = 'base_link'
+    return message
+
+
+def new_joint_state() -> JointState:
+    """Make a message of the four wheels."""
+    message = JointState()
+    message.name = list(JOINTS)
+    return message
+
+
+def fill_planar(message: Odometry, estimate: WheelOdometry | FusedOdometry) -> None:
+    """Fill in an estimate that lives in the plane."""
+    message.pose.pose.position.x = estimate.x
+    message.pose.pose.position.y = estimate.y
+    message.pose.pose.orientation.z = math.sin(estimate.yaw / 2.0)
+    message.pose.pose.orientation.w = math.cos(estimate.yaw / 2.0)
+    message.twist.twist.linear.x = estimate.speed_m_s
+    message.twist.twist.angular.z = estimate.yaw_rate_rad_s
+
+
+def fill_truth(message: Odometry, robot: SimulatedRobot) -> None:
+    """Fill in the true pose and twist."""
+    state = robot.state
+    _set_xyz(message.pose.pose.position, state.position)
+    _set_quaternion(message.pose.pose.orientation, state.orientation)
+    _set_xyz(message.twist.twist.linear, state.velocity)
+    _set_xyz(message.twist.twist.angular, state.angular_velocity)
+
+
+def fill_imu(message: Imu, robot: SimulatedRobot) -> None:
+    """Fill in what the IMU measures."""
+    _set_quaternion(message.orientation, robot.state.orientation)
+    _set_xyz(message.angular_velocity, robot.state.angular_velocity)
+    _set_xyz(message.linear_acceleration, robot.acceleration_m_s2)
+
+
+def fill_joint_state(message: JointState, robot: SimulatedRobot) -> None:
+    """Fill in the wheels."""
+    message.position = robot.wheels.angles_rad
+    message.velocity = robot.wheels.speeds_rad_s
+    message.effort = robot.wheels.torques_n_m
+
+
+def fill_command(message: Twist, controller: VelocityController) -> None:
+    """Fill in the command as the limits left it."""
+    message.linear.x = controller.speed_m_s
+    message.angular.z = controller.yaw_rate_rad_s
+
+
+def new_collision(touch: Touch) -> DiagnosticStatus:
+    """Make the message of a collision."""
+    x, y, z = touch.position
+    return DiagnosticStatus(
+        level=DiagnosticStatus.ERROR,
+        name=touch.obstacle,
+        message=f'{touch.robot} touched {touch.obstacle} with its {touch.part}',
+        hardware_id=touch.robot,
+        values=[
+            KeyValue(key='obstacle', value=touch.obstacle),
+            KeyValue(key='part', value=touch.part),
+            KeyValue(key='force_n', value=f'{touch.force_n:.1f}'),
+            KeyValue(key='position', value=f'{x:.3f} {y:.3f} {z:.3f}'),
+            KeyValue(key='time_sec', value=f'{touch.time_sec:.3f}'),
+        ],
+    )
+
+
+def _set_xyz(message: Any, values: Vector) -> None:
+    message.x, message.y, message.z = values
+
+
+def _set_quaternion(message: Any, values: Quaternion) -> None:
+    message.w, message.x, message.y, message.z = values

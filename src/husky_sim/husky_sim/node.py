@@ -1,0 +1,234 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulator as a ROS 2 node.
+
+Time passes in one of three ways: at real_time_factor times the wall's pace, as fast as possible
+(factor 0), or in lockstep, where each control period waits for the command that answers the
+odometry of the one before.
+"""
+
+import signal
+import sys
+import time
+from typing import Any
+
+from builtin_interfaces.msg import Time
+import rclpy
+from rclpy.clock import Clock as RosClock
+from rclpy.clock import ClockType
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Empty, SetBool, Trigger
+
+from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.errors import SimulatorError
+from husky_sim.pacing import Pacer
+from husky_sim.parameters import read_run, read_simulation
+from husky_sim.record import RunRecord
+from husky_sim.robot_topics import QOS, RobotTopics
+from husky_sim.simulation import Simulation
+
+REPEAT_SEC = 0.5
+"""How often lockstep repeats its first odometry message, until the first command comes."""
+
+SIGNAL_LATENCY_SEC = 0.2
+"""How long a signal may go unnoticed."""
+
+_LOCKSTEP_POLL_SEC = 0.01
+_SHORTEST_TICK_SEC = 0.001
+
+
+class SimulatorNode(Node):
+    """Simulates the robots of a world and speaks for them."""
+
+    def __init__(self, **arguments: Any) -> None:
+        """
+        Read the parameters and load the world.
+
+        :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
+        :raises SimulatorError: if a parameter, the world or a start pose cannot be used.
+        """
+        super().__init__('husky_sim', **arguments)
+        self._run = read_run(self)
+        config = read_simulation(self, self._run.world)
+        self._simulation = Simulation(config)
+        self._record = RunRecord(self._simulation) if self._run.record else None
+        factor = self._run.real_time_factor
+        self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
+        self._paused = False
+        self._driven = False  # lockstep: the first odometry message is out
+        self._answered = False  # lockstep: and was answered
+        self._sent_at_sec = 0.0
+        many = len(config.robots) > 1
+        self._topics = [
+            RobotTopics(self, robot, f'{robot.name}/' if many else '', self._on_command)
+            for robot in self._simulation.robots
+        ]
+        self._by_name = {topics.robot.name: topics for topics in self._topics}
+        self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
+        self._clock_message = Clock()
+        self.create_service(Empty, '~/reset', self._on_reset)
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.create_service(Trigger, '~/step', self._on_step)
+        self.create_timer(
+            self._tick_sec(), self._on_tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
+        )
+        self.get_logger().info(
+            f'{self._run.world}: {len(self._simulation.world.obstacles)} obstacles, '
+            f'{", ".join(robot.name for robot in config.robots)}; '
+            f'{self._pace_in_words()}'
+        )
+
+    def _tick_sec(self) -> float:
+        if self._run.real_time_factor > 0.0:
+            return max(CONTROL_PERIOD_SEC / self._run.real_time_factor, _SHORTEST_TICK_SEC)
+        return _LOCKSTEP_POLL_SEC if self._run.lockstep else 0.0
+
+    def _pace_in_words(self) -> str:
+        factor = self._run.real_time_factor
+        pace = f'{factor:g} x real time' if factor > 0.0 else 'as fast as possible'
+        return f'lockstep, {pace}' if self._run.lockstep else pace
+
+    def _on_tick(self) -> None:
+        if self._paused:
+            return
+        if self._run.lockstep:
+            self._continue_lockstep()
+        elif self._run.real_time_factor > 0.0:
+            for _ in range(self._pacer.due(time.monotonic())):
+                self._advance()
+        else:
+            self._advance()
+
+    def _on_command(self) -> None:
+        if self._run.lockstep and not self._paused:
+            self._answered = True
+            self._advance_if_answered()
+
+    def _continue_lockstep(self) -> None:
+        """Begin, repeat the first message, or take up a command that came too early."""
+        if self._answered:
+            self._advance_if_answered()
+            return
+        now = time.monotonic()
+        if not self._driven:
+            if all(topics.has_driver() for topics in self._topics):
+                self._driven = True
+                self._publish()
+                self._sent_at_sec = now
+        elif now - self._sent_at_sec >= REPEAT_SEC:
+            self._publish()
+            self._sent_at_sec = now
+
+    def _advance_if_answered(self) -> None:
+        if not all(topics.commanded for topics in self._topics):
+            return
+        if self._run.real_time_factor > 0.0 and not self._pacer.due(time.monotonic(), most=1):
+            return
+        self._advance()
+
+    def _advance(self) -> None:
+        for topics in self._topics:
+            topics.commanded = False
+        self._simulation.advance()
+        if self._record is not None:
+            self._record.append()
+        self._publish()
+        for topics in self._topics:
+            if topics.robot.timeout_bites:
+                config = topics.robot.controller.config
+                self.get_logger().warning(
+                    f'{topics.robot.name}: no command for {config.command_timeout_sec:g} s '
+                    '(command_timeout_sec); stopping'
+                )
+
+    def _publish(self) -> None:
+        seconds, nanoseconds = divmod(self._simulation.time_ns, 1_000_000_000)
+        stamp = Time(sec=seconds, nanosec=nanoseconds)
+        for topics in self._topics:
+            topics.now_sec = self._simulation.time_sec
+            topics.publish_filtered(stamp)
+        self._clock_message.clock = stamp
+        self._clock_publisher.publish(self._clock_message)
+        for topics in self._topics:
+            topics.publish_rest(stamp)
+        for touch in self._simulation.touches:
+            self._by_name[touch.robot].publish_collision(touch)
+
+    def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
+        self._simulation.reset()
+        if self._record is not None:
+            self._record.restart()
+        self._pacer.restart()
+        self._driven = self._answered = False
+        if not self._run.lockstep:
+            self._publish()
+        self.get_logger().info('everything is back at its start')
+        return response
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._paused = request.data
+        self._pacer.restart()
+        response.success = True
+        response.message = f'{"paused" if self._paused else "going on"} at {self._now_in_words()}'
+        return response
+
+    def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._paused
+        if self._paused:
+            self._advance()
+            response.message = f'stepped to {self._now_in_words()}'
+        else:
+            response.message = 'a step needs a paused simulation; call ~/pause with true first'
+        return response
+
+    def _now_in_words(self) -> str:
+        return f'{self._simulation.time_sec:.2f} s of simulated time'
+
+    def destroy_node(self) -> None:
+        """Write the record, then let go of everything; may be called twice."""
+        record, self._record = self._record, None
+        if record is not None:
+            record.write(self._run.record)
+        super().destroy_node()
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the simulator until it is interrupted."""
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    node: SimulatorNode | None = None
+    try:
+        node = SimulatorNode()
+        spin_until_interrupted(node)
+    except SimulatorError as error:
+        print(f'husky_sim: {error}', file=sys.stderr)
+        return 2
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+def spin_until_interrupted(node: Node) -> None:
+    """
+    Spin with the executor that costs least, until SIGINT or SIGTERM.
+
+    A signal lets the callback that runs finish, so that a run ends with a whole control period.
+    """
+    executor = EventsExecutor()
+    interrupted: Future[None] = Future(executor=executor)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: interrupted.done() or interrupted.set_result(None))
+    executor.add_node(node)
+    while not interrupted.done():
+        # The executor looks at signals only between two spins.
+        executor.spin_until_future_complete(interrupted, timeout_sec=SIGNAL_LATENCY_SEC)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,43 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The wall clock against simulated time.
+
+A simulation that fell behind catches up, but only by CATCH_UP_SEC of wall time: after a long
+stall it goes on from where it is, and the physics never takes a longer step.
+"""
+
+import math
+
+CATCH_UP_SEC = 0.1
+
+
+class Pacer:
+    """Says how many control periods are due. Times are of a steady wall clock, in seconds."""
+
+    def __init__(self, *, period_sec: float, real_time_factor: float) -> None:
+        self._wall_period_sec = period_sec / real_time_factor
+        self._period_sec = period_sec
+        self._next_sec: float | None = None
+        self.overruns = 0
+        self.lost_sec = 0.0
+
+    def restart(self) -> None:
+        """Begin anew at the next question, after a pause."""
+        self._next_sec = None
+
+    def due(self, now_sec: float, *, most: int = 1000) -> int:
+        """Return how many periods to advance now, and count on it that it is done."""
+        if self._next_sec is None:
+            self._next_sec = now_sec
+        late_sec = now_sec - self._next_sec
+        if late_sec < 0.0:
+            return 0
+        if late_sec > CATCH_UP_SEC + self._wall_period_sec:
+            self.overruns += 1
+            self.lost_sec += late_sec
+            self._next_sec = now_sec
+            late_sec = 0.0
+        periods = min(most, 1 + math.floor(late_sec / self._wall_period_sec))
+        self._next_sec += periods * self._wall_period_sec
+        return periods

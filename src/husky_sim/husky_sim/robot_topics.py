@@ -1,0 +1,108 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of one robot."""
+
+from collections.abc import Callable
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import Imu, JointState
+
+from husky_sim import messages
+from husky_sim.contacts import Touch
+from husky_sim.simulation import SimulatedRobot
+from husky_sim.transforms import TransformTopics
+
+# Reliable and volatile: a reader that is slow for a moment loses nothing.
+QOS = QoSProfile(depth=10)
+
+
+class RobotTopics:
+    """
+    Publishes what a robot measures and takes its commands.
+
+    :param namespace: before every topic; empty for the only robot, ending in / for one of many.
+    :param on_command: called after every command was taken.
+    """
+
+    def __init__(
+        self, node: Node, robot: SimulatedRobot, namespace: str, on_command: Callable[[], None]
+    ) -> None:
+        self.robot = robot
+        self.commanded = False
+        self._on_command = on_command
+        self._logger = node.get_logger()
+        variances = messages.ODOMETRY_VARIANCES
+        self._wheel = messages.new_odometry('odom', variances)
+        self._filtered = messages.new_odometry('odom', variances)
+        self._truth = messages.new_odometry('world', (0.0,) * 6)
+        self._imu = messages.new_imu()
+        self._joints = messages.new_joint_state()
+        self._command_out = Twist()
+        controller = f'{namespace}husky_velocity_controller'
+        self.filtered_publisher = node.create_publisher(
+            Odometry, f'{namespace}odometry/filtered', QOS
+        )
+        self._wheel_publisher = node.create_publisher(Odometry, f'{controller}/odom', QOS)
+        self._command_publisher = node.create_publisher(Twist, f'{controller}/cmd_vel_out', QOS)
+        self._truth_publisher = node.create_publisher(
+            Odometry, f'{namespace}ground_truth/odom', QOS
+        )
+        self._imu_publisher = node.create_publisher(Imu, f'{namespace}imu/data', QOS)
+        self._joint_publisher = node.create_publisher(JointState, f'{namespace}joint_states', QOS)
+        self._collision_publisher = node.create_publisher(
+            DiagnosticStatus, f'{namespace}collisions', QOS
+        )
+        self._transforms = TransformTopics(node, namespace)
+        self.command_subscription = node.create_subscription(
+            Twist, f'{controller}/cmd_vel', self._on_cmd_vel, QOS
+        )
+        self.now_sec = 0.0
+
+    def _on_cmd_vel(self, message: Twist) -> None:
+        try:
+            self.robot.controller.command(
+                message.linear.x, message.angular.z, time_sec=self.now_sec
+            )
+        except ValueError as error:
+            self._logger.error(f'{self.robot.name}: {error}', throttle_duration_sec=1.0)
+        self.commanded = True
+        self._on_command()
+
+    def publish_filtered(self, stamp: Time) -> None:
+        """Publish what a driver steers by: first of all, so that it works while we go on."""
+        self._filtered.header.stamp = stamp
+        messages.fill_planar(self._filtered, self.robot.filtered)
+        self.filtered_publisher.publish(self._filtered)
+
+    def publish_rest(self, stamp: Time) -> None:
+        """Publish everything else of a control period."""
+        robot = self.robot
+        for message in (self._wheel, self._truth, self._imu, self._joints):
+            message.header.stamp = stamp
+        messages.fill_planar(self._wheel, robot.odometry)
+        self._wheel_publisher.publish(self._wheel)
+        messages.fill_command(self._command_out, robot.controller)
+        self._command_publisher.publish(self._command_out)
+        messages.fill_imu(self._imu, robot)
+        self._imu_publisher.publish(self._imu)
+        messages.fill_joint_state(self._joints, robot)
+        self._joint_publisher.publish(self._joints)
+        messages.fill_truth(self._truth, robot)
+        self._truth_publisher.publish(self._truth)
+        self._transforms.publish(self._filtered, robot)
+
+    def publish_collision(self, touch: Touch) -> None:
+        """Publish one collision."""
+        self._collision_publisher.publish(messages.new_collision(touch))
+
+    def has_driver(self) -> bool:
+        """Tell whether somebody reads the odometry and somebody writes commands."""
+        return (
+            self.filtered_publisher.get_subscription_count() > 0
+            and self.command_subscription.get_publisher_count() > 0
+        )

@@ -1,0 +1,138 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulation: physics and controllers, advanced by whole control periods.
+
+It knows neither ROS nor the wall clock, so a run is a function of the world file, the settings
+and the commands, bit for bit.
+"""
+
+import mujoco
+
+from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
+from husky_sim.contacts import Touch, TouchDetector
+from husky_sim.diff_drive import VelocityController, WheelOdometry
+from husky_sim.husky import Husky, Vector
+from husky_sim.localization import FusedOdometry
+from husky_sim.world import load_world, World
+
+PERIOD_NS = round(CONTROL_PERIOD_SEC * 1e9)
+
+
+class SimulatedRobot:
+    """A Husky with its controller and its estimates, as of the end of the last control period."""
+
+    def __init__(
+        self, start: RobotStart, world: World, data: mujoco.MjData, config: SimulationConfig
+    ) -> None:
+        self.name = start.name
+        self.start = start
+        self.husky = Husky(start.name, world.model, data)
+        self.controller = VelocityController(config.drive)
+        self.odometry = WheelOdometry(config.drive)
+        self.filtered = FusedOdometry()
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget the run; the physics must have been reset before."""
+        self.controller.reset()
+        self.odometry.reset()
+        self.filtered.reset()
+        self.timeout_bites = False
+        self._world_velocity: Vector = (0.0, 0.0, 0.0)
+        self.observe()
+
+    def act(self, time_sec: float) -> None:
+        """Turn the last command into wheel speeds for the coming period."""
+        self.timeout_bites = self.controller.update(
+            time_sec=time_sec, period_sec=CONTROL_PERIOD_SEC
+        )
+        self.husky.drive(*self.controller.wheel_speeds_rad_s())
+
+    def observe(self) -> None:
+        """Read the physics at the end of a period, and update the estimates."""
+        husky = self.husky
+        self.state = husky.state()
+        self.wheels = husky.wheels()
+        velocity = husky.world_velocity()
+        self.acceleration_m_s2 = husky.specific_force(
+            self._world_velocity, velocity, CONTROL_PERIOD_SEC
+        )
+        self._world_velocity = velocity
+        self.odometry.update(
+            self.wheels.left_rad, self.wheels.right_rad, period_sec=CONTROL_PERIOD_SEC
+        )
+        self.filtered.update(
+            distance_m=self.odometry.distance_m,
+            speed_m_s=self.odometry.speed_m_s,
+            imu_yaw=self.state.yaw,
+            imu_yaw_rate_rad_s=self.state.angular_velocity[2],
+        )
+
+
+class Simulation:
+    """Robots in a world. Not for use by two threads at once."""
+
+    def __init__(self, config: SimulationConfig) -> None:
+        """
+        Load the world.
+
+        :raises SimulatorError: if the world or a start pose cannot be used.
+        """
+        self.config = config
+        self.world = load_world(config.world, config.robots)
+        self.model = self.world.model
+        self.data = mujoco.MjData(self.model)
+        self.touches: list[Touch] = []
+        self.periods = 0
+        self._detector = TouchDetector(self.world, self.data)
+        self.robots = [
+            SimulatedRobot(start, self.world, self.data, config) for start in config.robots
+        ]
+
+    @property
+    def time_ns(self) -> int:
+        """Return the simulated time, exactly."""
+        return self.periods * PERIOD_NS
+
+    @property
+    def time_sec(self) -> float:
+        """Return the simulated time."""
+        return self.periods * PERIOD_NS / 1e9
+
+    @property
+    def physics_warnings(self) -> int:
+        """Return how often MuJoCo has warned since the last reset; 0 in a healthy run."""
+        return int(sum(self.data.warning.number.tolist()))
+
+    def advance(self) -> None:
+        """
+        Advance by one control period.
+
+        Afterwards the robots hold what their sensors say at its end, and `touches` holds the
+        collisions whose report fell due.
+        """
+        begin_sec = self.time_sec
+        for robot in self.robots:
+            robot.act(begin_sec)
+        timestep_sec = self.model.opt.timestep
+        for step in range(1, self.world.steps_per_period + 1):
+            mujoco.mj_step(self.model, self.data)
+            self._detector.look(begin_sec + step * timestep_sec)
+        self.periods += 1
+        for robot in self.robots:
+            robot.observe()
+        self.touches = self._detector.reports(self.time_sec)
+
+    def unreported_touches(self) -> list[Touch]:
+        """Return the touches of the last moments, whose force had no time to reach its peak."""
+        return self._detector.remaining()
+
+    def reset(self) -> None:
+        """Put everything back as it was at the start, bit for bit."""
+        mujoco.mj_resetData(self.model, self.data)
+        self._detector.reset()
+        self.touches = []
+        self.periods = 0
+        for robot in self.robots:
+            robot.reset()

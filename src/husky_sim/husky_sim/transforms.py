@@ -1,0 +1,81 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+/tf and /tf_static, where tf2_msgs is installed; without it, nothing.
+
+odom -> base_link is what odometry/filtered says, as in the original, where the filter owns it.
+Ground truth is never on tf (REP-105: one authority for every edge).
+"""
+
+import math
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from husky_sim.husky import WHEELS
+from husky_sim.simulation import SimulatedRobot
+
+try:
+    from tf2_msgs.msg import TFMessage
+except ImportError:
+    TFMessage = None
+
+_WHEEL_X_M, _WHEEL_Y_M, _WHEEL_Z_M = 0.256, 0.2854, 0.03282
+_FIXED = {
+    'base_footprint': (0.0, 0.0, -0.13228),
+    'imu_link': (0.19, 0.0, 0.149),
+    'front_laser': (0.337, 0.0, 0.30795),
+}
+
+
+class TransformTopics:
+    """Publishes the transforms of one robot."""
+
+    def __init__(self, node: Node, namespace: str) -> None:
+        self._publisher: Any = None
+        if TFMessage is None:
+            return
+        # Relative: /tf for the only robot, and its own tree for each of many.
+        topic = f'{namespace}tf'
+        self._publisher = node.create_publisher(TFMessage, topic, QoSProfile(depth=100))
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._static = node.create_publisher(TFMessage, f'{topic}_static', latched)
+        self._static.publish(
+            TFMessage(transforms=[_moved('base_link', *item) for item in _FIXED.items()])
+        )
+        self._base = _moved('odom', 'base_link', (0.0, 0.0, 0.0))
+        self._wheels = [_wheel(name) for name in WHEELS]
+        self._message = TFMessage(transforms=[self._base, *self._wheels])
+
+    def publish(self, filtered: Odometry, robot: SimulatedRobot) -> None:
+        """Publish where base_link and the wheels are."""
+        if self._publisher is None:
+            return
+        self._base.header.stamp = filtered.header.stamp
+        position = filtered.pose.pose.position
+        self._base.transform.translation.x = position.x
+        self._base.transform.translation.y = position.y
+        self._base.transform.rotation = filtered.pose.pose.orientation
+        for wheel, angle_rad in zip(self._wheels, robot.wheels.angles_rad, strict=True):
+            wheel.header.stamp = filtered.header.stamp
+            wheel.transform.rotation.y = math.sin(angle_rad / 2.0)
+            wheel.transform.rotation.w = math.cos(angle_rad / 2.0)
+        self._publisher.publish(self._message)
+
+
+def _wheel(name: str) -> TransformStamped:
+    x = _WHEEL_X_M if name.startswith('front') else -_WHEEL_X_M
+    y = _WHEEL_Y_M if name.endswith('left') else -_WHEEL_Y_M
+    return _moved('base_link', f'{name}_wheel_link', (x, y, _WHEEL_Z_M))
+
+
+def _moved(parent: str, child: str, by: tuple[float, float, float]) -> TransformStamped:
+    transform = TransformStamped()
+    transform.header.frame_id = parent
+    transform.child_frame_id = child
+    translation = transform.transform.translation
+    translation.x, translation.y, translation.z = by
+    return transform

@@ -1,0 +1,75 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulate a Husky in the playpen."""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+# What is handed on to the simulator as parameters: name, default, type, description.
+PARAMETERS = (
+    ('x', '0.0', float, 'Where the robot starts in the frame world, m'),
+    ('y', '0.0', float, 'Where the robot starts in the frame world, m'),
+    ('yaw', '0.0', float, 'Heading of the robot at the start, rad'),
+    ('real_time_factor', '1.0', float, 'Simulated seconds a second; 0.0: as fast as possible'),
+    ('lockstep', 'false', bool, 'true: advance one control period for each command'),
+    ('record', '', str, 'File for the record of the run, written at the end; empty: none'),
+)
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Return the simulator and, if asked for, its view in the browser."""
+    share = FindPackageShare('husky_sim')
+    playpen = PathJoinSubstitution([share, 'worlds', 'playpen.xml'])
+    defaults = PathJoinSubstitution([share, 'config', 'husky_sim.yaml'])
+    given = {
+        name: ParameterValue(LaunchConfiguration(name), value_type=kind)
+        for name, _, kind, _ in PARAMETERS
+    }
+    given['world'] = ParameterValue(LaunchConfiguration('world'), value_type=str)
+    given['use_sim_time'] = ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
+    view = {
+        'package': 'husky_sim',
+        'executable': 'husky_view',
+        'namespace': LaunchConfiguration('namespace'),
+        'output': 'screen',
+    }
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'namespace', default_value='', description='Namespace of all topics but /clock'
+            ),
+            DeclareLaunchArgument(
+                'use_sim_time', default_value='true', description='Log with simulated time'
+            ),
+            DeclareLaunchArgument(
+                'headless', default_value='true', description='false: show the browser view'
+            ),
+            DeclareLaunchArgument(
+                'viewer', default_value='false', description='true: the same as headless:=false'
+            ),
+            DeclareLaunchArgument(
+                'world', default_value=playpen, description='World to simulate, an MJCF file'
+            ),
+            DeclareLaunchArgument(
+                'params_file', default_value=defaults, description='More parameters, as YAML'
+            ),
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, _, description in PARAMETERS
+            ),
+            Node(
+                package='husky_sim',
+                executable='husky_sim',
+                namespace=LaunchConfiguration('namespace'),
+                output='screen',
+                parameters=[LaunchConfiguration('params_file'), given],
+            ),
+            Node(**view, condition=IfCondition(LaunchConfiguration('viewer'))),
+            Node(**view, condition=UnlessCondition(LaunchConfiguration('headless'))),
+        ]
+    )
