@@ -30,7 +30,8 @@ def generate_launch_description() -> LaunchDescription:
     driver = Node(
         package='husky_driver',
         executable='follow_path',
-        parameters=[{'use_sim_time': True}],
+        # No use_sim_time: the driver's clock is the stamps of the odometry.
+        parameters=[{'startup_timeout_sec': 60.0}],
         arguments=['--waypoints', LaunchConfiguration('waypoints')],
         output='screen',
     )
