@@ -45,6 +45,17 @@ def node(action: argparse.Action) -> None:
     _attach(action, lambda _: [n.full_name for n in _graph().nodes if not n.is_hidden])
 
 
+def parameter(action: argparse.Action) -> None:
+    def names(args: argparse.Namespace) -> list[str]:
+        from ros2cli import params
+        from ros2cli.node import command_node
+
+        with command_node() as node:
+            return params.names_of(node, params.find_node(args))
+
+    _attach(action, names)
+
+
 def message_type(action: argparse.Action) -> None:
     _attach(action, lambda _: _interfaces('msg'))
 
