@@ -22,11 +22,13 @@ class InvalidLaunchFileError(Exception):
                 'The launch file may have a syntax error, or its format is unknown'
             )
         else:
-            self._error_message = 'Caught {} when trying to load file of format [{}]'.format(
-                'multiple exceptions' if len(self._likely_errors) > 1 else 'exception', extension
+            number = 'multiple exceptions' if len(self._likely_errors) > 1 else 'exception'
+            self._error_message = (
+                f'Caught {number} when trying to load file of format [{extension}]'
             )
-        for error in self._likely_errors:
-            self._error_message += f'\n - {type(error).__name__}: {error}'
+        texts = [f'{type(error).__name__}: {error}' for error in self._likely_errors]
+        between = ': ' if len(texts) == 1 else '\n - '
+        self._error_message += ''.join(between + text for text in texts)
         super().__init__(self._error_message)
         if self._likely_errors:
             self.__cause__ = self._likely_errors[0]

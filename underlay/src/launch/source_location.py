@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from pathlib import Path
 import sys
-from types import TracebackType
+from types import FrameType, TracebackType
 
 _OWN_FOLDERS = tuple(
     f'{Path(__file__).resolve().parent.parent / name}/'
     for name in ('launch', 'launch_ros', 'launch_xml', 'launch_yaml')
 )
+# What a command line tool builds around a launch file has no place worth naming.
+_TOOLS_FOLDER = f'{Path(__file__).resolve().parent.parent / "ros2cli"}/'
 _launch_files: set[str] = set()
 
 
@@ -22,12 +24,11 @@ def register_launch_file(path: str) -> None:
 
 def caller_location() -> tuple[str, int] | None:
     """Return file and line of the nearest caller outside of the launch packages."""
-    frame = sys._getframe(1)
+    frame: FrameType | None = sys._getframe(1)
     while frame is not None:
-        if not frame.f_code.co_filename.startswith(_OWN_FOLDERS):
-            return frame.f_code.co_filename, frame.f_lineno
-        if frame.f_back is None:
-            break
+        name = frame.f_code.co_filename
+        if not name.startswith(_OWN_FOLDERS):
+            return None if name.startswith(_TOOLS_FOLDER) else (name, frame.f_lineno)
         frame = frame.f_back
     return None
 
@@ -55,8 +56,9 @@ def attach_location(error: Exception, entity: object) -> None:
 def describe_error(error: BaseException) -> str:
     """Return the message with the launch file and line, where they are known."""
     message = str(error) or type(error).__name__
-    if isinstance(error, KeyError):
-        message = f'KeyError: {message}'
+    if isinstance(error, KeyError) and error.args:
+        said = str(error.args[0])
+        message = f'KeyError: {said!r}' if type(error) is KeyError else said
     location = getattr(error, 'launch_location', None) or traceback_location(error.__traceback__)
     if location is None or f'{location[0]}:{location[1]}' in message:
         return message

@@ -10,7 +10,6 @@ from typing import Any
 from ..action import Action
 from ..frontend import Entity, expose_action, Parser
 from ..launch_context import LaunchContext
-from ..logging import get_logger
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -98,18 +97,15 @@ class DeclareLaunchArgument(Action):
     def execute(self, context: LaunchContext) -> None:
         if self.name not in context.launch_configurations:
             if self.default_value is None:
-                get_logger('launch.actions.declare_launch_argument').error(
+                raise RuntimeError(
                     f'Required launch argument "{self.name}" (description: "{self.description}") '
-                    'was not provided'
+                    'was not provided.'
                 )
-                raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')
             value = perform_substitutions(context, self.default_value)
             context.launch_configurations[self.name] = value
         value = context.launch_configurations[self.name]
         if self.__choices is not None and value not in self.__choices:
-            message = (
+            raise RuntimeError(
                 f'Argument "{self.name}" provided value "{value}" is not valid. Valid options '
                 f'are: {self.__choices}'
             )
-            get_logger('launch.actions.declare_launch_argument').error(message)
-            raise RuntimeError(message)

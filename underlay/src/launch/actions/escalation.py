@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from typing import Any
 
@@ -15,6 +16,33 @@ from ..logging import get_logger
 from .emit_event import EmitEvent
 from .opaque_function import OpaqueFunction
 from .timer_action import TimerAction
+
+# Whoever interrupted the launch without a terminal may have interrupted its children as well, and
+# a node that is just shutting down does not like a second interrupt.
+_LATE_SIGINT_SEC = 0.3
+
+
+def terminal_reaches_children() -> bool:
+    """Return whether Ctrl-C at a terminal goes to the process group of this launch."""
+    try:
+        terminal = os.open('/dev/tty', os.O_RDONLY | os.O_NOCTTY)
+    except OSError:
+        return False
+    try:
+        return os.tcgetpgrp(terminal) == os.getpgrp()
+    except OSError:
+        return False
+    finally:
+        os.close(terminal)
+
+
+def late_sigint(action: Action) -> TimerAction:
+    """Return a timer that interrupts a process which nobody else has ended meanwhile."""
+    return TimerAction(
+        period=_LATE_SIGINT_SEC,
+        actions=[emit_signal(action, signal.SIGINT)],
+        cancel_on_shutdown=False,
+    )
 
 
 def emit_signal(action: Action, number: signal.Signals) -> EmitEvent:

@@ -30,7 +30,7 @@ from ..launch_description_entity import LaunchDescriptionEntity
 from ..logging import get_logger, get_output_loggers
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
-from .escalation import emit_signal, escalation_timers
+from .escalation import emit_signal, escalation_timers, late_sigint, terminal_reaches_children
 from .opaque_function import OpaqueFunction
 from .process_output import ProcessOutput
 from .process_settings import perform_seconds, ProcessSettings, SIGKILL_TIMEOUT, SIGTERM_TIMEOUT
@@ -289,7 +289,12 @@ class ExecuteLocal(Action):
 
     def __on_launch_shutdown(self, event: Shutdown, context: LaunchContext) -> _Entities:
         by_terminal = event.due_to_sigint and not context.noninteractive
-        return self._shutdown_process(context, send_sigint=not by_terminal)
+        actions = self._shutdown_process(context, send_sigint=not by_terminal)
+        if actions and by_terminal and not terminal_reaches_children():
+            late = late_sigint(self)
+            self.__timers.append(late)
+            actions.append(late)
+        return actions
 
     def __on_signal_process(self, context: LaunchContext) -> None:
         event = context.locals.event

@@ -17,6 +17,7 @@ from ..launch_description_entity import LaunchDescriptionEntity
 from ..launch_description_source import LaunchDescriptionSource
 from ..launch_description_sources import AnyLaunchDescriptionSource
 from ..some_substitutions_type import SomeSubstitutionsType
+from ..source_location import attach_location
 from ..substitutions import TextSubstitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .opaque_function import OpaqueFunction
@@ -130,8 +131,10 @@ class IncludeLaunchDescription(Action):
             for include in includes:
                 names |= set(include._try_get_arguments_names_without_context() or ())
             if argument.name not in names:
-                raise RuntimeError(
+                error = RuntimeError(
                     'Included launch description missing required argument '
                     f"'{argument.name}' (description: '{argument.description}'), given: "
                     f'[{", ".join(given)}]'
                 )
+                attach_location(error, argument)
+                raise error

@@ -1,0 +1,241 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Event handlers, timers, functions and loops."""
+
+import asyncio
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from launch import Event, EventHandler, LaunchContext, LaunchDescription, LaunchService
+from launch.actions import (
+    EmitEvent,
+    ExecuteProcess,
+    OpaqueCoroutine,
+    OpaqueFunction,
+    RegisterEventHandler,
+    Shutdown,
+    TimerAction,
+    UnregisterEventHandler,
+)
+from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
+from launch.events import Shutdown as ShutdownEvent
+from launch.events.process import matches_name, ShutdownProcess
+import pytest
+
+LaunchFile = Callable[..., Path]
+Run = Callable[..., Any]
+
+pytestmark = pytest.mark.usefixtures('launch_environment')
+
+
+def _run(*actions: Any) -> int:
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(LaunchDescription(actions))
+    return service.run()
+
+
+def _note(notes: list[str], text: str) -> OpaqueFunction:
+    return OpaqueFunction(function=lambda _: notes.append(text))
+
+
+def test_on_process_exit_follows_one_process_only() -> None:
+    notes: list[str] = []
+    first = ExecuteProcess(cmd=['true'])
+    second = ExecuteProcess(cmd=['sh', '-c', 'exit 7'])
+    codes: list[int] = []
+    _run(
+        first,
+        RegisterEventHandler(
+            OnProcessExit(target_action=first, on_exit=[_note(notes, 'first is over'), second])
+        ),
+        RegisterEventHandler(
+            OnProcessExit(
+                target_action=second, on_exit=lambda event, _: codes.append(event.returncode)
+            )
+        ),
+    )
+    assert notes == ['first is over']
+    assert codes == [7]
+    assert second.return_code == 7
+
+
+def test_on_process_io_sees_what_is_written() -> None:
+    seen: list[tuple[str, bytes]] = []
+    process = ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'])
+    _run(
+        process,
+        RegisterEventHandler(
+            OnProcessIO(
+                target_action=process,
+                on_stdout=lambda event: seen.append(('out', event.text)),
+                on_stderr=lambda event: seen.append(('err', event.text)),
+            )
+        ),
+    )
+    assert sorted(seen) == [('err', b'err\n'), ('out', b'out\n')]
+
+
+def test_cached_output_can_be_read_afterwards() -> None:
+    process = ExecuteProcess(cmd=['sh', '-c', 'echo out; printf err >&2'], cached_output=True)
+    _run(process)
+    assert (process.get_stdout(), process.get_stderr()) == ('out\n', 'err')
+
+
+def test_on_shutdown_comes_with_the_reason() -> None:
+    reasons: list[str] = []
+    _run(
+        RegisterEventHandler(
+            OnShutdown(on_shutdown=lambda event, _: reasons.append(event.reason))
+        ),
+        Shutdown(reason='enough'),
+    )
+    assert reasons == ['enough']
+
+
+def test_on_execution_complete_follows_an_action() -> None:
+    notes: list[str] = []
+    timer = TimerAction(period=0.05, actions=[])
+    _run(
+        RegisterEventHandler(
+            OnExecutionComplete(target_action=timer, on_completion=[_note(notes, 'complete')])
+        ),
+        timer,
+    )
+    assert notes == ['complete']
+
+
+def test_a_timer_can_be_cancelled() -> None:
+    notes: list[str] = []
+    timer = TimerAction(period=30.0, actions=[_note(notes, 'never')])
+    _run(
+        timer,
+        TimerAction(period=0.05, actions=[OpaqueFunction(function=lambda _: timer.cancel())]),
+    )
+    assert notes == []
+    assert timer.is_canceled
+
+
+def test_own_events_reach_own_handlers_until_these_are_taken_away() -> None:
+    class Ring(Event):
+        name = 'Ring'
+
+    notes: list[str] = []
+    handler = EventHandler(
+        matcher=lambda event: isinstance(event, Ring), entities=_note(notes, 'ring')
+    )
+    _run(
+        RegisterEventHandler(handler),
+        EmitEvent(event=Ring()),
+        EmitEvent(event=Ring()),
+        TimerAction(
+            period=0.05, actions=[UnregisterEventHandler(handler), EmitEvent(event=Ring())]
+        ),
+    )
+    assert notes == ['ring', 'ring']
+
+
+def test_a_handler_that_handles_once_does() -> None:
+    notes: list[str] = []
+    _run(
+        RegisterEventHandler(
+            OnProcessExit(on_exit=[_note(notes, 'the first of both')], handle_once=True)
+        ),
+        ExecuteProcess(cmd=['true']),
+        ExecuteProcess(cmd=['true']),
+    )
+    assert notes == ['the first of both']
+
+
+def test_shutdown_process_ends_the_matching_process_only() -> None:
+    ended: list[str] = []
+    sleepers = [ExecuteProcess(cmd=['sleep', '30'], name=name) for name in ('one', 'two')]
+
+    def end_one(_context: LaunchContext) -> EmitEvent:
+        details = sleepers[0].process_details
+        assert details is not None
+        return EmitEvent(event=ShutdownProcess(process_matcher=matches_name(details['name'])))
+
+    def on_exit(event: Any, _context: LaunchContext) -> Shutdown:
+        ended.append(event.process_name.partition('-')[0])
+        return Shutdown()
+
+    _run(
+        *sleepers,
+        RegisterEventHandler(OnProcessExit(on_exit=on_exit)),
+        TimerAction(period=0.2, actions=[OpaqueFunction(function=end_one)]),
+    )
+    assert ended == ['one', 'two']
+
+
+def test_functions_return_actions_and_coroutines_run_beside() -> None:
+    notes: list[str] = []
+
+    async def tick(_context: LaunchContext, text: str) -> None:
+        await asyncio.sleep(0.01)
+        notes.append(text)
+
+    _run(
+        OpaqueFunction(function=lambda _, text: [_note(notes, text)], args=['from function']),
+        OpaqueCoroutine(coroutine=tick, args=['from coroutine']),
+    )
+    assert notes == ['from function', 'from coroutine']
+
+
+def test_an_error_in_a_handler_ends_the_launch_with_status_1(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def fail(_event: Any, _context: LaunchContext) -> None:
+        raise RuntimeError('handler went wrong')
+
+    sleeper = ExecuteProcess(cmd=['sleep', '30'])
+    status = _run(
+        sleeper,
+        ExecuteProcess(cmd=['true'], on_exit=fail),
+    )
+    assert status == 1
+    assert sleeper.return_code == -2
+    text = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
+    assert f'{text}handler went wrong' in capsys.readouterr().out
+
+
+def test_shutdown_may_come_from_another_thread() -> None:
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(
+        LaunchDescription(
+            [
+                ExecuteProcess(cmd=['sleep', '30']),
+                RegisterEventHandler(OnProcessExit(on_exit=[])),
+            ]
+        )
+    )
+
+    async def run() -> int:
+        running = asyncio.create_task(service.run_async(shutdown_when_idle=False))
+        await asyncio.sleep(0.2)
+        await asyncio.to_thread(service.shutdown)
+        return await asyncio.wait_for(running, 10.0)
+
+    assert asyncio.run(run()) == 0
+
+
+def test_shutdown_event_emitted_before_running_is_processed() -> None:
+    service = LaunchService()
+    service.emit_event(ShutdownEvent(reason='at once'))
+    assert service.run(shutdown_when_idle=False) == 0
+
+
+def test_loops_repeat_their_actions(python_launch_file: LaunchFile, run_launch: Run) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            ForLoop('3', function=lambda index: [LogInfo(msg=f'turn {index}')]),
+            ForEach('{name: a, x: 1};{name: b, x: 2}',
+                    function=lambda name, x: [LogInfo(msg=f'{name} at {x}')]),
+            """
+        )
+    )
+    expected = ['turn 0', 'turn 1', 'turn 2', 'a at 1', 'b at 2']
+    assert [
+        line.partition(']: ')[2] for line in launched.lines if 'launch.user' in line
+    ] == expected

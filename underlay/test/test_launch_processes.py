@@ -1,0 +1,266 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Processes: output, ends, signals, respawn."""
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import re
+import signal
+import time
+from typing import Any
+
+import pytest
+
+LaunchFile = Callable[..., Path]
+Run = Callable[..., Any]
+
+
+def _is_running(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return 'Z' not in Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[:1]
+
+
+def _pids(output: str) -> list[int]:
+    return [int(pid) for pid in re.findall(r'process started with pid \[(\d+)\]', output)]
+
+
+def test_a_process_is_reported_with_its_name_pid_and_end(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(
+        python_launch_file("ExecuteProcess(cmd=['echo', 'hello'], output='screen'),")
+    )
+    text = '\n'.join(launched.lines)
+    assert launched.returncode == 0
+    assert re.match(r'\[INFO\] \[launch\]: All log files can be found below .+', launched.lines[0])
+    assert launched.lines[1] == '[INFO] [launch]: Default logging verbosity is set to INFO'
+    (pid,) = re.findall(r'^\[INFO\] \[echo-1\]: process started with pid \[(\d+)\]$', text, re.M)
+    assert '[echo-1] hello' in launched.lines
+    assert f'[INFO] [echo-1]: process has finished cleanly [pid {pid}]' in launched.lines
+
+
+def test_a_process_that_dies_is_reported_and_launch_still_succeeds(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(python_launch_file("ExecuteProcess(cmd=['sh', '-c', 'exit 3']),"))
+    (pid,) = _pids(launched.output)
+    expected = f"[ERROR] [sh-1]: process has died [pid {pid}, exit code 3, cmd 'sh -c exit 3']."
+    assert expected in launched.lines
+    assert launched.returncode == 0
+
+
+def test_a_program_that_does_not_exist_is_one_line(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(python_launch_file("ExecuteProcess(cmd=['no_such_program', 'x']),"))
+    (line,) = [line for line in launched.lines if 'no_such_program-1' in line]
+    assert line.startswith('[ERROR] [no_such_program-1]: cannot start the process:')
+    assert 'Traceback' not in launched.output
+
+
+def test_output_log_shows_only_stderr_and_the_log_file_has_both(
+    python_launch_file: LaunchFile, run_launch: Run, tmp_path: Path
+) -> None:
+    launched = run_launch(
+        python_launch_file("ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2']),")
+    )
+    assert '[sh-1] err' in launched.lines
+    assert '[sh-1] out' not in launched.lines
+    log = (tmp_path / 'ros_log' / 'latest' / 'launch.log').read_text()
+    assert re.search(r'^\d+\.\d+ \[sh-1\] out$', log, re.M)
+    assert re.search(r'^\d+\.\d+ \[INFO\] \[sh-1\]: process started', log, re.M)
+
+
+@pytest.mark.parametrize(
+    ('output', 'files'),
+    [
+        ('own_log', {'sh-1.log', 'sh-1-stdout.log', 'sh-1-stderr.log'}),
+        ('full', {'sh-1.log', 'sh-1-stdout.log', 'sh-1-stderr.log'}),
+        ('screen', set()),
+    ],
+)
+def test_own_log_writes_files_of_the_process(
+    output: str, files: set[str], python_launch_file: LaunchFile, run_launch: Run, tmp_path: Path
+) -> None:
+    run_launch(
+        python_launch_file(
+            f"ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'], output={output!r}),"
+        )
+    )
+    folder = tmp_path / 'ros_log' / 'latest'
+    assert {path.name for path in folder.iterdir()} - {'launch.log'} == files
+    if files:
+        assert (folder / 'sh-1-stdout.log').read_text() == '[sh-1] out\n'
+
+
+def test_output_of_a_python_child_comes_at_once_and_unbuffered(
+    python_launch_file: LaunchFile, interrupt_launch: Run
+) -> None:
+    path = python_launch_file(
+        """
+        ExecuteProcess(
+            cmd=['python3', '-c', 'import time; print("early"); time.sleep(30)'], output='screen'
+        ),
+        """
+    )
+    started = time.monotonic()
+    launched = interrupt_launch(path, '[python3-1] early', signal.SIGINT)
+    assert time.monotonic() - started < 5.0
+    assert '[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)' in launched.lines
+
+
+def test_emulate_tty_makes_the_child_believe_in_a_terminal(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            ExecuteProcess(cmd=['sh', '-c', 'test -t 1 && echo yes'], output='screen',
+                           emulate_tty=True),
+            ExecuteProcess(cmd=['sh', '-c', 'test -t 1 || echo no'], output='screen'),
+            """
+        )
+    )
+    assert '[sh-1] yes' in launched.lines
+    assert '[sh-2] no' in launched.lines
+
+
+STUBBORN = """
+ExecuteProcess(
+    cmd=['sh', '-c', 'trap "" INT TERM; echo up; while :; do sleep 0.1; done'],
+    output='screen', sigterm_timeout='0.3', sigkill_timeout='0.3',
+),
+"""
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_stubborn_child_gets_sigint_sigterm_and_sigkill(
+    number: signal.Signals, python_launch_file: LaunchFile, interrupt_launch: Run
+) -> None:
+    launched = interrupt_launch(python_launch_file(STUBBORN), '[sh-1] up', number)
+    steps = [
+        "sending signal 'SIGINT' to process[sh-1]",
+        "process[sh-1] failed to terminate '0.3' seconds after receiving 'SIGINT', escalating to "
+        "'SIGTERM'",
+        "sending signal 'SIGTERM' to process[sh-1]",
+        "process[sh-1] failed to terminate '0.6' seconds after receiving 'SIGTERM', escalating to "
+        "'SIGKILL'",
+        "sending signal 'SIGKILL' to process[sh-1]",
+    ]
+    places = [launched.output.find(step) for step in steps]
+    assert -1 not in places, launched.output
+    assert places[1:] == sorted(places[1:])
+    assert 'exit code -9' in launched.output
+    assert launched.returncode == 0
+    assert not any(_is_running(pid) for pid in _pids(launched.output))
+
+
+def test_ctrl_c_ends_every_child(python_launch_file: LaunchFile, interrupt_launch: Run) -> None:
+    path = python_launch_file(
+        """
+        *[ExecuteProcess(cmd=['sleep', '60']) for _ in range(5)],
+        ExecuteProcess(cmd=['sh', '-c', 'sleep 0.3; echo ready; sleep 60'], output='screen'),
+        """
+    )
+    launched = interrupt_launch(path, 'ready', signal.SIGINT)
+    assert len(_pids(launched.output)) == 6
+    assert not any(_is_running(pid) for pid in _pids(launched.output))
+    assert launched.returncode == 0
+
+
+def test_on_exit_shutdown_makes_a_process_required(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            ExecuteProcess(cmd=['sleep', '60']),
+            ExecuteProcess(cmd=['sleep', '0.2'], on_exit=Shutdown(reason='done')),
+            """
+        )
+    )
+    required = '[INFO] [launch]: process[sleep-2] was required: shutting down launched system'
+    assert required in launched.lines
+    assert "sending signal 'SIGINT' to process[sleep-1]" in launched.output
+
+
+def test_respawn_starts_again_as_often_as_it_may(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            ExecuteProcess(cmd=['sh', '-c', 'echo once; exit 1'], output='screen', respawn=True,
+                           respawn_delay=0.05, respawn_max_retries=2),
+            """
+        )
+    )
+    assert launched.lines.count('[sh-1] once') == 3
+
+
+def test_shutdown_during_a_respawn_delay_ends_at_once(
+    python_launch_file: LaunchFile, interrupt_launch: Run
+) -> None:
+    path = python_launch_file(
+        "ExecuteProcess(cmd=['false'], respawn=True, respawn_delay=60.0), "
+        "ExecuteProcess(cmd=['true']),"
+    )
+    started = time.monotonic()
+    launched = interrupt_launch(path, 'process has died', signal.SIGINT)
+    assert time.monotonic() - started < 5.0
+    assert len(_pids(launched.output)) == 2
+
+
+def test_environment_working_folder_prefix_and_shell(
+    python_launch_file: LaunchFile, run_launch: Run, tmp_path: Path
+) -> None:
+    launched = run_launch(
+        python_launch_file(
+            f"""
+            SetEnvironmentVariable('COLOUR', 'red'),
+            ExecuteProcess(cmd=['echo', '$COLOUR', '$SHAPE', '$PWD'], shell=True, output='screen',
+                           cwd={str(tmp_path)!r}, additional_env={{'SHAPE': 'round'}}),
+            ExecuteProcess(cmd=['hello'], prefix='echo -n before', output='screen'),
+            ExecuteProcess(cmd=['env'], env={{'ONLY': 'this'}}, output='screen', name='bare'),
+            """
+        )
+    )
+    assert f'[echo-1] red round {tmp_path}' in launched.lines
+    assert '[hello-2] before hello' in launched.lines
+    assert '[bare-3] ONLY=this' in launched.lines
+    assert '[bare-3] COLOUR=red' not in launched.lines
+
+
+def test_launch_prefix_is_filtered_by_name(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            ExecuteProcess(cmd=['echo', 'one'], output='screen'),
+            ExecuteProcess(cmd=['printf', 'two'], output='screen'),
+            """
+        ),
+        'launch-prefix:=echo prefixed',
+        'launch-prefix-filter:=ec.*',
+    )
+    assert '[echo-1] prefixed echo one' in launched.lines
+    assert '[printf-2] two' in launched.lines
+
+
+def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_launch: Run) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            CAT,
+            RegisterEventHandler(OnProcessStart(target_action=CAT, on_start=lambda event, _: [
+                EmitEvent(event=ProcessStdin(text=b'typed\\n', **CAT.process_details))])),
+            """,
+            before="CAT = ExecuteProcess(cmd=['head', '-n1'], output='screen')",
+        )
+    )
+    assert '[head-1] typed' in launched.lines
