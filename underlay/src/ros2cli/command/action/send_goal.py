@@ -15,7 +15,7 @@ from rosidl_runtime_py import message_to_yaml
 from ros2cli import completion, interfaces, topics
 from ros2cli.arguments import positive_float, yaml_mapping
 from ros2cli.errors import CommandError
-from ros2cli.node import CommandNode, command_node
+from ros2cli.node import command_node, CommandNode
 
 _STATUS = {
     GoalStatus.STATUS_ACCEPTED: 'ACCEPTED',

@@ -18,9 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='Show all comments, including for nested interface definitions',
     )
-    group.add_argument(
-        '--no-comments', action='store_true', help='Show no comments or whitespace'
-    )
+    group.add_argument('--no-comments', action='store_true', help='Show no comments or whitespace')
     completion.any_interface(
         parser.add_argument(
             'type',

@@ -9,7 +9,7 @@ import re
 
 from ros2cli import names, nearest, params
 from ros2cli.errors import CommandError
-from ros2cli.node import CommandNode, command_node
+from ros2cli.node import command_node, CommandNode
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -36,7 +36,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--csv', action='store_true', help='Output all recursive fields separated by commas'
     )
     parser.add_argument(
-        '--full-length', '-f', action='store_true', help='Output all elements of arrays and strings'
+        '--full-length',
+        '-f',
+        action='store_true',
+        help='Output all elements of arrays and strings',
     )
     parser.add_argument(
         '--truncate-length',
@@ -85,7 +88,7 @@ def _type_of(args: argparse.Namespace, name: str) -> str:
     types = discovery.read_graph(args).services().get(name)
     if not types:
         raise CommandError(
-            f"WARNING: service [{name}] does not appear to be available yet\n"
+            f'WARNING: service [{name}] does not appear to be available yet\n'
             'Could not load the type for the passed service'
         )
     return types[0]

@@ -22,9 +22,7 @@ _UNITS = ((1e6, 'MB'), (1e3, 'KB'), (1.0, 'B'))
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     discovery.add_arguments(parser)
     completion.topic(
-        parser.add_argument(
-            'topic_name', help='Topic name to monitor for bandwidth utilization'
-        )
+        parser.add_argument('topic_name', help='Topic name to monitor for bandwidth utilization')
     )
     parser.add_argument(
         '--window',
