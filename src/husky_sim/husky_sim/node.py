@@ -30,6 +30,7 @@ from husky_sim.pacing import Pacer
 from husky_sim.parameters import read_run, read_simulation
 from husky_sim.record import RunRecord
 from husky_sim.robot_topics import QOS, RobotTopics
+from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
 
 REPEAT_SEC = 0.5
@@ -71,6 +72,7 @@ class SimulatorNode(Node):
         self._by_name = {topics.robot.name: topics for topics in self._topics}
         self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
         self._clock_message = Clock()
+        self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self._paused)
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
         self.create_service(Trigger, '~/step', self._on_step)
@@ -138,6 +140,7 @@ class SimulatorNode(Node):
         if self._record is not None:
             self._record.append()
         self._publish()
+        self._scene.append()
         for topics in self._topics:
             if topics.robot.timeout_bites:
                 config = topics.robot.controller.config

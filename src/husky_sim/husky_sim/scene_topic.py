@@ -1,0 +1,130 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a picture of the simulation needs, on one topic: `~/scene`.
+
+Every pose of the world, and where the robots have been since the last message. It goes out 30
+times a second of wall time and only while somebody listens, so that a viewer costs the same
+whether the simulation runs in real time or fifty times as fast.
+"""
+
+from array import array
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Float64MultiArray, MultiArrayDimension
+
+from husky_sim.simulation import Simulation
+
+TOPIC = '~/scene'
+RATE_HZ = 30.0
+MOST_ROWS = 256
+"""Of a message's track; a faster simulation leaves out every second entry, as often as needed."""
+
+TRACK = ('x', 'y', 'yaw', 'odom_x', 'odom_y', 'odom_yaw', 'speed_m_s')
+"""Of every robot, after the time: the true pose, the believed one, the true speed."""
+
+# Best effort: a viewer that hangs must not make the simulator wait.
+QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """One message, taken apart."""
+
+    paused: bool
+    qpos: Array
+    time_sec: Array  # of every entry of the track; the last one is now
+    track: Array  # shape (entries, robots, len(TRACK))
+
+
+class SceneTopic:
+    """Publishes the scene of a simulation."""
+
+    def __init__(
+        self, node: Node, simulation: Simulation, *, is_paused: Callable[[], bool]
+    ) -> None:
+        self._simulation = simulation
+        self._is_paused = is_paused
+        self._watched = False
+        self._rows = array('d')
+        self._width = 1 + len(TRACK) * len(simulation.robots)
+        self._message = Float64MultiArray()
+        self._message.layout.dim = [
+            MultiArrayDimension(label='paused', size=1),
+            MultiArrayDimension(label='qpos', size=simulation.model.nq),
+            MultiArrayDimension(label='track'),
+        ]
+        self._publisher = node.create_publisher(Float64MultiArray, TOPIC, QOS)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(1.0 / RATE_HZ, self._on_timer, clock=steady)
+
+    def append(self) -> None:
+        """Take down where the robots are; call it after every control period."""
+        if self._watched:
+            self._append()
+
+    def _append(self) -> None:
+        rows = self._rows
+        rows.append(self._simulation.time_sec)
+        for robot in self._simulation.robots:
+            state, filtered = robot.state, robot.filtered
+            rows.extend(
+                (
+                    state.position[0],
+                    state.position[1],
+                    state.yaw,
+                    filtered.x,
+                    filtered.y,
+                    filtered.yaw,
+                    state.velocity[0],
+                )
+            )
+        if len(rows) > MOST_ROWS * self._width:
+            self._rows = _every_second(rows, self._width)
+
+    def _on_timer(self) -> None:
+        self._watched = self._publisher.get_subscription_count() > 0
+        if not self._watched:
+            return
+        if not self._rows:
+            self._append()
+        data = array('d', [float(self._is_paused())])
+        data.frombytes(self._simulation.data.qpos.tobytes())
+        data.extend(self._rows)
+        dimensions: Any = self._message.layout.dim
+        dimensions[2].size = len(self._rows)
+        self._message.data = data
+        self._publisher.publish(self._message)
+        self._rows = array('d')
+
+
+def _every_second(rows: 'array[float]', width: int) -> 'array[float]':
+    """Thin a track out, keeping its last entry."""
+    table = np.frombuffer(rows).reshape(-1, width)
+    return array('d', table[::-1][::2][::-1].tobytes())
+
+
+def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:
+    """
+    Take a message apart.
+
+    :raises ValueError: if it is of another simulation than one with so many robots.
+    """
+    data = np.frombuffer(message.data)
+    sizes = [dimension.size for dimension in message.layout.dim]
+    width = 1 + len(TRACK) * robots
+    if len(sizes) != 3 or sum(sizes) != len(data) or sizes[2] % width or not sizes[2]:
+        raise ValueError(f'dimensions {sizes}: no scene of {robots} robots')
+    qpos = data[1 : 1 + sizes[1]]
+    rows = data[1 + sizes[1] :].reshape(-1, width)
+    track = rows[:, 1:].reshape(-1, robots, len(TRACK))
+    return Scene(paused=bool(data[0]), qpos=qpos, time_sec=rows[:, 0], track=track)
