@@ -40,10 +40,14 @@ class ChildProcess(asyncio.SubprocessProtocol):
     ended and its output is read.
 
     :param on_output: gets 1 or 2 for stdout and stderr, and bytes.
+    :param on_started: gets this child when it runs, before any output.
     """
 
-    def __init__(self, on_output: _OnOutput) -> None:
+    def __init__(
+        self, on_output: _OnOutput, on_started: Callable[[ChildProcess], None] | None = None
+    ) -> None:
         self.on_output = on_output
+        self._on_started = on_started
         self.complete: asyncio.Future[int] = asyncio.get_running_loop().create_future()
         self._open_pipes = {1, 2}
         self._returncode: int | None = None
@@ -61,6 +65,8 @@ class ChildProcess(asyncio.SubprocessProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.SubprocessTransport, transport)
+        if self._on_started is not None:
+            self._on_started(self)
 
     def pipe_data_received(self, fd: int, data: bytes) -> None:
         self.on_output(fd, data)
@@ -123,6 +129,7 @@ async def start_child_process(
     cmd: Sequence[str],
     *,
     on_output: _OnOutput,
+    on_started: Callable[[ChildProcess], None] | None = None,
     cwd: str | None = None,
     env: Mapping[str, str] | None = None,
     shell: bool = False,
@@ -138,7 +145,7 @@ async def start_child_process(
     :raises OSError: it cannot be started.
     """
     loop = asyncio.get_running_loop()
-    child = ChildProcess(on_output)
+    child = ChildProcess(on_output, on_started)
     pairs = [pty.openpty(), pty.openpty()] if emulate_tty else []
     options: dict[str, Any] = {'cwd': cwd, 'env': env}
     if pairs:

@@ -233,10 +233,7 @@ class ExecuteLocal(Action):
         except (OSError, ValueError) as error:
             logger.error(f"cannot start the process: {error}, cmd '{cmd}'")
             return False
-        pid = details['pid'] = child.pid
-        self.__child = child
-        logger.info(f'process started with pid [{pid}]')
-        context.emit_event_sync(ProcessStarted(**details))
+        pid = child.pid
         returncode = await child.complete
         self.__return_code = returncode
         for output in self.__outputs.values():
@@ -253,6 +250,7 @@ class ExecuteLocal(Action):
         return await start_child_process(
             details['cmd'],
             on_output=lambda fd, data: self.__on_output(context, fd, data),
+            on_started=lambda child: self.__on_started(context, child),
             cwd=details['cwd'],
             env=details['env'],
             shell=self.__settings.shell,
@@ -267,12 +265,17 @@ class ExecuteLocal(Action):
             await asyncio.wait((self.__shutdown,), timeout=self.__settings.respawn_delay)
         return not (context.is_shutdown or self.__shutdown.done())
 
+    def __on_started(self, context: LaunchContext, child: ChildProcess) -> None:
+        self.__child = child
+        self.__details['pid'] = child.pid
+        get_logger(self.__details['name']).info(f'process started with pid [{child.pid}]')
+        context.emit_event_sync(ProcessStarted(**self.__details))
+
     def __on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
-        if 'pid' in self.__details:
-            kind = ProcessStdout if fd == 1 else ProcessStderr
-            event = kind(text=data, **self.__details)
-            if context.would_handle_event(event):
-                context.emit_event_sync(event)
+        kind = ProcessStdout if fd == 1 else ProcessStderr
+        event = kind(text=data, **self.__details)
+        if context.would_handle_event(event):
+            context.emit_event_sync(event)
         self.__outputs[fd].feed(data)
 
     # ---- events ----
