@@ -1,0 +1,191 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The live view as a ROS 2 node: shows a running simulator in the browser and controls it.
+
+It asks the simulator for its world, so it can be started at any time, before or after it.
+"""
+
+import sys
+import time
+from typing import Any
+
+from rcl_interfaces.msg import ParameterDescriptor
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from std_msgs.msg import Float64MultiArray
+
+from husky_sim.errors import SimulatorError
+from husky_sim.scene_topic import QOS, RATE_HZ, read_scene, Scene
+from husky_sim.view.pace import Pace
+from husky_sim.view.panel import Controls, Numbers, Panel
+from husky_sim.view.picture import Picture
+from husky_sim.view.robot_link import RobotLink
+from husky_sim.view.server import address_of, AddressError, close_server, open_server
+from husky_sim.view.simulator import SimulatorLink, world_and_robots
+from husky_sim.view.spinning import spin_until_interrupted
+from husky_sim.world import load_world
+
+TITLE = 'Husky playpen'
+NUMBERS_HZ = 5.0
+_ASK_AGAIN_SEC = 0.05
+_HINT_AFTER_SEC = 5.0
+
+_PARAMETERS = {
+    'simulator': ('husky_sim', 'Name of the simulator node to show.'),
+    'viewer_host': ('127.0.0.1', 'Address to serve the page at; 0.0.0.0 lets others look.'),
+    'viewer_port': (8080, 'Port of the page; the next free one if it is taken.'),
+}
+
+
+class ViewNode(Node):
+    """Serves the page."""
+
+    def __init__(self) -> None:
+        """
+        Open the page; it is filled when the simulator answers.
+
+        :raises AddressError: if the page cannot be served there.
+        """
+        super().__init__('husky_view')
+        settings: dict[str, Any] = {
+            name: self.declare_parameter(
+                name, default, ParameterDescriptor(description=text, read_only=True)
+            ).value
+            for name, (default, text) in _PARAMETERS.items()
+        }
+        self._simulator = SimulatorLink(self, settings['simulator'], self._on_refused)
+        self._server = open_server(settings['viewer_host'], settings['viewer_port'], title=TITLE)
+        self._address = address_of(self._server)
+        self._panel: Panel | None = None
+        self._scene: Scene | None = None
+        self._answer: Any = None
+        self._pace = Pace()
+        self._driven = 0
+        self._stopped = False
+        self._numbers_due_sec = 0.0
+        self._hint_due_sec = time.monotonic() + _HINT_AFTER_SEC
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._asking = self.create_timer(_ASK_AGAIN_SEC, self._on_ask, clock=self._steady)
+
+    def _on_ask(self) -> None:
+        """Wait for the simulator's answer, then build the picture."""
+        if self._answer is None:
+            self._answer = self._simulator.ask()
+        elif self._answer.done():
+            self._asking.cancel()
+            self._build(*world_and_robots(self._answer.result()))
+            return
+        if time.monotonic() > self._hint_due_sec:
+            self._hint_due_sec = float('inf')
+            self.get_logger().warning(
+                f'{self._simulator.name} does not answer yet: is the simulator running?'
+            )
+
+    def _build(self, world_file: str, robots: Any) -> None:
+        world = load_world(world_file, robots)
+        self._picture = Picture(self._server, world)
+        many = len(robots) > 1
+        self._links = [
+            RobotLink(self, self._picture, place, f'{robot.name}/' if many else '')
+            for place, robot in enumerate(robots)
+        ]
+        controls = Controls(
+            pause=self._simulator.pause,
+            step=self._simulator.step,
+            reset=self._simulator.reset,
+            set_factor=self._simulator.set_factor,
+            stop=self._on_stop,
+            choose_robot=self._on_choose_robot,
+            choose_camera=self._on_choose_camera,
+        )
+        self._panel = Panel(self._server, controls, robots=[robot.name for robot in robots])
+        self._scenes = self.create_subscription(
+            Float64MultiArray, f'{self._simulator.name}/scene', self._on_scene, QOS
+        )
+        self._frames = self.create_timer(1.0 / RATE_HZ, self._on_frame, clock=self._steady)
+        self.get_logger().info(f'look at {self._address}')
+
+    def _on_scene(self, msg: Float64MultiArray) -> None:
+        scene = read_scene(msg, robots=len(self._links))
+        self._pace.add(wall_sec=time.monotonic(), time_sec=float(scene.time_sec[-1]))
+        self._scene = scene
+        self._picture.show(scene)
+
+    def _on_frame(self) -> None:
+        panel = self._panel
+        if panel is None:
+            return
+        now = time.monotonic()
+        panel.work()
+        command = panel.pad.command(now_sec=now)
+        if command is not None:
+            self._links[self._driven].drive(*command)
+        for link in self._links:
+            link.draw()
+        self._picture.draw(now)
+        if self._scene is not None and now >= self._numbers_due_sec:
+            self._numbers_due_sec = now + 1.0 / NUMBERS_HZ
+            panel.show(self._numbers(self._scene))
+        self._server.flush()
+
+    def _numbers(self, scene: Scene) -> Numbers:
+        robot = self._picture.robots[self._driven]
+        return Numbers(
+            time_sec=float(scene.time_sec[-1]),
+            real_time_factor=self._pace.factor,
+            paused=scene.paused,
+            speed_m_s=robot.speed_m_s,
+            cross_track_m=robot.cross_track_m,
+            waypoints_left=self._links[self._driven].waypoints_left,
+            collisions=self._picture.collision_count,
+        )
+
+    def _on_stop(self, stopped: bool) -> None:
+        self._stopped = stopped
+        for link in self._links:
+            link.stop(stopped)
+        if self._panel is not None:
+            self._panel.pad.release_all()
+            self._panel.show_stopped(stopped)
+
+    def _on_choose_robot(self, place: int) -> None:
+        self._driven = self._picture.followed = place
+
+    def _on_choose_camera(self, client: Any, preset: str) -> None:
+        robot = self._picture.scene.position(self._driven)
+        yaw = self._picture.robots[self._driven].yaw
+        self._picture.cameras.choose(client, preset, robot=robot, yaw=yaw)
+
+    def _on_refused(self, what: str, reason: str) -> None:
+        self.get_logger().warning(f'{what}: {reason}')
+        if self._panel is not None:
+            self._panel.tell(what, reason, error=True)
+
+    def destroy_node(self) -> None:
+        """Close the page; may be called twice."""
+        close_server(self._server)
+        super().destroy_node()
+
+
+def main(args: list[str] | None = None) -> int:
+    """Show the simulation until interrupted."""
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    node: ViewNode | None = None
+    try:
+        node = ViewNode()
+        spin_until_interrupted(node)
+    except (AddressError, SimulatorError) as error:
+        print(f'view: {error}', file=sys.stderr)
+        return 2
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
