@@ -44,5 +44,10 @@ setup(
     description='Clearpath Huskies in the playpen, simulated with MuJoCo, as a ROS 2 node.',
     license='Apache-2.0',
     tests_require=['pytest'],
-    entry_points={'console_scripts': ['husky_sim = husky_sim.node:main']},
+    entry_points={
+        'console_scripts': [
+            'husky_sim = husky_sim.node:main',
+            'view = husky_sim.view.node:main',
+        ]
+    },
 )

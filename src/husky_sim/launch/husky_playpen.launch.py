@@ -4,8 +4,8 @@
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
-from launch.conditions import IfCondition, UnlessCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration, NotSubstitution, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
@@ -32,11 +32,9 @@ def generate_launch_description() -> LaunchDescription:
     }
     given['world'] = ParameterValue(LaunchConfiguration('world'), value_type=str)
     given['use_sim_time'] = ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
-    view = {
-        'package': 'husky_sim',
-        'executable': 'husky_view',
-        'namespace': LaunchConfiguration('namespace'),
-        'output': 'screen',
+    page = {
+        'viewer_host': ParameterValue(LaunchConfiguration('viewer_host'), value_type=str),
+        'viewer_port': ParameterValue(LaunchConfiguration('viewer_port'), value_type=int),
     }
     return LaunchDescription(
         [
@@ -50,7 +48,19 @@ def generate_launch_description() -> LaunchDescription:
                 'headless', default_value='true', description='false: show the browser view'
             ),
             DeclareLaunchArgument(
-                'viewer', default_value='false', description='true: the same as headless:=false'
+                'viewer',
+                default_value=NotSubstitution(LaunchConfiguration('headless')),
+                description='true: the same as headless:=false',
+            ),
+            DeclareLaunchArgument(
+                'viewer_host',
+                default_value='127.0.0.1',
+                description='Address to serve the view at; 0.0.0.0 lets others look',
+            ),
+            DeclareLaunchArgument(
+                'viewer_port',
+                default_value='8080',
+                description='Port of the view; the next free one if it is taken',
             ),
             DeclareLaunchArgument(
                 'world', default_value=playpen, description='World to simulate, an MJCF file'
@@ -69,7 +79,13 @@ def generate_launch_description() -> LaunchDescription:
                 output='screen',
                 parameters=[LaunchConfiguration('params_file'), given],
             ),
-            Node(**view, condition=IfCondition(LaunchConfiguration('viewer'))),
-            Node(**view, condition=UnlessCondition(LaunchConfiguration('headless'))),
+            Node(
+                package='husky_sim',
+                executable='view',
+                namespace=LaunchConfiguration('namespace'),
+                output='screen',
+                parameters=[page],
+                condition=IfCondition(LaunchConfiguration('viewer')),
+            ),
         ]
     )
