@@ -11,6 +11,7 @@ from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Bool
 
 from husky_sim import messages
 from husky_sim.contacts import Touch
@@ -61,13 +62,27 @@ class RobotTopics:
         self.command_subscription = node.create_subscription(
             Twist, f'{controller}/cmd_vel', self._on_cmd_vel, QOS
         )
+        # As the Husky's twist_mux has it: while true, no command reaches the wheels.
+        self._stop_subscription = node.create_subscription(
+            Bool, f'{namespace}e_stop', self._on_e_stop, QOS
+        )
+        self._stopped = False
         self.now_sec = 0.0
 
+    def _on_e_stop(self, message: Bool) -> None:
+        if message.data != self._stopped:
+            self._stopped = message.data
+            what = 'emergency stop' if self._stopped else 'emergency stop released'
+            self._logger.warning(f'{self.robot.name}: {what}')
+        if self._stopped:
+            self.robot.controller.command(0.0, 0.0, time_sec=self.now_sec)
+
     def _on_cmd_vel(self, message: Twist) -> None:
+        speed, yaw_rate = message.linear.x, message.angular.z
+        if self._stopped:
+            speed = yaw_rate = 0.0
         try:
-            self.robot.controller.command(
-                message.linear.x, message.angular.z, time_sec=self.now_sec
-            )
+            self.robot.controller.command(speed, yaw_rate, time_sec=self.now_sec)
         except ValueError as error:
             self._logger.error(f'{self.robot.name}: {error}', throttle_duration_sec=1.0)
         self.commanded = True
