@@ -38,6 +38,7 @@ setup(
     entry_points={
         'console_scripts': [
             'follow_path = husky_driver.node:main',
+            'check = husky_driver.check:main',
             'grade = husky_driver.grade:main',
         ],
     },

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator
 import math
-from typing import NamedTuple
 
+from husky_driver.motion import Command, Odometry, STOP
 from husky_driver.route import lead_in, Leg, plan_route
 from husky_driver.tracker import DriveLimits, plan_speeds, Tracker
+from husky_driver.watchdog import Watchdog
 from husky_driver.waypoints import Course, Waypoint
 
 ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
@@ -21,40 +22,10 @@ ALIGNED_RAD = 0.01  # where turning on the spot ends
 ALIGNED_RAD_S = 0.15
 LOST_HEADING_RAD = 1.2  # facing this far from the path: stop and turn
 ARRIVED_M = 0.004
-STANDING_M_S = 0.01
-STANDING_RAD_S = 0.02
 SETTLE_SEC = 3.0  # a robot that does not come to rest in this time is left rolling
-STUCK_SEC = 4.0
-STUCK_MOVE_M = 0.02
-STUCK_TURN_RAD = 0.03
 MAX_PERIOD_SEC = 0.1
 
 _TWO_PI = 2 * math.pi
-
-
-class Odometry(NamedTuple):
-    """Where the robot believes to be, in its odometry frame, and how it moves."""
-
-    time_sec: float
-    x_m: float
-    y_m: float
-    yaw_rad: float
-    speed_m_s: float
-    yaw_rate_rad_s: float
-
-    @property
-    def is_standing(self) -> bool:
-        return abs(self.speed_m_s) < STANDING_M_S and abs(self.yaw_rate_rad_s) < STANDING_RAD_S
-
-
-class Command(NamedTuple):
-    """What the velocity controller is asked for."""
-
-    speed_m_s: float
-    yaw_rate_rad_s: float
-
-
-STOP = Command(0.0, 0.0)
 
 
 class Drive:
@@ -71,6 +42,7 @@ class Drive:
         self._tracker: Tracker | None = None
         self._now: Odometry | None = None
         self._started_sec = 0.0
+        self._gave_up_sec: float | None = None
         self._next = 0  # the waypoint that is driven to
         self._command = STOP
         self._wishes: Iterator[Command] = iter(())
@@ -109,6 +81,8 @@ class Drive:
             before = odometry
         if self.finished:
             return None
+        if self.failure:
+            return self._come_to_rest(odometry)
         self._count_reached(odometry)
         wish = next(self._wishes, None)
         if wish is None:
@@ -116,16 +90,28 @@ class Drive:
             return None
         period = min(odometry.time_sec - before.time_sec, MAX_PERIOD_SEC)
         self._command = self._within_limits(wish, period)
-        self._watch(odometry)
-        return None if self.finished else self._command
+        if complaint := self._watchdog.complaint(odometry, self._command):
+            self.give_up(complaint)
+            return STOP
+        return self._command
+
+    def give_up(self, why: str) -> None:
+        """Break the drive off: from now on it only stops the robot."""
+        self.failure = self.failure or why
+
+    def _come_to_rest(self, odometry: Odometry) -> Command | None:
+        if self._gave_up_sec is None:
+            self._gave_up_sec = odometry.time_sec
+        self.finished = odometry.is_standing or odometry.time_sec - self._gave_up_sec > SETTLE_SEC
+        return None if self.finished else STOP
 
     def _begin(self, odometry: Odometry) -> None:
         self._place(odometry)
         self._started_sec = odometry.time_sec
         self._command = STOP
-        self._moved = odometry
+        self._watchdog = Watchdog(odometry)
         self._next = self.reached = 0
-        self.finished, self.failure = False, ''
+        self.finished, self.failure, self._gave_up_sec = False, '', None
         self.legs = plan_route(self.course)
         way = lead_in(self.course, (odometry.x_m, odometry.y_m))
         if way is not None:
@@ -231,25 +217,6 @@ class Drive:
         if number <= leg.first:
             return True
         return self._tracker.s > leg.curve.knot_s[number - leg.first] + tolerance_m
-
-    def _watch(self, odometry: Odometry) -> None:
-        """Give up with a robot that is told to move and does not."""
-        moved = self._moved
-        told = abs(self._command[0]) > STANDING_M_S or abs(self._command[1]) > STANDING_RAD_S
-        turned = math.remainder(odometry.yaw_rad - moved.yaw_rad, _TWO_PI)
-        if (
-            not told
-            or math.hypot(odometry.x_m - moved.x_m, odometry.y_m - moved.y_m) > STUCK_MOVE_M
-            or abs(turned) > STUCK_TURN_RAD
-        ):
-            self._moved = odometry
-        elif odometry.time_sec - moved.time_sec > STUCK_SEC:
-            self.finished = True
-            self.failure = (
-                f'the robot does not move: told to drive {self._command.speed_m_s:.2f} m/s and '
-                f'turn {self._command.yaw_rate_rad_s:.2f} rad/s, but for {STUCK_SEC:g} s its '
-                f'odometry has stayed at ({odometry.x_m:.2f}, {odometry.y_m:.2f})'
-            )
 
 
 class DistanceDrive(Drive):

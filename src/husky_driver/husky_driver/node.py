@@ -9,16 +9,14 @@ command; what to answer is decided by a `Drive`.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from dataclasses import fields
-import math
 import os
 import signal
 import sys
 import time
 from types import FrameType
-from typing import Any, NoReturn
+from typing import Any
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry as OdometryMsg
@@ -32,7 +30,9 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 
-from husky_driver.drive import DistanceDrive, Drive, Odometry
+from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.motion import Odometry, yaw_of
 from husky_driver.progress import Progress
 from husky_driver.prompt import ask_move
 from husky_driver.settings import refuse_unknown, Settings
@@ -42,7 +42,7 @@ TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
 STOP_WITHIN_SEC = 1.5  # how long a robot is waited for when the drive is broken off
 
-DONE, GAVE_UP, BAD_INPUT, INTERRUPTED, TERMINATED = 0, 1, 2, 130, 143
+DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
 NO_STAMP = (-1, -1)
 
 
@@ -84,6 +84,7 @@ class FollowPath(Node):
         self._say(why, failed=True)
         self._stopping = exit_code
         self._stop_deadline_sec = time.monotonic() + STOP_WITHIN_SEC
+        self._drive.give_up(why)
         self._publish(0.0, 0.0)
 
     def _on_odometry(self, msg: OdometryMsg) -> None:
@@ -98,20 +99,11 @@ class FollowPath(Node):
         self._pending = None
         self._last_stamp = stamp
         self._heard_sec = time.monotonic()
-        odometry = read_odometry(msg)
-        if self._stopping is None:
-            self._answer(odometry)
-        elif odometry.is_standing:
-            self._finish(self._stopping)
-        else:
-            self._publish(0.0, 0.0)
-
-    def _answer(self, odometry: Odometry) -> None:
-        command = self._drive.step(odometry)
+        command = self._drive.step(read_odometry(msg))
         if command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
-        elif self._drive.failure:
-            self.stop(GAVE_UP, f'gave up: {self._drive.failure}')
+        elif self._stopping is not None:
+            self._finish(self._stopping)
         else:
             self._conclude()
 
@@ -123,7 +115,10 @@ class FollowPath(Node):
     def _conclude(self) -> None:
         drive = self._drive
         summary = drive.summary()
-        if drive.reached == drive.total:
+        if drive.failure:
+            self._say(f'gave up: {drive.failure}', failed=True)
+            self._finish(GAVE_UP)
+        elif drive.reached == drive.total:
             self._say(f'done: {summary}')
             self._finish(DONE)
         else:
@@ -152,7 +147,7 @@ class FollowPath(Node):
             gone = self._commands.get_subscription_count() == 0
             if gone or now > self._stop_deadline_sec:
                 self._finish(self._stopping)
-            else:
+            elif now - self._heard_sec > TICK_SEC:
                 self._publish(0.0, 0.0)
         elif self._last_stamp == NO_STAMP:
             self._wait(now - self._begun_sec)
@@ -194,7 +189,7 @@ def read_odometry(msg: OdometryMsg) -> Odometry:
         stamp.sec + stamp.nanosec * 1e-9,
         position.x,
         position.y,
-        math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)),
+        yaw_of(q.x, q.y, q.z, q.w),
         twist.linear.x,
         twist.angular.z,
     )
@@ -239,16 +234,9 @@ def make_executor(context: rclpy.Context | None = None) -> Executor:
     return EventsExecutor(context=context)
 
 
-class _Parser(argparse.ArgumentParser):
-    """Refuses with one line instead of the whole usage."""
-
-    def error(self, message: str) -> NoReturn:
-        self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
-
-
 def main(args: Sequence[str] | None = None) -> int:
     argv = list(sys.argv if args is None else args)
-    parser = _Parser(prog='follow_path', allow_abbrev=False, description=__doc__.splitlines()[1])
+    parser = Parser(prog='follow_path', allow_abbrev=False, description=__doc__.splitlines()[1])
     parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
     try:
         options = parser.parse_args(remove_ros_args(argv)[1:])

@@ -30,7 +30,7 @@ class Problem:
 
     def text(self, file: str) -> str:
         field = f'{self.field}: ' if self.field else ''
-        return f'{file}:{self.line}:{self.column}: {field}{self.message}'
+        return f'{file}: line {self.line}, column {self.column}: {field}{self.message}'
 
 
 class FileRefused(ValueError):

@@ -9,8 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 import math
 from pathlib import Path
+from typing import Any
 
-from husky_driver.drive import Command, Drive, Odometry
+from husky_driver.drive import Drive
+from husky_driver.motion import Command, Odometry
 import pytest
 
 PERIOD_SEC = 0.02
@@ -83,3 +85,37 @@ def make_plant() -> type[Plant]:
 def courses() -> Path:
     """Return the folder of the courses that come with the lab."""
     return Path(__file__).resolve().parents[3] / 'config' / 'waypoints'
+
+
+@pytest.fixture
+def make_record() -> Callable[..., dict[str, Any]]:
+    """Make the simulator's record of a run along given places, 20 ms apart."""
+
+    def make(places: list[tuple[float, float]], **more: Any) -> dict[str, Any]:
+        x, y = [place[0] for place in places], [place[1] for place in places]
+        steps = list(zip(x, y, x[1:] + x[-1:], y[1:] + y[-1:], strict=True))
+        speed = [math.hypot(b - a, d - c) / PERIOD_SEC for a, c, b, d in steps]
+        table = {
+            'time_sec': [i * PERIOD_SEC for i in range(len(x))],
+            **{'x': x, 'y': y, 'odom_x': x, 'odom_y': y},
+            'yaw': [math.atan2(d - c, b - a) if (a, c) != (b, d) else 0.0 for a, c, b, d in steps],
+            'odom_yaw': [0.0] * len(x),
+            'speed_m_s': speed,
+            'yaw_rate_rad_s': [0.0] * len(x),
+            'command_speed_m_s': [0.0, *speed[:-1]],
+            'command_yaw_rate_rad_s': [0.0] * len(x),
+        }
+        table |= {column: values for column, values in more.items() if column in table}
+        return {
+            'format': 'husky_playpen_record',
+            'version': 1,
+            'world': 'test',
+            'control_period_sec': PERIOD_SEC,
+            'robots': {'husky': table},
+            'start': {'husky': more.get('start', [0.0, 0.0, 0.0])},
+            'collisions': more.get('collisions', []),
+            'obstacles': [],
+            'min_clearance_m': {'husky': None},
+        }
+
+    return make

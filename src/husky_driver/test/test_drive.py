@@ -6,7 +6,8 @@ import math
 from pathlib import Path
 from typing import Any
 
-from husky_driver.drive import DistanceDrive, Drive, Odometry
+from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.motion import Odometry
 from husky_driver.waypoints import load_course, parse_course
 import pytest
 

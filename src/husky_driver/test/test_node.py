@@ -16,7 +16,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_driver.drive import Command
+from husky_driver.motion import Command
 from husky_driver.node import make_executor
 from nav_msgs.msg import Odometry
 import pytest
@@ -231,7 +231,7 @@ def test_a_namespace_and_remaps_apply(
         ),
         (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
         (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be a number'),
-        (['--waypoints', 'no.yaml'], 'no.yaml:1:1: no such file'),
+        (['--waypoints', 'no.yaml'], 'no.yaml: line 1, column 1: no such file'),
         ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
     ],
 )

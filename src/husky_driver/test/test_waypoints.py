@@ -40,15 +40,16 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
         'spede: 0.5\nspeed: 1.4\nloop: yes\nframe: map\nwaypoints:\n  - [1,2, 3,4]\n'
         '  - {x: 1, yaw: 90}\n'
     ) == [
-        'course.yaml:1:1: spede is no field; did you mean speed? '
+        'course.yaml: line 1, column 1: spede is no field; did you mean speed? '
         'allowed: frame, speed, tolerance, loop, corners, waypoints',
-        'course.yaml:2:8: speed: 1.4 is out of range; allowed is 0.05 to 1 m/s',
-        'course.yaml:3:7: loop: yes is not allowed; write true or false; did you mean true?',
-        'course.yaml:4:8: frame: map is not allowed; allowed: odom',
-        'course.yaml:6:5: waypoints[0]: 4 values instead of 2; '
+        'course.yaml: line 2, column 8: speed: 1.4 is out of range; allowed is 0.05 to 1 m/s',
+        'course.yaml: line 3, column 7: loop: yes is not allowed; write true or false; '
+        'did you mean true?',
+        'course.yaml: line 4, column 8: frame: map is not allowed; allowed: odom',
+        'course.yaml: line 6, column 5: waypoints[0]: 4 values instead of 2; '
         'write [x, y], with a decimal point and not a comma',
-        'course.yaml:7:5: waypoints[1].y: missing; every waypoint needs x and y',
-        'course.yaml:7:17: waypoints[1].yaw: 90 is out of range; '
+        'course.yaml: line 7, column 5: waypoints[1].y: missing; every waypoint needs x and y',
+        'course.yaml: line 7, column 17: waypoints[1].yaw: 90 is out of range; '
         'allowed is -6.2832 to 6.2832 rad; 90 degrees would be 1.5708',
     ]
 
@@ -56,28 +57,43 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
 @pytest.mark.parametrize(
     ('text', 'expected'),
     [
-        ('', '1:1: nothing instead of a waypoint file'),
-        ('speed: 1', '1:1: waypoints: missing'),
-        ('waypoints: 5', '1:12: waypoints: 5 instead of a list'),
-        ('waypoints: [[0, 0]]', '1:12: waypoints: 1 given; allowed are 2 to 1000'),
-        ('waypoints: [[0, 0], [.nan, 1]]', '1:22: waypoints[1].x: .nan is not a number'),
-        ('waypoints: [[0, 0], [.inf, 1]]', '1:22: waypoints[1].x: .inf is not a number'),
-        ('waypoints: [[0, 0], [1e999, 1]]', '1:22: waypoints[1].x: 1e999 is out of range'),
-        ('waypoints: [[0, 0], [true, 1]]', '1:22: waypoints[1].x: true is not a number'),
+        ('', 'line 1, column 1: nothing instead of a waypoint file'),
+        ('speed: 1', 'line 1, column 1: waypoints: missing'),
+        ('waypoints: 5', 'line 1, column 12: waypoints: 5 instead of a list'),
+        ('waypoints: [[0, 0]]', 'line 1, column 12: waypoints: 1 given; allowed are 2 to 1000'),
+        (
+            'waypoints: [[0, 0], [.nan, 1]]',
+            'column 22: waypoints[1].x: .nan is not a number',
+        ),
+        (
+            'waypoints: [[0, 0], [.inf, 1]]',
+            'column 22: waypoints[1].x: .inf is not a number',
+        ),
+        (
+            'waypoints: [[0, 0], [1e999, 1]]',
+            'column 22: waypoints[1].x: 1e999 is out of range',
+        ),
+        (
+            'waypoints: [[0, 0], [true, 1]]',
+            'column 22: waypoints[1].x: true is not a number',
+        ),
         ('waypoints: [[0, 0], ["3", 1]]', "waypoints[1].x: '3' is not a number (a number without"),
         ('waypoints: [[0, 0], [3m, 1]]', 'waypoints[1].x: 3m is not a number (write 3, without'),
         ('waypoints: [[0, 0], [0, 0.01]]', 'waypoints[1]: 0.010 m from waypoints[0]'),
         ('loop: true\nwaypoints: [[0, 0], [1, 0]]', 'waypoints: 2 given; a loop needs at least 3'),
         ('loop: true\nwaypoints: [[0, 0], [1, 0], [0, 0]]', 'a loop comes back by itself'),
         ('speed: -0.5\nwaypoints: [[0, 0], [1, 0]]', 'to drive backwards write reverse: true'),
-        ('speed: 0.5\nspeed: 0.6\nwaypoints: [[0, 0], [1, 0]]', '2:1: speed: given again'),
-        ('waypoints: &a [*a]', "1:12: anchor '&a' is not allowed"),
-        ('a: *b', "1:4: alias '*b' is not allowed"),
-        ('waypoints: !!python/tuple [1]', '1:12: tag'),
-        ('waypoints: [[0, 0], [1, 0]]\n---\na: 1', "2:1: a second document ('---')"),
+        (
+            'speed: 0.5\nspeed: 0.6\nwaypoints: [[0, 0], [1, 0]]',
+            'line 2, column 1: speed: given',
+        ),
+        ('waypoints: &a [*a]', "line 1, column 12: anchor '&a' is not allowed"),
+        ('a: *b', "line 1, column 4: alias '*b' is not allowed"),
+        ('waypoints: !!python/tuple [1]', 'line 1, column 12: tag'),
+        ('waypoints: [[0, 0], [1, 0]]\n---\na: 1', "line 2, column 1: a second document ('---')"),
         ('waypoints:\n\t- [0, 0]', 'indent with spaces, not with tabs'),
-        ('[' * 50_000, '1:9: nested deeper than 8 levels'),
-        ('a: \x00', '1:4: character U+0000 is not allowed'),
+        ('[' * 50_000, 'line 1, column 9: nested deeper than 8 levels'),
+        ('a: \x00', 'line 1, column 4: character U+0000 is not allowed'),
         ('waypoints: [[0, 0], [999, 0], [-999, 0]]', '2997 m from first to last'),
     ],
 )
@@ -89,8 +105,8 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
     (tmp_path / 'square.yaml').write_bytes(b'speed: \xff')
     (tmp_path / 'large.yaml').write_bytes(b'#' * 200_000)
     for path, reason in {
-        'square.yaml': '1:8: byte 0xff is not UTF-8',
-        'large.yaml': '1:1: larger than 100000 bytes',
+        'square.yaml': 'line 1, column 8: byte 0xff is not UTF-8',
+        'large.yaml': 'line 1, column 1: larger than 100000 bytes',
         'squre.yaml': 'no such file; did you mean .*square.yaml',
         '.': 'not a file',
         'nul\0': 'cannot be read|no such file',

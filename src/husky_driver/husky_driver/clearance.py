@@ -1,0 +1,152 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Look along a course, before anything moves, for obstacles that the robot would pass too near."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from husky_sim.errors import SimulatorError
+from husky_sim.world import default_worlds, load_world
+import numpy as np
+
+from husky_driver.path import Curve
+from husky_driver.route import Leg, plan_route
+from husky_driver.run_record import Outline
+from husky_driver.waypoints import Course
+from husky_sim import outline
+from husky_sim.config import RobotStart
+
+ENOUGH_M = 0.15  # what a good drive may be off the path, and a little
+STEP_M = 0.05
+TURN_STEP_RAD = 0.1
+
+Pose = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class NearPass:
+    """Where the robot would come too near; `waypoint` is the one it drives to."""
+
+    waypoint: int
+    line: int
+    obstacle: str
+    clearance_m: float
+    x: float  # in the frame world
+    y: float
+
+    def __str__(self) -> str:
+        """Return the warning for the person who wrote the course."""
+        how = 'touches' if self.clearance_m <= 0.0 else f'passes {self.clearance_m:.2f} m from'
+        return (
+            f'line {self.line}: on the way to waypoint {self.waypoint + 1} the robot {how} '
+            f'{self.obstacle} near ({self.x:.2f}, {self.y:.2f}); keep {ENOUGH_M} m away'
+        )
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What was found along a course."""
+
+    obstacles: tuple[Outline, ...]
+    near: tuple[NearPass, ...]
+    least_m: float | None
+    nearest: str
+
+
+def survey(course: Course, *, world: str = '', start: Pose = (0.0, 0.0, 0.0)) -> Survey:
+    """
+    Return where the robot, driving exactly on the course, would come too near to an obstacle.
+
+    :param world: MJCF file; empty: the playpen.
+    :raises ValueError: when the world cannot be used.
+    """
+    file = world or str(default_worlds() / 'playpen.xml')
+    try:
+        found = load_world(file, (RobotStart(x=start[0], y=start[1], yaw=start[2]),)).obstacles
+    except SimulatorError as error:
+        raise ValueError(str(error)) from None
+    outlines = tuple(Outline(o.name, o.type, o.x, o.y, o.yaw, o.size) for o in found)
+    if not found:
+        return Survey(outlines, (), None, '')
+    poses, numbers = _poses(course, start)
+    table = np.array([outline.clearances(poses, [obstacle]) for obstacle in found])
+    nearest = int(table.min(axis=1).argmin())
+    return Survey(
+        obstacles=outlines,
+        near=tuple(_near_passes(course, poses, numbers, table, [o.name for o in found])),
+        least_m=float(table.min()),
+        nearest=found[nearest].name,
+    )
+
+
+def _near_passes(
+    course: Course, poses: np.ndarray, numbers: np.ndarray, table: np.ndarray, names: list[str]
+) -> list[NearPass]:
+    """Return the nearest place for each pair of waypoint and obstacle."""
+    passes = []
+    for number in sorted(set(numbers.tolist())):
+        part = np.nonzero(numbers == number)[0]
+        for name, distances in zip(names, table[:, part], strict=True):
+            k = int(distances.argmin())
+            if distances[k] < ENOUGH_M:
+                x, y, _ = poses[part[k]]
+                waypoint = number % len(course.waypoints)
+                line = course.waypoints[waypoint].line
+                passes.append(
+                    NearPass(waypoint, line, name, float(distances[k]), float(x), float(y))
+                )
+    return passes
+
+
+def _poses(course: Course, start: Pose) -> tuple[np.ndarray, np.ndarray]:
+    """Return poses in the frame world, and the number of the waypoint each one leads to."""
+    poses: list[Pose] = []
+    numbers: list[int] = []
+    heading = 0.0
+    for leg in plan_route(course):
+        back = math.pi if leg.reverse else 0.0
+        first = (leg.curve.x[0], leg.curve.y[0])
+        facing = leg.curve.heading[0] + back
+        turn = _turn(*first, heading, facing)
+        poses += turn
+        numbers += [leg.first] * len(turn)
+        driven = _drive(leg.curve, back)
+        poses += driven
+        numbers += _numbers(leg, len(driven))
+        heading = leg.curve.heading[-1] + back
+        if leg.end_yaw_rad is not None:
+            turn = _turn(leg.curve.x[-1], leg.curve.y[-1], heading, leg.end_yaw_rad)
+            poses += turn
+            numbers += [leg.last] * len(turn)
+            heading = leg.end_yaw_rad
+    x0, y0, yaw0 = start
+    cos, sin = math.cos(yaw0), math.sin(yaw0)
+    table = np.array(poses)
+    turned = np.array([[cos, sin], [-sin, cos]])
+    table[:, :2] = table[:, :2] @ turned + (x0, y0)
+    table[:, 2] += yaw0
+    return table, np.array(numbers)
+
+
+def _turn(x: float, y: float, begin: float, end: float) -> list[Pose]:
+    angle = math.remainder(end - begin, 2 * math.pi)
+    count = math.ceil(abs(angle) / TURN_STEP_RAD)
+    return [(x, y, begin + angle * k / count) for k in range(count)]
+
+
+def _drive(curve: Curve, back: float) -> list[Pose]:
+    count = max(2, math.ceil(curve.length_m / STEP_M))
+    places = [curve.length_m * k / count for k in range(count + 1)]
+    return [(*curve.point_at(s), curve.heading_at(s) + back) for s in places]
+
+
+def _numbers(leg: Leg, count: int) -> list[int]:
+    knots, result, piece = leg.curve.knot_s, [], 0
+    for k in range(count):
+        s = leg.curve.length_m * k / (count - 1)
+        while piece < len(knots) - 2 and s > knots[piece + 1]:
+            piece += 1
+        result.append(leg.first + piece + 1)
+    return result

@@ -1,0 +1,41 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What goes in and out of a drive: odometry and velocity commands."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+STANDING_M_S = 0.01
+STANDING_RAD_S = 0.02
+
+
+class Odometry(NamedTuple):
+    """Where the robot believes to be, in its odometry frame, and how it moves."""
+
+    time_sec: float
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    speed_m_s: float
+    yaw_rate_rad_s: float
+
+    @property
+    def is_standing(self) -> bool:
+        return abs(self.speed_m_s) < STANDING_M_S and abs(self.yaw_rate_rad_s) < STANDING_RAD_S
+
+
+class Command(NamedTuple):
+    """What the velocity controller is asked for."""
+
+    speed_m_s: float
+    yaw_rate_rad_s: float
+
+
+STOP = Command(0.0, 0.0)
+
+
+def yaw_of(x: float, y: float, z: float, w: float) -> float:
+    """Return the heading of a quaternion."""
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))

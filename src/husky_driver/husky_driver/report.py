@@ -1,0 +1,68 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Write the report on a run: report.json, report.html and path.png."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+import json
+from pathlib import Path
+from typing import Any
+
+from husky_driver.report_html import page
+from husky_driver.run_record import RunRecord
+from husky_driver.scene import run_scene
+from husky_driver.scoring import Report
+from husky_driver.waypoints import Course
+
+JSON_KEYS = (
+    *('course', 'completed', 'waypoints_reached', 'waypoints_total', 'collisions'),
+    *('cross_track_rms_m', 'cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m'),
+    *('sim_time_sec', 'wall_time_sec', 'acceleration_rms_m_s2', 'yaw_acceleration_rms_rad_s2'),
+    *('trajectory_sha256', 'score', 'parts', 'reasons'),
+)
+
+
+def as_json(report: Report) -> dict[str, Any]:
+    """Return what report.json holds."""
+    content = asdict(report)
+    return {key: content[key] for key in JSON_KEYS}
+
+
+def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -> None:
+    """Write the three files, each whole or not at all."""
+    from husky_driver.path_png import draw  # matplotlib takes its time
+
+    folder.mkdir(parents=True, exist_ok=True)
+    scene = run_scene(run, course)
+    _write(folder / 'report.json', json.dumps(as_json(report), indent=2) + '\n')
+    _write(folder / 'report.html', page(report, run, scene))
+    part = folder / '.path.part.png'
+    draw(scene, part)
+    part.replace(folder / 'path.png')
+
+
+def summary(report: Report) -> str:
+    """Return the report for a terminal."""
+    verdict = 'passed' if report.passed else 'NOT PASSED'
+    clearance = report.min_clearance_m
+    near = '' if clearance is None else f', nearest obstacle {clearance:.2f} m'
+    lines = [
+        f'{report.course}: {verdict}, score {report.score:.1f} of 100',
+        f'  {report.waypoints_reached} of {report.waypoints_total} waypoints, '
+        f'{len(report.collisions)} collisions, {report.driven_m:.2f} m in '
+        f'{report.sim_time_sec:.2f} s',
+        f'  off the path {report.cross_track_rms_m:.3f} m RMS, '
+        f'{report.cross_track_max_m:.3f} m at most{near}',
+    ]
+    lines += [
+        f'  {part.name:<11} x {part.factor:.3f}  costs {part.cost_points:4.1f}: {part.why}'
+        for part in report.parts
+    ]
+    return '\n'.join([*lines, *(f'  ! {reason}' for reason in report.reasons)])
+
+
+def _write(path: Path, text: str) -> None:
+    part = path.with_name(f'.{path.name}.part')
+    part.write_text(text, encoding='utf-8')
+    part.replace(path)

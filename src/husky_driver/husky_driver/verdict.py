@@ -1,0 +1,99 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Say in words what went wrong in a run, most important first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+
+from husky_driver.run_record import RunRecord
+from husky_driver.waypoints import Course
+
+MAX_LINES = 4  # of one kind
+STANDING_M_S = 0.02
+MOVED_M = 0.05
+BACKWARDS_M = 0.3
+
+
+def reasons(run: RunRecord, course: Course, reached: Sequence[bool]) -> tuple[str, ...]:
+    """Return one line for each thing that went wrong; none for a good run."""
+    if not _moved(run):
+        return (_why_still(run),)
+    lines = [*_collisions(run), *_missed(run, course, reached)]
+    lines += _ending(run, course, all(reached))
+    lines += _backwards(run, course)
+    return tuple(lines)
+
+
+def _moved(run: RunRecord) -> bool:
+    x0, y0 = run.x[0], run.y[0]
+    pairs = zip(run.x, run.y, strict=True)
+    return any(math.hypot(x - x0, y - y0) > MOVED_M for x, y in pairs)
+
+
+def _why_still(run: RunRecord) -> str:
+    if not any(run.command_speed_m_s) and not any(run.command_yaw_rate_rad_s):
+        return (
+            'it never moved: no command but zero arrived on husky_velocity_controller/cmd_vel; '
+            'check the topic name and the message type'
+        )
+    if not any(run.command_speed_m_s):
+        return 'it never moved from its place: it was only told to turn (linear.x was always 0)'
+    return 'it never moved, although it was told to; was it told again every 0.25 s?'
+
+
+def _collisions(run: RunRecord) -> list[str]:
+    lines = [
+        f'touched {touch.obstacle} with its {touch.part.replace("_", " ")} at '
+        f'{touch.time_sec:.2f} s, with {touch.force_n:.0f} N'
+        for touch in run.collisions
+    ]
+    return _shortened(lines, 'collisions')
+
+
+def _missed(run: RunRecord, course: Course, reached: Sequence[bool]) -> list[str]:
+    lines = []
+    for number, (point, got) in enumerate(zip(course.stops, reached, strict=True)):
+        if got:
+            continue
+        pairs = zip(run.x, run.y, strict=True)
+        nearest = min(math.hypot(x - point.x_m, y - point.y_m) for x, y in pairs)
+        name = f'waypoint {number + 1} at ({point.x_m:g}, {point.y_m:g})'
+        if nearest > course.tolerance_m:
+            lines.append(
+                f'missed {name}: it came no nearer than {nearest:.2f} m, '
+                f'allowed are {course.tolerance_m:g} m'
+            )
+        else:
+            lines.append(f'missed {name}: it was there, but not in its turn')
+    return _shortened(lines, 'waypoints')
+
+
+def _shortened(lines: list[str], what: str) -> list[str]:
+    if len(lines) <= MAX_LINES:
+        return lines
+    return [*lines[: MAX_LINES - 1], f'... and {len(lines) - MAX_LINES + 1} more {what}']
+
+
+def _ending(run: RunRecord, course: Course, all_reached: bool) -> list[str]:
+    last = course.stops[-1]
+    away = math.hypot(run.x[-1] - last.x_m, run.y[-1] - last.y_m)
+    if abs(run.speed_m_s[-1]) > STANDING_M_S:
+        return [f'did not stop: still driving {run.speed_m_s[-1]:.2f} m/s when the run ended']
+    if away > course.tolerance_m:
+        place = f'({run.x[-1]:.2f}, {run.y[-1]:.2f})'
+        how = 'drove on and stopped' if all_reached else 'stopped'
+        return [f'{how} at {place}, {away:.2f} m from the last waypoint']
+    return []
+
+
+def _backwards(run: RunRecord, course: Course) -> list[str]:
+    if any(point.reverse for point in course.waypoints):
+        return []
+    back = sum(
+        math.hypot(run.x[i + 1] - run.x[i], run.y[i + 1] - run.y[i])
+        for i in range(len(run.x) - 1)
+        if run.speed_m_s[i] < -STANDING_M_S and run.command_speed_m_s[i] < 0.0
+    )
+    return [f'drove {back:.2f} m backwards'] if back > BACKWARDS_M else []

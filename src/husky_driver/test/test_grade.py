@@ -1,0 +1,115 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whole gradings, with the simulator's physics in this process."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from husky_driver.check import main as check
+from husky_driver.grade import main as grade
+import pytest
+
+THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'
+KEYS = (
+    *('completed', 'waypoints_reached', 'waypoints_total', 'collisions', 'cross_track_rms_m'),
+    *('cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m', 'sim_time_sec'),
+    *('wall_time_sec', 'trajectory_sha256', 'score'),
+)
+
+
+def graded(file: Path, folder: Path, *arguments: str) -> tuple[int, dict[str, Any]]:
+    code = grade([str(file), '--report', str(folder), *arguments])
+    return code, json.loads((folder / 'report.json').read_text())
+
+
+def test_the_central_barrier_is_passed_within_the_lab_s_own_limits(
+    courses: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, report = graded(courses / 'central_barrier.yaml', tmp_path)
+    assert code == 0
+    assert set(KEYS) <= set(report)
+    assert report['completed']
+    assert report['waypoints_reached'] == report['waypoints_total'] == 13
+    assert report['collisions'] == []
+    assert report['cross_track_rms_m'] <= 0.05
+    assert report['cross_track_max_m'] <= 0.15
+    assert report['path_length_m'] / report['sim_time_sec'] >= 0.88 * 0.8
+    assert report['score'] == pytest.approx(100.0)
+    printed = capsys.readouterr().out
+    assert 'central_barrier: passed, score 100.0 of 100' in printed
+    page = (tmp_path / 'report.html').read_text()
+    assert 'http' not in page.replace('http://www.w3.org', '')
+    assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
+
+
+def test_the_same_file_gives_the_same_trajectory_to_the_last_bit(
+    courses: Path, tmp_path: Path
+) -> None:
+    course = courses / 'straight.yaml'
+    first, second = (graded(course, tmp_path / name)[1] for name in ('a', 'b'))
+    assert first['trajectory_sha256'] == second['trajectory_sha256']
+    assert first['score'] == second['score']
+
+
+def test_a_course_through_the_barrier_fails_with_the_collision(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'through.yaml'
+    course.write_text(THROUGH)
+    code, report = graded(course, tmp_path / 'report', '--json')
+    assert code == 1
+    assert not report['completed']
+    (touch,) = report['collisions']
+    assert touch['obstacle'] == 'jersey_barrier_15'
+    assert touch['force_n'] > 100.0
+    assert report['min_clearance_m'] == 0.0
+    assert json.loads(capsys.readouterr().out) == report
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'expected'),
+    [
+        ([], 'give waypoint files, or --record FILE with --waypoints FILE'),
+        (['--record', 'x.json'], '--record needs --waypoints FILE'),
+        (['missing.yaml'], 'missing.yaml: line 1, column 1: no such file'),
+        (['{course}', '--world', 'no.xml'], 'no.xml'),
+        (['--record', 'no.json', '--waypoints', '{course}'], 'no.json: cannot be read'),
+        (['--record', '{course}', '--waypoints', '{course}'], 'not JSON'),
+    ],
+)
+def test_bad_input_is_refused_with_one_line(
+    courses: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    expected: str,
+) -> None:
+    course = str(courses / 'straight.yaml')
+    arguments = [argument.replace('{course}', course) for argument in arguments]
+    try:
+        code = grade([*arguments, '--report', str(tmp_path)])
+    except SystemExit as stopped:
+        code = int(stopped.code or 0)
+    printed = capsys.readouterr().err
+    assert code == 2
+    assert expected in printed
+    assert len(printed.splitlines()) == 1
+
+
+def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'through.yaml'
+    course.write_text(THROUGH)
+    assert check([str(course)]) == 0
+    assert check(['--refuse', str(course)]) == 1
+    warned = capsys.readouterr().err.splitlines()[0]
+    assert 'through.yaml: line 4: on the way to waypoint 2 the robot touches' in warned
+    assert 'jersey_barrier_15' in warned
+
+
+@pytest.mark.parametrize(('name', 'magic'), [('a.png', b'\x89PNG'), ('a.svg', b'<?xml')])
+def test_a_check_draws_the_course(courses: Path, tmp_path: Path, name: str, magic: bytes) -> None:
+    assert check([str(courses / 'straight.yaml'), '--draw', str(tmp_path / name)]) == 0
+    assert (tmp_path / name).read_bytes().startswith(magic)
