@@ -1,0 +1,123 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./lab drive` and `./lab grade` as a person uses them: real launch, real nodes, a report."""
+
+import json
+import os
+from pathlib import Path
+import signal
+
+from playpen_testing.processes import Process, Processes
+from playpen_testing.waiting import wait_until
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+LAB = str(ROOT / 'lab')
+REPORT_KEYS = {
+    'completed', 'waypoints_reached', 'waypoints_total', 'collisions', 'cross_track_rms_m',
+    'cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m', 'sim_time_sec',
+    'wall_time_sec', 'trajectory_sha256', 'score',
+}  # fmt: skip
+
+pytestmark = pytest.mark.timeout(120)
+
+
+def drive(processes: Processes, folder: Path, *options: str) -> Process:
+    return processes.start(
+        LAB, 'drive', '--no-view', '--report', str(folder), *options, cwd=folder
+    )
+
+
+def test_drive_ends_with_a_report_and_success(processes: Processes, tmp_path: Path) -> None:
+    run = drive(processes, tmp_path, '--fast')
+    assert run.wait(timeout_sec=60.0) == 0, run.output
+    assert '50 %' in run.output, 'progress while driving'
+    report = json.loads((tmp_path / 'report.json').read_text())
+    assert set(report) >= REPORT_KEYS
+    assert report['completed']
+    assert report['collisions'] == []
+    assert report['score'] > 0
+    assert (tmp_path / 'report.html').read_text().startswith('<!DOCTYPE html>')
+    assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
+
+
+def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_path: Path) -> None:
+    course = tmp_path / 'through.yaml'
+    course.write_text('speed: 0.6\ncheck: off\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n')
+    run = drive(processes, tmp_path, '--fast', '--waypoints', 'through.yaml')
+    assert run.wait(timeout_sec=60.0) == 1, run.output
+    report = json.loads((tmp_path / 'report.json').read_text())
+    assert not report['completed']
+    assert report['collisions'][0]['obstacle'] == 'jersey_barrier_15'
+
+
+def test_drive_refuses_a_bad_file_before_anything_starts(
+    processes: Processes, tmp_path: Path
+) -> None:
+    (tmp_path / 'bad.yaml').write_text('waypoints:\n  - [0, 0]\n  - [1, up]\n')
+    run = drive(processes, tmp_path, '--waypoints', 'bad.yaml')
+    assert run.wait(timeout_sec=30.0) == 2, run.output
+    assert 'bad.yaml' in run.output
+    assert 'line 3' in run.output
+    assert 'process started' not in run.output
+    assert 'Traceback' not in run.output
+
+
+def test_the_same_file_gives_the_same_run_also_on_a_loaded_machine(
+    processes: Processes, tmp_path: Path
+) -> None:
+    hashes = set()
+    for number, load in enumerate((0, 2)):
+        burners = [processes.start('bash', '-c', 'while :; do :; done') for _ in range(load)]
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        run = drive(processes, folder, '--fast')
+        assert run.wait(timeout_sec=90.0) == 0, run.output
+        for burner in burners:
+            burner.signal(signal.SIGKILL)
+        hashes.add(json.loads((folder / 'report.json').read_text())['trajectory_sha256'])
+    course = str(ROOT / 'config' / 'waypoints' / 'central_barrier.yaml')
+    graded = processes.start(LAB, 'grade', course, '--report', str(tmp_path / 'graded'))
+    assert graded.wait(timeout_sec=60.0) == 0, graded.output
+    reports = list((tmp_path / 'graded').rglob('report.json'))
+    assert len(reports) == 1
+    hashes.add(json.loads(reports[0].read_text())['trajectory_sha256'])
+    assert len(hashes) == 1, 'lockstep over DDS, loaded, and in one process'
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_drive_leaves_nothing_behind(
+    processes: Processes, tmp_path: Path, number: signal.Signals
+) -> None:
+    shared_before = shared_memory()
+    run = drive(processes, tmp_path)
+    run.wait_for_text('10 %', timeout_sec=40.0)
+    started = [int(line.split('pid [')[1].split(']')[0]) for line in run.lines if 'pid [' in line]
+    assert len(started) >= 2, 'the simulator and the driver'
+    os.kill(run.pid, number)  # to the script alone: it must hand it on
+    assert run.wait(timeout_sec=2.5) in (128 + number, -number)
+    assert [pid for pid in started if Path(f'/proc/{pid}').exists()] == []
+    left = {name for name in shared_memory() - shared_before if belongs_to_nobody(name)}
+    assert left == set(), 'shared memory left behind'
+
+
+def shared_memory() -> set[str]:
+    return {path.name for path in Path('/dev/shm').iterdir()}
+
+
+def belongs_to_nobody(name: str) -> bool:
+    """Tell if no process of this machine has the shared memory open or mapped."""
+    for process in Path('/proc').glob('[0-9]*'):
+        try:
+            if f'/dev/shm/{name}' in (process / 'maps').read_text():
+                return False
+        except OSError:
+            continue  # it has ended meanwhile
+    return True
+
+
+def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_path: Path) -> None:
+    listed = processes.start(LAB, 'exec', 'ros2', 'pkg', 'list', cwd=tmp_path)
+    assert listed.wait(timeout_sec=30.0) == 0
+    assert {'husky_driver', 'husky_sim', 'topic_demo', 'rclpy'} <= set(listed.lines)
+    wait_until(lambda: listed.returncode == 0, timeout_sec=1.0, what='exit status 0')
