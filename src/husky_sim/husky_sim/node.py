@@ -8,26 +8,29 @@ Time passes in one of three ways: at real_time_factor times the wall's pace, as 
 odometry of the one before.
 """
 
+from dataclasses import replace
 import signal
 import sys
 import time
 from typing import Any
 
 from builtin_interfaces.msg import Time
+from rcl_interfaces.msg import SetParametersResult
 import rclpy
 from rclpy.clock import Clock as RosClock
 from rclpy.clock import ClockType
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_sim.config import CONTROL_PERIOD_SEC
-from husky_sim.errors import SimulatorError
+from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.pacing import Pacer
-from husky_sim.parameters import read_run, read_simulation
+from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
 from husky_sim.record import RunRecord
 from husky_sim.robot_topics import QOS, RobotTopics
 from husky_sim.scene_topic import SceneTopic
@@ -76,9 +79,9 @@ class SimulatorNode(Node):
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
         self.create_service(Trigger, '~/step', self._on_step)
-        self.create_timer(
-            self._tick_sec(), self._on_tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
-        )
+        self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+        self.add_on_set_parameters_callback(self._on_set_parameters)
         self.get_logger().info(
             f'{self._run.world}: {len(self._simulation.world.obstacles)} obstacles, '
             f'{", ".join(robot.name for robot in config.robots)}; '
@@ -94,6 +97,22 @@ class SimulatorNode(Node):
         factor = self._run.real_time_factor
         pace = f'{factor:g} x real time' if factor > 0.0 else 'as fast as possible'
         return f'lockstep, {pace}' if self._run.lockstep else pace
+
+    def _on_set_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        for parameter in parameters:
+            if parameter.name == CHANGEABLE:
+                try:
+                    self._change_pace(read_factor(parameter.value))
+                except SettingError as error:
+                    return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _change_pace(self, factor: float) -> None:
+        self._run = replace(self._run, real_time_factor=factor)
+        self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
+        self.destroy_timer(self._timer)
+        self._timer = self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+        self.get_logger().info(self._pace_in_words())
 
     def _on_tick(self) -> None:
         if self._paused:

@@ -17,6 +17,9 @@ from husky_sim.world import default_worlds
 
 Config = TypeVar('Config', DriveConfig, RunConfig, RobotStart)
 
+CHANGEABLE = 'real_time_factor'
+"""The one setting that may change while the simulation runs."""
+
 _NAME = re.compile(r'[A-Za-z][A-Za-z0-9_]*')
 _ROBOTS = (
     "Many robots, each as 'NAME X Y YAW' (m, m, rad); each gets NAME as its namespace. "
@@ -53,6 +56,17 @@ def read_simulation(node: Node, world: str) -> SimulationConfig:
     return SimulationConfig(world=world, robots=robots or (start,), drive=drive)
 
 
+def read_factor(given: Any) -> float:
+    """
+    Check a new real_time_factor.
+
+    :raises SettingError: if the value is not allowed.
+    """
+    entry = next(entry for entry in fields(RunConfig) if entry.name == CHANGEABLE)
+    low, high = entry.metadata['low'], entry.metadata['high']
+    return float(_checked(CHANGEABLE, given, entry.default, low, high))
+
+
 def _robot(line: str) -> RobotStart:
     name, *pose = line.split()
     try:
@@ -74,7 +88,9 @@ def _read(node: Node, config: type[Config]) -> Config:
             continue
         # Typed dynamically, so that a person may write 1 for 1.0.
         descriptor = ParameterDescriptor(
-            description=entry.metadata['description'], read_only=True, dynamic_typing=True
+            description=entry.metadata['description'],
+            read_only=entry.name != CHANGEABLE,
+            dynamic_typing=True,
         )
         low, high = entry.metadata['low'], entry.metadata['high']
         if low < high:
