@@ -71,10 +71,27 @@ class Husky:
         self._wheel_speeds = _block(data.qvel, self._speeds)
         self._torques = _block(data.actuator_force, self._actuators)
         self._control = _block(data.ctrl, self._actuators)
+        servo = self._actuators[0]
+        self._targets = _block(data.act, [int(model.actuator_actadr[i]) for i in self._actuators])
+        self._stiffness = float(model.actuator_gainprm[servo, 0])
+        self._lag_sec = -float(model.actuator_biasprm[servo, 2]) / self._stiffness
+        self._torque_limit = float(model.actuator_forcerange[servo, 1])
 
     def drive(self, left_rad_s: float, right_rad_s: float) -> None:
         """Set the speeds the servos of the wheels aim at."""
         self._control[:] = (left_rad_s, right_rad_s, left_rad_s, right_rad_s)
+        if np.abs(self._torques).max() >= self._torque_limit:
+            self._unwind()
+
+    def _unwind(self) -> None:
+        """
+        Keep the angle that a servo aims at within the reach of its torque.
+
+        Else a wheel that was held fast would go on turning, to make up for it, after a stop.
+        """
+        reached = self._wheel_angles + self._lag_sec * self._wheel_speeds
+        reach = self._torque_limit / self._stiffness
+        self._targets[:] = np.clip(self._targets, reached - reach, reached + reach)
 
     def state(self) -> RobotState:
         """Read the true pose and twist."""

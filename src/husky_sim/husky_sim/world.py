@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 from pathlib import Path
+import warnings
 
 import mujoco
 import numpy as np
@@ -103,7 +104,10 @@ def _parsed(path: str) -> mujoco.MjSpec:
 
 def _compiled(path: str, spec: mujoco.MjSpec) -> mujoco.MjModel:
     try:
-        return spec.compile()
+        with warnings.catch_warnings():
+            # One is that something a robot stands in cannot sleep, which is refused later on.
+            warnings.simplefilter('ignore')
+            return spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise WorldError(f'world={path!r}: {_one_line(error)}') from error
 

@@ -1,0 +1,157 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""How the simulated A200 drives: the figures a skid-steer robot has to meet."""
+
+from collections.abc import Callable
+import math
+
+from husky_sim.simulation import SimulatedRobot, Simulation
+import pytest
+
+from husky_sim.config import CONTROL_PERIOD_SEC
+
+OnAsphalt = Callable[..., Simulation]
+Drive = Callable[..., None]
+
+
+def plan(robot: SimulatedRobot) -> tuple[float, float]:
+    return robot.state.position[0], robot.state.position[1]
+
+
+@pytest.mark.parametrize(
+    ('speed', 'yaw_rate'),
+    [(0.0, 0.2), (0.0, 0.5), (0.0, 1.5), (0.5, -0.5), (1.0, 0.2), (1.0, 0.8), (1.0, 1.5)],
+)
+def test_the_robot_turns_as_fast_as_it_is_told(
+    on_asphalt: OnAsphalt, drive: Drive, speed: float, yaw_rate: float
+) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    drive(simulation, speed, yaw_rate, seconds=1.0)
+    turned = 0.0
+    for _ in range(150):
+        before = robot.state.yaw
+        drive(simulation, speed, yaw_rate, seconds=CONTROL_PERIOD_SEC)
+        turned += math.remainder(robot.state.yaw - before, math.tau)
+    measured = turned / (150 * CONTROL_PERIOD_SEC)
+    track_m = robot.controller.config.wheel_separation_m * yaw_rate / measured
+    assert measured == pytest.approx(yaw_rate, rel=0.08)
+    assert 1.00 <= track_m <= 1.14
+
+
+def test_three_turns_on_the_spot_leave_the_centre_where_it_was(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    furthest = 0.0
+    for _ in range(round(3.0 * math.tau / 0.5)):
+        drive(simulation, 0.0, 0.5, seconds=1.0)
+        furthest = max(furthest, math.hypot(*plan(robot)))
+    assert furthest < 0.01
+
+
+def test_no_wheel_loses_its_share_of_the_weight_in_a_turn(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    heights = []
+    drive(simulation, 0.0, 1.0, seconds=1.0)
+    for _ in range(100):
+        drive(simulation, 0.0, 1.0, seconds=CONTROL_PERIOD_SEC)
+        heights.append(robot.state.position[2])
+    assert max(heights) - min(heights) < 0.0005
+
+
+def test_ten_metres_straight_on_stay_straight(on_asphalt: OnAsphalt, drive: Drive) -> None:
+    simulation = on_asphalt(x=-10.0)
+    robot = simulation.robots[0]
+    drive(simulation, 1.0, 0.0, seconds=1.0)
+    start, begin_sec = plan(robot), simulation.time_sec
+    while robot.state.position[0] - start[0] < 10.0:
+        drive(simulation, 1.0, 0.0, seconds=CONTROL_PERIOD_SEC)
+    speed = math.dist(plan(robot), start) / (simulation.time_sec - begin_sec)
+    assert speed == pytest.approx(1.0, rel=0.01)
+    assert abs(math.degrees(robot.state.yaw)) < 0.5
+    assert abs(robot.state.position[1]) < 0.02
+
+
+def test_it_stops_from_full_speed_in_a_third_of_a_second(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    drive(simulation, 1.0, 0.0, seconds=2.0)
+    start, begin_sec = plan(robot), simulation.time_sec
+    while robot.state.velocity[0] > 0.01:
+        drive(simulation, 0.0, 0.0, seconds=CONTROL_PERIOD_SEC)
+    taken_sec = simulation.time_sec - begin_sec
+    drive(simulation, 0.0, 0.0, seconds=0.5)
+    assert taken_sec == pytest.approx(1.0 / 3.0, rel=0.1)
+    assert math.dist(plan(robot), start) == pytest.approx(1.0 / 6.0, rel=0.1)
+
+
+def test_at_rest_it_stays_for_a_minute(on_asphalt: OnAsphalt, drive: Drive) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    drive(simulation, 0.0, 0.0, seconds=2.0)
+    start = plan(robot)
+    drive(simulation, 0.0, 0.0, seconds=60.0)
+    assert math.dist(plan(robot), start) < 0.0001
+
+
+def test_it_starts_without_a_drop(on_asphalt: OnAsphalt, drive: Drive) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    height = robot.state.position[2]
+    drive(simulation, 0.0, 0.0, seconds=1.0)
+    assert robot.state.position[2] == pytest.approx(height, abs=0.0005)
+
+
+RAMP = '<geom name="ramp" type="box" size="4 2 0.1" pos="5 0 {z}" euler="0 -20 0"/>'
+
+
+def test_it_climbs_a_ramp_of_twenty_degrees_and_holds_on_it(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    # The lower end of the ramp's top lies on the asphalt.
+    z = 0.05 + 4.0 * math.sin(math.radians(20.0)) - 0.1 * math.cos(math.radians(20.0))
+    simulation = on_asphalt(RAMP.format(z=z))
+    robot = simulation.robots[0]
+    drive(simulation, 0.5, 0.0, seconds=8.0)
+    height = robot.state.position[2]
+    assert height > 0.9
+    drive(simulation, 0.0, 0.0, seconds=1.0)
+    start = robot.state.position
+    drive(simulation, 0.0, 0.0, seconds=10.0)
+    assert math.dist(robot.state.position, start) < 0.005
+
+
+WALL = '<body name="wall" pos="2 0 0.5"><geom type="box" size="0.1 3 0.5"/></body>'
+
+
+def test_pushing_a_wall_neither_enters_it_nor_throws_the_robot(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    simulation = on_asphalt(WALL)
+    robot = simulation.robots[0]
+    drive(simulation, 1.0, 0.0, seconds=3.0)
+    for _ in range(100):
+        drive(simulation, 1.0, 0.0, seconds=CONTROL_PERIOD_SEC)
+        front = robot.state.position[0] + 0.4937
+        assert front < 1.9 + 0.005
+        assert abs(robot.state.position[2] - 0.178) < 0.05
+    assert min(robot.wheels.speeds_rad_s) > 1.0, 'the wheels should spin'
+    assert simulation.physics_warnings == 0
+
+
+def test_wheel_odometry_drifts_in_turns_and_the_fused_heading_does_not(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    drive(simulation, 0.3, 0.2, seconds=20.0)
+    assert abs(math.remainder(robot.odometry.yaw - robot.state.yaw, math.tau)) > 0.02
+    assert robot.filtered.yaw == pytest.approx(robot.state.yaw, abs=1e-6)
+    assert math.dist((robot.filtered.x, robot.filtered.y), plan(robot)) < 0.05
