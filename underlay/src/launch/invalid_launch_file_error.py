@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .source_location import located_error
+
 
 class InvalidLaunchFileError(Exception):
     """Raised when no loader understands a launch file.
@@ -32,9 +34,7 @@ class InvalidLaunchFileError(Exception):
         super().__init__(self._error_message)
         if self._likely_errors:
             self.__cause__ = self._likely_errors[0]
-            location = getattr(self._likely_errors[0], 'launch_location', None)
-            if location is not None:
-                self.launch_location = location
+            located_error(self, getattr(self._likely_errors[0], 'launch_location', None))
 
     def __str__(self) -> str:
         return self._error_message

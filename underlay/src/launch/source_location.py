@@ -44,13 +44,17 @@ def traceback_location(trace: TracebackType | None) -> tuple[str, int] | None:
     return found
 
 
+def located_error(error: Exception, location: tuple[str, int] | None) -> Exception:
+    """Return the error with a note where it came from, unless it has one."""
+    if location is not None and getattr(error, 'launch_location', None) is None:
+        error.launch_location = location  # type: ignore[attr-defined]
+    return error
+
+
 def attach_location(error: Exception, entity: object) -> None:
     """Note at an error where it came from, unless an inner place is already known."""
-    if getattr(error, 'launch_location', None) is not None:
-        return
     location = traceback_location(error.__traceback__) or getattr(entity, '_location', None)
-    if location is not None:
-        error.launch_location = location  # type: ignore[attr-defined]
+    located_error(error, location)
 
 
 def describe_error(error: BaseException) -> str:

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from xml.parsers import expat
 
+from launch.source_location import located_error
+
 
 class Element:
     """One element with its attributes, children and text."""
@@ -45,6 +47,5 @@ def read_xml(text: str, name: str) -> Element:
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
         failure = ValueError(f'XML syntax error: {error}')
-        failure.launch_location = (name, error.lineno)  # type: ignore[attr-defined]
-        raise failure from None
+        raise located_error(failure, (name, error.lineno)) from None
     return top.children[0]

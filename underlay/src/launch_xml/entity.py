@@ -8,6 +8,7 @@ from typing import Any
 
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import check_is_list_entity
+from launch.source_location import located_error
 from launch.utilities.type_utils import get_typed_value
 
 from .element import Element
@@ -19,8 +20,12 @@ class Entity(BaseEntity):
     def __init__(self, xml_element: Element, *, parent: Entity | None = None) -> None:
         text = xml_element.text.strip()
         if text:
-            raise ValueError(
-                f"unexpected text '{text}' in element '{xml_element.tag}': values are attributes"
+            raise located_error(
+                ValueError(
+                    f"unexpected text '{text}' in element '{xml_element.tag}': values are "
+                    'attributes'
+                ),
+                xml_element.location,
             )
         self.__xml = xml_element
         self.__parent = parent

@@ -9,6 +9,7 @@ from typing import Any
 
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import check_is_list_entity
+from launch.source_location import located_error
 from launch.utilities.type_utils import is_instance_of
 
 
@@ -31,8 +32,11 @@ class Entity(BaseEntity):
         self.__parent = parent
         self.__read_keys: set[str] = set()
         if not isinstance(self.__element, (Mapping, list)):
-            raise TypeError(
-                f"'{type_name}' is {element!r}, expected its attributes (key: value) or a list"
+            raise located_error(
+                TypeError(
+                    f"'{type_name}' is {element!r}, expected its attributes (key: value) or a list"
+                ),
+                self.location,
             )
 
     @property

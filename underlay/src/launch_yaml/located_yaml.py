@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from launch.source_location import located_error
 import yaml
 
 
@@ -41,8 +42,5 @@ def read_yaml(text: str, name: str) -> Any:
         what = str(getattr(error, 'problem', None) or error)
         failure = ValueError(f'YAML syntax error: {what}')
         mark = getattr(error, 'problem_mark', None)
-        failure.launch_location = (  # type: ignore[attr-defined]
-            name,
-            1 if mark is None else mark.line + 1,
-        )
-        raise failure from None
+        line = 1 if mark is None else mark.line + 1
+        raise located_error(failure, (name, line)) from None

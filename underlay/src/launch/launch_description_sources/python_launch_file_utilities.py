@@ -8,7 +8,7 @@ from pathlib import Path
 from types import ModuleType
 
 from ..launch_description import LaunchDescription
-from ..source_location import register_launch_file, traceback_location
+from ..source_location import located_error, register_launch_file, traceback_location
 from ..utilities.typing_file_path import FilePath
 
 
@@ -45,12 +45,10 @@ def get_launch_description_from_python_launch_file(
             )
         description = generate()
     except SyntaxError as error:
-        error.launch_location = (error.filename, error.lineno)  # type: ignore[attr-defined]
+        located_error(error, (error.filename or path, error.lineno or 1))
         raise
     except Exception as error:
-        location = traceback_location(error.__traceback__)
-        if location is not None and not hasattr(error, 'launch_location'):
-            error.launch_location = location  # type: ignore[attr-defined]
+        located_error(error, traceback_location(error.__traceback__))
         raise
     if not isinstance(description, LaunchDescription):
         raise InvalidPythonLaunchFileError(

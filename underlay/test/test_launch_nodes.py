@@ -1,0 +1,307 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes: names, parameters, remappings, as the node itself sees them."""
+
+from collections.abc import Callable
+import json
+from pathlib import Path
+import re
+from typing import Any
+
+from launch import LaunchContext, LaunchDescription, LaunchService
+from launch.substitutions import LaunchConfiguration, TextSubstitution
+from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, Node, SetParameter
+from launch_ros.descriptions import ComposableNode
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
+from launch_ros.utilities import (
+    evaluate_parameters,
+    make_namespace_absolute,
+    normalize_parameters,
+    prefix_namespace,
+)
+import pytest
+
+LaunchFile = Callable[..., Path]
+Run = Callable[..., Any]
+
+BEFORE = """
+from launch_ros.actions import *
+from launch_ros.descriptions import ParameterFile
+from launch_ros.parameter_descriptions import Parameter, ParameterValue
+from launch_ros.substitutions import FindPackageShare
+def node(**kwargs):
+    return Node(package='some_pkg', executable='plain_node', output='screen', **kwargs)
+"""
+
+
+def _nodes(output: str) -> dict[str, tuple[str, str, dict[str, Any]]]:
+    """Return fully qualified name, topic and parameters of each process."""
+    found = re.findall(r'^\[(plain_node-\d+)\] NODE (.*)$', output, re.M)
+    return {process: tuple(json.loads(text)) for process, text in found}
+
+
+def test_names_parameters_and_remappings_reach_real_nodes(
+    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+) -> None:
+    share = ros_package / 'share' / 'some_pkg'
+    (share / 'plain.yaml').write_text('/**:\n  ros__parameters: {number: 1, own: [a, b]}\n')
+    (share / 'own.yaml').write_text('/deep/space/me:\n  ros__parameters: {fraction: $(var f)}\n')
+    path = python_launch_file(
+        """
+        DeclareLaunchArgument('f', default_value='0.5'),
+        GroupAction([
+            PushRosNamespace('deep'), SetParameter('everywhere', 'a: b'), SetUseSimTime(True),
+            SetRemap('chatter', '/elsewhere'),
+            SetParametersFromFile(FindPackageShare('some_pkg') / 'plain.yaml'),
+            node(
+                name='me', namespace='space', arguments=['--plain', 'argument'],
+                parameters=[
+                    PathJoinSubstitution([FindPackageShare('some_pkg'), 'plain.yaml']),
+                    {'number': 2, 'nested': {'flag': True}, 'text': '3', 'list': [1, 2.5],
+                     'computed': LaunchConfiguration('f'), ('long', '_name'): ['a', 'b']},
+                    ParameterFile(FindPackageShare('some_pkg') / 'own.yaml', allow_substs=True),
+                    Parameter('single', [True, False]),
+                    {'as_text': ParameterValue(LaunchConfiguration('f'), value_type=str)},
+                ],
+            ),
+        ]),
+        node(remappings=[('chatter', 'talk')], ros_arguments=['-p', 'given:=7']),
+        node(namespace='/top', remappings={'chatter': 'x'}.items()),
+        """,
+        before=BEFORE,
+    )
+    launched = run_launch(path)
+    nodes = _nodes(launched.output)
+    name, topic, parameters = nodes['plain_node-1']
+    assert (name, topic) == ('/deep/space/me', '/elsewhere')
+    assert parameters == {
+        'everywhere': 'a: b',
+        'use_sim_time': True,
+        'number': 2,
+        'own': ['a', 'b'],
+        'nested.flag': True,
+        'text': '3',
+        'list': [1.0, 2.5],
+        'computed': 0.5,
+        'long_name': ['a', 'b'],
+        'fraction': 0.5,
+        'single': [True, False],
+        'as_text': '0.5',
+        **{key: value for key, value in parameters.items() if key.startswith('start_type')},
+    }
+    assert '[plain_node-1] ARGUMENTS ["--plain", "argument"]' in launched.lines
+    assert nodes['plain_node-2'][:2] == ('/plain', '/talk')
+    assert nodes['plain_node-2'][2]['given'] == 7
+    assert nodes['plain_node-3'][:2] == ('/top/plain', '/top/x')
+    assert re.search(r'^\[plain_node-1\] \[INFO\] \[\d+\.\d+\] \[deep.space.me\]: a log line$',
+                     launched.output, re.M)  # fmt: skip
+
+
+def test_nodes_of_xml_files_are_the_same(
+    launch_file: LaunchFile, run_launch: Run, ros_package: Path
+) -> None:
+    (ros_package / 'share' / 'some_pkg' / 'p.yaml').write_text(
+        '/**:\n  ros__parameters: {from_file: $(var n)}\n'
+    )
+    path = launch_file(
+        """
+        <launch>
+          <arg name="n" default="4"/>
+          <set_parameter name="everywhere" value="1.5"/>
+          <set_use_sim_time value="true"/>
+          <group>
+            <push_ros_namespace namespace="deep"/>
+            <set_remap from="chatter" to="talk"/>
+            <node pkg="some_pkg" exec="plain_node" name="me" namespace="in" output="screen"
+                  args="--number $(var n) 'two words'">
+              <param name="number" value="$(var n)"/>
+              <param name="text" value="$(var n)" type="str"/>
+              <param name="outer"><param name="inner" value="true"/></param>
+              <param name="list" value="a,b" value-sep=","/>
+              <param from="$(find-pkg-share some_pkg)/p.yaml" allow_substs="true"/>
+              <remap from="unused" to="other"/>
+            </node>
+          </group>
+          <node pkg="some_pkg" exec="plain_node" output="screen" exec_name="renamed"/>
+        </launch>
+        """,
+        'nodes.launch.xml',
+    )
+    launched = run_launch(path)
+    name, topic, parameters = _nodes(launched.output)['plain_node-1']
+    assert (name, topic) == ('/deep/in/me', '/deep/in/talk')
+    wanted = {
+        'everywhere': 1.5,
+        'use_sim_time': True,
+        'number': 4,
+        'text': '4',
+        'outer.inner': True,
+        'list': ['a', 'b'],
+        'from_file': 4,
+    }
+    assert {key: parameters.get(key) for key in wanted} == wanted
+    assert '[plain_node-1] ARGUMENTS ["--number", "4", "two words"]' in launched.lines
+    assert 'NODE ["/plain", "/chatter"' in launched.output
+    assert '[renamed-2] ' in launched.output
+
+
+def test_two_nodes_of_one_name_are_warned_about(
+    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+) -> None:
+    del ros_package
+    path = python_launch_file(
+        "node(name='same', namespace='/'), node(name='same', namespace='/'),", before=BEFORE
+    )
+    expected = 'there are now at least 2 nodes with the name /same created within this launch'
+    assert expected in run_launch(path).output
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'message'),
+    [
+        (
+            "package='some_pkg', executable='plain_nod'",
+            "'plain_nod' not found on the libexec dire",
+        ),
+        ("package='some_pkg', executable='plain_nod'", "is 'plain_node' meant?"),
+        ("package='some_pk', executable='x'", "package 'some_pk' not found, searching: ["),
+        ("package='some_pk', executable='x'", "is 'some_pkg' meant?"),
+        ("package='some_pkg', executable='plain_node', name='a b'", "node name 'a b' is refused"),
+        (
+            "package='some_pkg', executable='plain_node', namespace='1'",
+            "namespace '/1' is refused",
+        ),
+        (
+            "package='some_pkg', executable='plain_node', parameters=[{'a': [1, 'b']}]",
+            "parameter 'a' has the value [1, 'b']",
+        ),
+        (
+            "package='some_pkg', executable='plain_node', "
+            "parameters=[{'a': TextSubstitution(text='<xml: {')}]",
+            'Unable to parse the value of parameter a as yaml',
+        ),
+        (
+            "package='some_pkg', executable='plain_node', "
+            "parameters=[{'a': TextSubstitution(text='')}]",
+            "parameter 'a' has the value nothing",
+        ),
+        ("package='some_pkg', executable='plain_node', output='scren'", "output 'scren' is not"),
+    ],
+)
+def test_a_wrong_node_is_one_line_with_its_place(
+    arguments: str,
+    message: str,
+    python_launch_file: LaunchFile,
+    run_launch: Run,
+    ros_package: Path,
+) -> None:
+    del ros_package
+    path = python_launch_file(f'Node({arguments}),', before=BEFORE)
+    launched = run_launch(path)
+    assert launched.returncode == 1
+    (line,) = [line for line in launched.lines if line.startswith('[ERROR]')]
+    assert message in line
+    assert f'(at {path}:' in line
+    assert 'Traceback' not in launched.output
+
+
+def test_a_missing_parameter_file_is_warned_about(
+    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+) -> None:
+    del ros_package
+    path = python_launch_file("node(parameters=['/no/such/file.yaml']),", before=BEFORE)
+    launched = run_launch(path)
+    assert 'Parameter file path is not a file: /no/such/file.yaml' in launched.output
+    assert 'plain_node-1' in _nodes(launched.output)
+
+
+def test_component_containers_are_refused_in_one_line(
+    launch_environment: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    del launch_environment
+    composable = ComposableNode(package='a', plugin='a::B', parameters=[{'x': 1}])
+    actions = [
+        ComposableNodeContainer(
+            name='box',
+            namespace='',
+            package='rclcpp_components',
+            executable='component_container',
+            composable_node_descriptions=[composable],
+        ),
+        LoadComposableNodes(composable_node_descriptions=[composable], target_container='box'),
+    ]
+    for action in actions:
+        service = LaunchService()
+        service.include_launch_description(LaunchDescription([action]))
+        assert service.run() == 1
+        (line,) = [
+            text for text in capsys.readouterr().out.splitlines() if text.startswith('[ERROR]')
+        ]
+        assert 'component containers are C++ programs' in line
+
+
+def test_packages_are_found_and_their_parts(ros_package: Path) -> None:
+    context = LaunchContext()
+    share = ros_package / 'share' / 'some_pkg'
+    assert FindPackageShare('some_pkg').perform(context) == str(share)
+    assert (FindPackageShare('some_pkg') / 'a' / 'b').perform(context) == str(share / 'a' / 'b')
+    program = ExecutableInPackage(package='some_pkg', executable='plain_node').perform(context)
+    assert program == str(ros_package / 'lib' / 'some_pkg' / 'plain_node')
+
+
+@pytest.mark.parametrize(
+    ('base', 'namespace', 'result'),
+    [
+        (None, None, None),
+        (None, 'a', '/a'),
+        ('/a', None, '/a'),
+        ('/a', 'b', '/a/b'),
+        ('/a', '/b', '/b'),
+        ('/', 'b', '/b'),
+        ('/a', '', '/a'),
+    ],
+)
+def test_namespaces_are_joined(base: str | None, namespace: str | None, result: str) -> None:
+    assert make_namespace_absolute(prefix_namespace(base, namespace)) == result
+
+
+def test_parameter_values_keep_or_get_their_types(launch_environment: None) -> None:
+    del launch_environment
+    context = LaunchContext()
+    context.launch_configurations['x'] = '1'
+    x = LaunchConfiguration('x')
+    given = {
+        'plain': '1',
+        'yaml': x,
+        'joined': [x, '.5'],
+        'list': [[x], [x, '0']],
+        'typed': ParameterValue(x, value_type=bool),
+        'typed_list': ParameterValue([x, 'a'], value_type=str),
+        'text': [TextSubstitution(text='a'), TextSubstitution(text='b')],
+        'path': Path('/a'),
+        'bytes': b'x',
+    }
+    (values,) = evaluate_parameters(context, normalize_parameters([given]))
+    assert values == {
+        'plain': '1',
+        'yaml': 1,
+        'joined': 1.5,
+        'list': [1, 10],
+        'typed': True,
+        'typed_list': '1a',
+        'text': 'ab',
+        'path': '/a',
+        'bytes': b'x',
+    }
+
+
+@pytest.mark.parametrize('parameters', ['file.yaml', {'a': 1}, [5], [{'a': None}], [{'a': {1}}]])
+def test_wrong_parameters_are_refused_when_written(parameters: Any) -> None:
+    with pytest.raises(TypeError):
+        Node(package='a', executable='b', parameters=parameters)
+
+
+def test_set_parameter_refuses_what_no_parameter_can_have() -> None:
+    with pytest.raises(TypeError, match='Unexpected type for parameter value None'):
+        SetParameter('a', None)
