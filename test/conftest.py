@@ -3,7 +3,6 @@
 """What every system test has: a DDS domain, a log folder and processes of its own."""
 
 from collections.abc import Iterator
-import os
 from pathlib import Path
 import sys
 
@@ -26,9 +25,7 @@ def domain_id(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> int:
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
     monkeypatch.setenv('PYTHONUNBUFFERED', '1')
-    if not os.environ.get('FASTDDS_DEFAULT_PROFILES_FILE'):
-        profile = ROOT / 'config' / 'fastdds.xml'
-        monkeypatch.setenv('FASTDDS_DEFAULT_PROFILES_FILE', str(profile))
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
     return number
 
 

@@ -43,7 +43,7 @@ def test_drive_ends_with_a_report_and_success(processes: Processes, tmp_path: Pa
 
 def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_path: Path) -> None:
     course = tmp_path / 'through.yaml'
-    course.write_text('speed: 0.6\ncheck: off\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n')
+    course.write_text('speed: 0.6\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n')
     run = drive(processes, tmp_path, '--fast', '--waypoints', 'through.yaml')
     assert run.wait(timeout_sec=60.0) == 1, run.output
     report = json.loads((tmp_path / 'report.json').read_text())
@@ -89,31 +89,26 @@ def test_the_same_file_gives_the_same_run_also_on_a_loaded_machine(
 def test_an_interrupted_drive_leaves_nothing_behind(
     processes: Processes, tmp_path: Path, number: signal.Signals
 ) -> None:
-    shared_before = shared_memory()
     run = drive(processes, tmp_path)
     run.wait_for_text('10 %', timeout_sec=40.0)
     started = [int(line.split('pid [')[1].split(']')[0]) for line in run.lines if 'pid [' in line]
     assert len(started) >= 2, 'the simulator and the driver'
+    shared = {name for pid in started for name in shared_memory_of(pid)}
     os.kill(run.pid, number)  # to the script alone: it must hand it on
     assert run.wait(timeout_sec=2.5) in (128 + number, -number)
     assert [pid for pid in started if Path(f'/proc/{pid}').exists()] == []
-    left = {name for name in shared_memory() - shared_before if belongs_to_nobody(name)}
+    in_use = {name for pid in Path('/proc').glob('[0-9]*') for name in shared_memory_of(pid.name)}
+    left = {name for name in shared - in_use if Path(name).exists()}
     assert left == set(), 'shared memory left behind'
 
 
-def shared_memory() -> set[str]:
-    return {path.name for path in Path('/dev/shm').iterdir()}
-
-
-def belongs_to_nobody(name: str) -> bool:
-    """Tell if no process of this machine has the shared memory open or mapped."""
-    for process in Path('/proc').glob('[0-9]*'):
-        try:
-            if f'/dev/shm/{name}' in (process / 'maps').read_text():
-                return False
-        except OSError:
-            continue  # it has ended meanwhile
-    return True
+def shared_memory_of(pid: int | str) -> set[str]:
+    """Return the files of Fast DDS's shared memory that a process has mapped."""
+    try:
+        rows = Path(f'/proc/{pid}/maps').read_text().splitlines()
+    except OSError:
+        return set()  # it has ended meanwhile
+    return {row.split()[-1] for row in rows if '/dev/shm/fastrtps' in row}
 
 
 def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_path: Path) -> None:
