@@ -47,6 +47,7 @@ setup(
     entry_points={
         'console_scripts': [
             'husky_sim = husky_sim.node:main',
+            'replay = husky_sim.view.replay:main',
             'view = husky_sim.view.node:main',
         ]
     },

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Collisions: a red flash at the place, with the obstacle's name, and then a small mark."""
+"""Collisions: a red flash at the place, and then a small mark with the obstacle's name."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -36,14 +36,16 @@ class CollisionMarks:
 
     def __init__(self, server: viser.ViserServer) -> None:
         self._server = server
-        self._balls: list[Any] = []
-        self._flashing: list[tuple[float, Any, Any]] = []  # when begun, ball, label
+        self._nodes: list[Any] = []
+        self._flashing: list[tuple[float, Any, Any, str]] = []  # when begun, ball, label, name
+        self._made = 0
 
     def add(self, collision: Collision, *, now_sec: float) -> None:
         """Flash at a collision; now is of a steady wall clock."""
-        if len(self._balls) == MOST_MARKS:
-            self._balls.pop(0).remove()
-        name = f'/collisions/{collision.robot}_{collision.time_sec:.3f}_{len(self._balls)}'
+        if self._made == MOST_MARKS:
+            return
+        self._made += 1
+        name = f'/collisions/{self._made}'
         ball = self._server.scene.add_icosphere(
             name,
             radius=0.07,
@@ -57,26 +59,27 @@ class CollisionMarks:
         label = self._server.scene.add_label(
             f'{name}_label', f'⚠ {collision}', position=(x, y, z + 0.5), anchor='bottom-center'
         )
-        self._balls.append(ball)
-        self._flashing.append((now_sec, ball, label))
+        self._nodes += [ball, label]
+        self._flashing.append((now_sec, ball, label, collision.obstacle))
 
     def update(self, now_sec: float) -> None:
         """Go on with the flashes; call it with every frame."""
-        for begun_sec, ball, label in list(self._flashing):
+        for flash in list(self._flashing):
+            begun_sec, ball, label, obstacle = flash
             age = (now_sec - begun_sec) / FLASH_SEC
             if age >= 1.0:
                 ball.scale = 1.0
-                label.remove()
-                self._flashing.remove((begun_sec, ball, label))
+                label.text = f'⚠ {obstacle}'
+                label.font_screen_scale = 0.7
+                self._flashing.remove(flash)
             else:
-                pulse = 0.5 + 0.5 * (1.0 if int(age * 10) % 2 == 0 else 0.0)
+                pulse = 1.0 if int(age * 10) % 2 == 0 else 0.5
                 ball.scale = 1.0 + (_FLASH_SCALE - 1.0) * (1.0 - age) * pulse
 
     def clear(self) -> None:
         """Take all of them away."""
-        for _, _, label in self._flashing:
-            label.remove()
-        for ball in self._balls:
-            ball.remove()
+        for node in self._nodes:
+            node.remove()
+        self._nodes.clear()
         self._flashing.clear()
-        self._balls.clear()
+        self._made = 0

@@ -167,7 +167,7 @@ def numbers_html(numbers: Numbers) -> str:
     cells = (
         ('sim time', f'{numbers.time_sec:.1f} s', 'time'),
         ('real time ×', '–' if factor is None else f'{factor:.2f}', 'factor'),
-        ('speed', f'{numbers.speed_m_s:.2f} m/s', 'speed'),
+        ('speed', f'{numbers.speed_m_s:.2f} m/s'.replace('-0.00', '0.00'), 'speed'),
         ('off the path', '–' if cross is None else f'{cross:+.3f} m', 'cross'),
         ('waypoints left', '–' if left is None else str(left), 'left'),
         ('collisions', str(numbers.collisions), 'collisions'),
