@@ -33,8 +33,8 @@ class DriveLimits:
     braking_m_s2: float = 1.2  # planned, gentle enough to stop on the point
     lateral_m_s2: float = 1.0  # in bends; wheels begin to slide at about 4
     bend_yaw_rate_rad_s: float = 1.5  # leaves the rest to the feedback
-    turn_yaw_rate_rad_s: float = 1.5  # turning on the spot
-    turn_braking_rad_s2: float = 3.0
+    turn_yaw_rate_rad_s: float = 2.0  # turning on the spot
+    turn_braking_rad_s2: float = 4.5
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class TrackerGains:
     max_offset_m: float = 0.3  # further away it still steers like this far away
     delay_sec: float = 0.04  # from odometry to the wheels turning at the new speed
     preview_sec: float = 0.08  # the curve's yaw rate is commanded this much ahead
-    end_rate_per_s: float = 5.0  # speed over distance left, close to the end
+    end_rate_per_s: float = 8.0  # speed over distance left, close to the end
 
 
 def plan_speeds(curve: Curve, asked_m_s: Sequence[float], limits: DriveLimits) -> list[float]:

@@ -8,6 +8,9 @@ from typing import Any
 
 from husky_driver.check import main as check
 from husky_driver.grade import main as grade
+from husky_driver.rehearsal import drive_course
+from husky_driver.scoring import score
+from husky_driver.waypoints import load_course
 import pytest
 
 THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'
@@ -41,6 +44,23 @@ def test_the_central_barrier_is_passed_within_the_lab_s_own_limits(
     page = (tmp_path / 'report.html').read_text()
     assert 'http' not in page.replace('http://www.w3.org', '')
     assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
+
+
+@pytest.mark.parametrize(
+    'name',
+    ['figure_eight', 'grand_perimeter', 'slalom', 'square', 'straight', 'west_inner'],
+)
+def test_every_course_is_driven_near_its_path_at_its_speed_without_a_touch(
+    courses: Path, name: str
+) -> None:
+    course = load_course(courses / f'{name}.yaml')
+    record, drive = drive_course(course)
+    report = score(record, course)
+    assert report.passed, report.reasons
+    assert drive.reached == drive.total == report.waypoints_reached
+    assert report.cross_track_rms_m <= 0.08
+    assert report.cross_track_max_m <= 0.25
+    assert report.path_length_m / report.sim_time_sec >= 0.88 * course.speed_m_s
 
 
 def test_the_same_file_gives_the_same_trajectory_to_the_last_bit(
