@@ -222,10 +222,11 @@ class SimulatorNode(Node):
 def main(args: list[str] | None = None) -> int:
     """Run the simulator until it is interrupted."""
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    interrupted = future_of_signal()
     node: SimulatorNode | None = None
     try:
         node = SimulatorNode()
-        spin_until_interrupted(node)
+        spin(node, until=interrupted)
     except SimulatorError as error:
         print(f'husky_sim: {error}', file=sys.stderr)
         return 2
@@ -236,20 +237,30 @@ def main(args: list[str] | None = None) -> int:
     return 0
 
 
-def spin_until_interrupted(node: Node) -> None:
+def future_of_signal() -> 'Future[None]':
     """
-    Spin with the executor that costs least, until SIGINT or SIGTERM.
+    Return a future that SIGINT or SIGTERM completes.
 
     A signal lets the callback that runs finish, so that a run ends with a whole control period.
     """
-    executor = EventsExecutor()
-    interrupted: Future[None] = Future(executor=executor)
+    interrupted: Future[None] = Future()
+
+    def on_signal(*_: object) -> None:
+        if not interrupted.done():
+            interrupted.set_result(None)
+
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: interrupted.done() or interrupted.set_result(None))
+        signal.signal(number, on_signal)
+    return interrupted
+
+
+def spin(node: Node, *, until: 'Future[None]') -> None:
+    """Spin with the executor that costs least."""
+    executor = EventsExecutor()
     executor.add_node(node)
-    while not interrupted.done():
+    while not until.done():
         # The executor looks at signals only between two spins.
-        executor.spin_until_future_complete(interrupted, timeout_sec=SIGNAL_LATENCY_SEC)
+        executor.spin_until_future_complete(until, timeout_sec=SIGNAL_LATENCY_SEC)
 
 
 if __name__ == '__main__':

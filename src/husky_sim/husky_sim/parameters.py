@@ -72,7 +72,7 @@ def _robot(line: str) -> RobotStart:
     try:
         x, y, yaw = (float(word) for word in pose)
     except ValueError:
-        x = math.nan
+        x = y = yaw = math.nan
     if not _NAME.fullmatch(name) or not all(math.isfinite(value) for value in (x, y, yaw)):
         raise SettingError(
             f"robots: {line!r}: a robot is 'NAME X Y YAW', a name of letters, digits and _ and "

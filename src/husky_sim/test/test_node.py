@@ -1,0 +1,370 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node over DDS: topics, rates, services, and what it refuses."""
+
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+import json
+import math
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import Twist
+from husky_sim.errors import SettingError, StartPoseError, WorldError
+from husky_sim.node import SimulatorNode
+from nav_msgs.msg import Odometry
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu, JointState
+from std_srvs.srv import Empty, SetBool, Trigger
+
+FIRST_DOMAIN_ID = 10
+COMMANDS = 'husky_velocity_controller/cmd_vel'
+TOPICS = {
+    'odometry/filtered': Odometry,
+    'husky_velocity_controller/odom': Odometry,
+    'husky_velocity_controller/cmd_vel_out': Twist,
+    'ground_truth/odom': Odometry,
+    'imu/data': Imu,
+    'joint_states': JointState,
+    'collisions': DiagnosticStatus,
+    '/clock': Clock,
+}
+
+
+class Probe(Node):
+    """Hears every topic of the simulator, and commands it."""
+
+    def __init__(self, context: Context, prefix: str = '') -> None:
+        super().__init__('probe', context=context)
+        self.heard: dict[str, list[Any]] = {name: [] for name in TOPICS}
+        for name, kind in TOPICS.items():
+            topic = name if name.startswith('/') else prefix + name
+            self.create_subscription(kind, topic, self.heard[name].append, 500)
+        self.publisher = self.create_publisher(Twist, prefix + COMMANDS, 10)
+
+    def command(self, speed_m_s: float, yaw_rate_rad_s: float = 0.0) -> None:
+        message = Twist()
+        message.linear.x, message.angular.z = speed_m_s, yaw_rate_rad_s
+        self.publisher.publish(message)
+
+    @property
+    def odometry(self) -> list[Odometry]:
+        return self.heard['odometry/filtered']
+
+
+class Bench:
+    """A simulator and a probe that one executor serves, in this thread."""
+
+    def __init__(self, domain_id: int, **parameters: Any) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+        self.simulator = SimulatorNode(context=self.context, parameter_overrides=overrides)
+        self.probe = Probe(self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.simulator)
+        self.executor.add_node(self.probe)
+
+    def until(self, holds: Callable[[], Any], what: str, *, timeout_sec: float = 15.0) -> None:
+        deadline = time.monotonic() + timeout_sec
+        while not holds():
+            assert time.monotonic() < deadline, f'{what} did not come in {timeout_sec:g} s'
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def matched(self) -> None:
+        self.until(lambda: all(self.probe.heard[n] for n in TOPICS if n != 'collisions'), 'topics')
+
+    def begun(self) -> None:
+        self.until(lambda: self.probe.odometry, 'the first odometry message')
+
+    def answer(self, speed_m_s: float, yaw_rate_rad_s: float = 0.0) -> None:
+        """Command, and wait for the odometry that follows."""
+        heard = len(self.probe.odometry)
+        self.probe.command(speed_m_s, yaw_rate_rad_s)
+        self.until(lambda: len(self.probe.odometry) > heard, 'the next odometry message')
+
+    def call(self, kind: Any, name: str, request: Any) -> Any:
+        client = self.probe.create_client(kind, f'/husky_sim/{name}')
+        self.until(client.service_is_ready, f'the service {name}')
+        future = client.call_async(request)
+        self.until(future.done, f'an answer of {name}')
+        return future.result()
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.probe.destroy_node()
+        self.simulator.destroy_node()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def domain_id(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> int:
+    """Give each test of this module a DDS domain of its own."""
+    names = [item.name for item in request.session.items if item.path == request.node.path]
+    number = FIRST_DOMAIN_ID + names.index(request.node.name) % 20
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(number))
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    return number
+
+
+@pytest.fixture
+def bench(domain_id: int) -> Iterator[Callable[..., Bench]]:
+    made: list[Bench] = []
+
+    def make(**parameters: Any) -> Bench:
+        made.append(Bench(domain_id, **parameters))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+def stamp_sec(message: Any) -> float:
+    return float(message.header.stamp.sec + message.header.stamp.nanosec * 1e-9)
+
+
+def value(message: DiagnosticStatus, key: str) -> str:
+    return str(next(entry.value for entry in message.values if entry.key == key))
+
+
+def test_every_topic_comes_at_50_hz_of_simulated_time(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=3.0)
+    run.matched()
+    run.until(lambda: len(run.probe.heard['imu/data']) > 60, '60 IMU messages')
+    for name, kind in TOPICS.items():
+        if kind in (Odometry, Imu, JointState):
+            stamps = [stamp_sec(message) for message in run.probe.heard[name]]
+            steps = [after - before for before, after in pairwise(stamps)]
+            assert steps == pytest.approx([0.02] * len(steps)), name
+    clock = [m.clock.sec + m.clock.nanosec * 1e-9 for m in run.probe.heard['/clock']]
+    assert clock[-1] == pytest.approx(stamp_sec(run.probe.odometry[-1]), abs=0.0201)
+
+
+def test_frames_and_covariances_are_those_of_the_original(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=0.0)
+    run.matched()
+    filtered = run.probe.odometry[0]
+    truth = run.probe.heard['ground_truth/odom'][0]
+    wheels = run.probe.heard['husky_velocity_controller/odom'][0]
+    imu = run.probe.heard['imu/data'][-1]
+    assert (filtered.header.frame_id, filtered.child_frame_id) == ('odom', 'base_link')
+    assert (truth.header.frame_id, truth.child_frame_id) == ('world', 'base_link')
+    assert list(wheels.pose.covariance[::7]) == [0.001] * 5 + [0.03]
+    assert imu.linear_acceleration.z == pytest.approx(9.8, abs=0.05)
+    assert imu.header.frame_id == 'base_link'
+    assert list(run.probe.heard['joint_states'][0].name) == [
+        'front_left_wheel_joint',
+        'front_right_wheel_joint',
+        'rear_left_wheel_joint',
+        'rear_right_wheel_joint',
+    ]
+
+
+def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=2.0)
+    run.matched()
+    first, begin = stamp_sec(run.probe.odometry[-1]), time.monotonic()
+    run.until(lambda: stamp_sec(run.probe.odometry[-1]) - first > 3.0, '3 s of simulated time')
+    assert time.monotonic() - begin == pytest.approx(1.5, abs=0.1)
+
+
+def test_a_command_moves_it_and_its_end_stops_it_within_the_timeout(
+    bench: Callable[..., Bench], capfd: pytest.CaptureFixture[str]
+) -> None:
+    run = bench(real_time_factor=1.0)
+    run.matched()
+
+    def pushed() -> bool:
+        run.probe.command(0.5)
+        return bool(run.probe.odometry[-1].twist.twist.linear.x > 0.45)
+
+    run.until(pushed, '0.45 m/s')
+    last_sec = stamp_sec(run.probe.odometry[-1])
+    run.until(lambda: run.probe.odometry[-1].twist.twist.linear.x < 0.01, 'the stop')
+    # 0.25 s of timeout, 0.5 / 3.0 s of braking, and what was on its way
+    assert stamp_sec(run.probe.odometry[-1]) - last_sec < 0.25 + 0.167 + 0.1
+    assert 'no command for 0.25 s (command_timeout_sec); stopping' in capfd.readouterr().err
+
+
+@pytest.mark.parametrize('bad', [math.nan, math.inf])
+def test_a_command_that_is_no_number_stops_it_with_one_line(
+    bench: Callable[..., Bench], capfd: pytest.CaptureFixture[str], bad: float
+) -> None:
+    run = bench(real_time_factor=1.0)
+    run.matched()
+
+    def pushed() -> bool:
+        run.probe.command(0.3)
+        return bool(run.probe.odometry[-1].twist.twist.linear.x > 0.25)
+
+    run.until(pushed, '0.25 m/s')
+    capfd.readouterr()
+    run.probe.command(0.3, bad)
+    run.until(lambda: run.probe.odometry[-1].twist.twist.linear.x < 0.01, 'the stop')
+    lines = [line for line in capfd.readouterr().err.splitlines() if 'finite' in line]
+    assert len(lines) == 1
+
+
+def test_driving_into_the_barrier_reports_one_collision(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=5.0)
+    run.matched()
+
+    def hit() -> bool:
+        run.probe.command(0.6)
+        return bool(run.probe.heard['collisions'])
+
+    run.until(hit, 'a collision')
+    (touch,) = run.probe.heard['collisions']
+    assert touch.name == 'jersey_barrier_15'
+    assert touch.hardware_id == 'husky'
+    assert touch.level == DiagnosticStatus.ERROR
+    assert value(touch, 'obstacle') == 'jersey_barrier_15'
+    assert value(touch, 'part') in ('front_bumper', 'front_left_wheel')
+    assert float(value(touch, 'force_n')) > 0.0
+    assert 1.0 < float(value(touch, 'time_sec')) < 20.0
+    assert len(value(touch, 'position').split()) == 3
+
+
+def test_lockstep_waits_for_each_command_and_advances_one_period(
+    bench: Callable[..., Bench],
+) -> None:
+    run = bench(real_time_factor=0.0, lockstep=True)
+    run.begun()
+    run.until(lambda: len(run.probe.odometry) >= 2, 'its repetition')
+    assert {stamp_sec(message) for message in run.probe.odometry} == {0.0}
+    for answered in range(1, 51):
+        run.answer(0.5)
+        assert stamp_sec(run.probe.odometry[-1]) == pytest.approx(answered * 0.02)
+    deadline = time.monotonic() + 0.7
+    heard = len(run.probe.odometry)
+    while time.monotonic() < deadline:
+        run.executor.spin_once(timeout_sec=0.05)
+    assert len(run.probe.odometry) == heard, 'it went on without a command'
+
+
+def test_pause_step_and_reset(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=1.0)
+    run.matched()
+    assert not run.call(Trigger, 'step', Trigger.Request()).success
+    assert run.call(SetBool, 'pause', SetBool.Request(data=True)).success
+    paused_sec = stamp_sec(run.probe.odometry[-1])
+    assert run.call(Trigger, 'step', Trigger.Request()).success
+    run.until(lambda: stamp_sec(run.probe.odometry[-1]) > paused_sec, 'the stepped period')
+    run.call(Empty, 'reset', Empty.Request())
+    run.until(lambda: stamp_sec(run.probe.odometry[-1]) == 0.0, 'time 0')
+    assert run.probe.odometry[-1].pose.pose.position.x == 0.0
+    assert run.call(SetBool, 'pause', SetBool.Request(data=False)).success
+    run.until(lambda: stamp_sec(run.probe.odometry[-1]) > 0.1, 'time to pass again')
+
+
+def test_two_runs_of_the_same_commands_are_the_same_bit_for_bit(
+    bench: Callable[..., Bench], tmp_path: Path
+) -> None:
+    records = []
+    for name in ('one.json', 'two.json'):
+        path = tmp_path / name
+        run = bench(real_time_factor=0.0, lockstep=True, record=str(path))
+        run.begun()
+        for step in range(150):
+            run.answer(0.6, 0.8 * math.sin(step / 20.0))
+        run.close()
+        records.append(json.loads(path.read_text()))
+    assert records[0]['robots'] == records[1]['robots']
+    assert len(records[0]['robots']['husky']['x']) == 151
+    assert records[0]['start'] == {'husky': [0.0, 0.0, 0.0]}
+
+
+def test_each_of_many_robots_has_its_own_topics(domain_id: int) -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    robots = ['alpha 0 0 0', 'beta -3 -1 0.7854']
+    overrides = [Parameter('robots', value=robots), Parameter('real_time_factor', value=0.0)]
+    simulator = SimulatorNode(context=context, parameter_overrides=overrides)
+    probes = [Probe(context, prefix) for prefix in ('alpha/', 'beta/')]
+    executor = SingleThreadedExecutor(context=context)
+    nodes: list[Node] = [simulator, *probes]
+    for node in nodes:
+        executor.add_node(node)
+    deadline = time.monotonic() + 15.0
+    while not all(probe.heard['ground_truth/odom'] for probe in probes):
+        assert time.monotonic() < deadline, 'one of the robots says nothing'
+        executor.spin_once(timeout_sec=0.05)
+    x = [probe.heard['ground_truth/odom'][0].pose.pose.position.x for probe in probes]
+    executor.shutdown()
+    for node in reversed(nodes):
+        node.destroy_node()
+    context.try_shutdown()
+    assert x == pytest.approx([0.0, -3.0], abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'error', 'message'),
+    [
+        ({'world': 'nowhere.xml'}, WorldError, 'no such file'),
+        ({'x': 2.4}, StartPoseError, 'would start inside jersey_barrier_15'),
+        ({'x': 500.0}, StartPoseError, 'there is no ground under it'),
+        ({'speed_limit_m_s': -1.0}, SettingError, 'speed_limit_m_s'),
+        ({'real_time_factor': 'fast'}, SettingError, 'real_time_factor'),
+        ({'robots': ['a/b 0 0 0']}, SettingError, "a robot is 'NAME X Y YAW'"),
+        ({'robots': ['a 0 0']}, SettingError, "a robot is 'NAME X Y YAW'"),
+    ],
+)
+def test_a_setting_that_cannot_be_is_refused(
+    domain_id: int, parameters: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+    with pytest.raises(error, match=message):
+        SimulatorNode(context=context, parameter_overrides=overrides)
+    context.try_shutdown()
+
+
+def run_process(*arguments: str) -> 'subprocess.Popen[str]':
+    return subprocess.Popen(
+        [sys.executable, '-m', 'husky_sim.node', '--ros-args', *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int) -> None:
+    del domain_id
+    process = run_process('-p', 'world:=nowhere.xml')
+    _, said = process.communicate(timeout=20.0)
+    assert process.returncode == 2
+    assert said.count('\n') == 1
+    assert said.startswith("husky_sim: world='nowhere.xml': no such file")
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_soon_and_the_record_is_whole(
+    domain_id: int, tmp_path: Path, number: signal.Signals
+) -> None:
+    del domain_id
+    path = tmp_path / 'deep' / 'record.json'
+    process = run_process('-p', f'record:={path}', '-p', 'real_time_factor:=0.0')
+    assert process.stderr is not None
+    assert 'obstacles' in process.stderr.readline()
+    process.send_signal(number)
+    begin = time.monotonic()
+    _, said = process.communicate(timeout=20.0)
+    assert time.monotonic() - begin < 2.0
+    assert process.returncode == 0
+    assert 'Traceback' not in said
+    record = json.loads(path.read_text())
+    assert record['format'] == 'husky_playpen_record'
+    assert len(record['obstacles']) == 34
+    assert record['min_clearance_m']['husky'] == pytest.approx(0.73, abs=0.02)
