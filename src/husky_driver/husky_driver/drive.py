@@ -64,6 +64,15 @@ class Drive:
         return self._tracker.remaining_m + later
 
     @property
+    def tracker(self) -> Tracker | None:
+        """What keeps the robot on the leg it is on; None before the first."""
+        return self._tracker
+
+    @property
+    def speed_m_s(self) -> float:
+        return 0.0 if self._now is None else self._now.speed_m_s
+
+    @property
     def elapsed_sec(self) -> float:
         return 0.0 if self._now is None else self._now.time_sec - self._started_sec
 

@@ -9,34 +9,21 @@ command; what to answer is decided by a `Drive`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import fields
 import os
-import signal
 import sys
 import time
-from types import FrameType
 from typing import Any
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry as OdometryMsg
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
-import rclpy
 from rclpy.clock import Clock, ClockType
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
-from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
-from rclpy.utilities import remove_ros_args
 
-from husky_driver.command_line import BAD_INPUT, Parser
-from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.display import DriveDisplay
+from husky_driver.drive import Drive
 from husky_driver.motion import Odometry, yaw_of
 from husky_driver.progress import Progress
-from husky_driver.prompt import ask_move
-from husky_driver.settings import refuse_unknown, Settings
-from husky_driver.waypoints import load_course
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
@@ -67,6 +54,7 @@ class FollowPath(Node):
     def start(self, drive: Drive) -> None:
         """Begin to listen to odometry and to drive."""
         self._drive = drive
+        self._display = DriveDisplay(self, drive)
         mode = self.settings.progress
         bar = mode == 'bar' or (mode == 'auto' and sys.stdout.isatty())
         line = (lambda _: None) if mode == 'off' else self.get_logger().info
@@ -128,6 +116,7 @@ class FollowPath(Node):
 
     def _finish(self, exit_code: int) -> None:
         self._progress.close()
+        self._display.update()
         if not self.finished.done():
             self.finished.set_result(exit_code)
 
@@ -155,6 +144,7 @@ class FollowPath(Node):
             self.stop(GAVE_UP, f'gave up: {self._silence(now - self._heard_sec)}')
         else:
             drive = self._drive
+            self._display.update()
             note = f'waypoint {min(drive.reached + 1, drive.total)} of {drive.total}'
             self._progress.update(drive.length_m, drive.remaining_m, drive.elapsed_sec, note)
 
@@ -193,105 +183,3 @@ def read_odometry(msg: OdometryMsg) -> Odometry:
         twist.linear.x,
         twist.angular.z,
     )
-
-
-def declare_settings(node: Node) -> Settings:
-    """
-    Declare the parameters on a node and return their values.
-
-    :raises ValueError: for a parameter that does not exist or a value that is not allowed.
-    """
-    given = set(node.get_parameters_by_prefix(''))
-    refuse_unknown(given)
-    values: dict[str, Any] = {}
-    for item in fields(Settings):
-        if item.name in given:
-            node.undeclare_parameter(item.name)  # it was declared without a description
-        values[item.name] = _declare(node, item.name, item.default, item.metadata)
-    return Settings(**values)
-
-
-def _declare(node: Node, name: str, default: Any, metadata: Any) -> Any:
-    descriptor = ParameterDescriptor(description=metadata['description'])
-    low, high = metadata.get('span', (0.0, 0.0))
-    if isinstance(default, float):
-        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
-    try:
-        return node.declare_parameter(name, default, descriptor).value
-    except InvalidParameterTypeException:
-        kind = 'a number with a decimal point' if isinstance(default, float) else 'text'
-        raise ValueError(f'parameter {name} must be {kind}, as {default!r}') from None
-    except InvalidParameterValueException:
-        raise ValueError(f'parameter {name}: allowed is {low:g} to {high:g}') from None
-
-
-def make_executor(context: rclpy.Context | None = None) -> Executor:
-    """Return the executor with the least overhead that this rclpy has."""
-    try:
-        from rclpy.experimental import EventsExecutor
-    except ImportError:  # the first Jazzy releases
-        return SingleThreadedExecutor(context=context)
-    return EventsExecutor(context=context)
-
-
-def main(args: Sequence[str] | None = None) -> int:
-    argv = list(sys.argv if args is None else args)
-    parser = Parser(prog='follow_path', allow_abbrev=False, description=__doc__.splitlines()[1])
-    parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
-    try:
-        options = parser.parse_args(remove_ros_args(argv)[1:])
-        # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
-        rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
-        node = FollowPath()
-    except Exception as error:  # rcl raises many types for what a person can mistype
-        return _refuse(' '.join(str(error).split()))
-    try:
-        return _run(node, options.waypoints or node.settings.waypoints)
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-def _refuse(message: str) -> int:
-    print(f'follow_path: {message}', file=sys.stderr)
-    return BAD_INPUT
-
-
-def _run(node: FollowPath, waypoints: str) -> int:
-    try:
-        drive = Drive(load_course(waypoints)) if waypoints else _ask()
-    except EOFError:
-        print()
-        return _refuse('nobody answers; give a file: --waypoints FILE')
-    except ValueError as error:
-        print(error, file=sys.stderr)
-        return BAD_INPUT
-    executor = make_executor()
-    executor.add_node(node)
-    node.start(drive)
-    _stop_on_signals(node)
-    while not node.finished.done():
-        # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up.
-        executor.spin_until_future_complete(node.finished, timeout_sec=1.0)
-    executor.remove_node(node)
-    return int(node.finished.result())
-
-
-def _ask() -> Drive:
-    move = ask_move()
-    return DistanceDrive(move.speed_m_s, move.distance_m, forward=move.forward)
-
-
-def _stop_on_signals(node: FollowPath) -> None:
-    def on_signal(number: int, _frame: FrameType | None) -> None:
-        code = INTERRUPTED if number == signal.SIGINT else TERMINATED
-        node.stop(code, f'stopped by {signal.Signals(number).name}')
-
-    signal.signal(signal.SIGINT, on_signal)
-    signal.signal(signal.SIGTERM, on_signal)
-
-
-if __name__ == '__main__':
-    sys.exit(main())
