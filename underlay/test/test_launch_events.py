@@ -199,6 +199,23 @@ def test_an_error_in_a_handler_ends_the_launch_with_status_1(
     assert f'{text}handler went wrong' in capsys.readouterr().out
 
 
+def test_an_error_on_shutdown_leaves_no_process_behind(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def fail(event: Any, _context: LaunchContext) -> None:
+        raise RuntimeError(f'cannot end: {event.reason}')
+
+    sleeper = ExecuteProcess(cmd=['sleep', '30'])
+    status = _run(
+        sleeper,
+        TimerAction(period=0.1, actions=[Shutdown(reason='so')]),
+        RegisterEventHandler(OnShutdown(on_shutdown=fail)),
+    )
+    assert status == 1
+    assert sleeper.return_code == -2
+    assert 'cannot end: so' in capsys.readouterr().out
+
+
 def test_shutdown_may_come_from_another_thread() -> None:
     service = LaunchService(noninteractive=True)
     service.include_launch_description(

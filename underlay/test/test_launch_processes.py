@@ -252,6 +252,17 @@ def test_launch_prefix_is_filtered_by_name(
     assert '[printf-2] two' in launched.lines
 
 
+@pytest.mark.parametrize('value', ['soon', '-1', 'nan', 'inf'])
+def test_a_time_out_that_is_no_time_is_refused_before_anything_starts(
+    value: str, python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    path = python_launch_file("ExecuteProcess(cmd=['sleep', '30']),")
+    launched = run_launch(path, f'sigterm_timeout:={value}')
+    assert launched.returncode == 1
+    assert f"sigterm_timeout is '{value}': it is a time in seconds" in launched.output
+    assert 'process started' not in launched.output
+
+
 def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_launch: Run) -> None:
     launched = run_launch(
         python_launch_file(

@@ -190,7 +190,12 @@ class LaunchService:
             self.__wakeup.set()
 
     def __process_event(self, event: Event) -> None:
+        """Let every handler have the event, and raise the first error then.
+
+        What goes wrong in one handler does not keep the others from ending their processes.
+        """
         self.__logger.debug(f"processing event: '{event}'")
+        first_error: Exception | None = None
         for handler in tuple(self.__context._event_handlers):
             if not handler.matches(event):
                 continue
@@ -199,9 +204,11 @@ class LaunchService:
                 self.__visit(handler.handle(event, self.__context))
             except Exception as error:
                 attach_location(error, handler)
-                raise
+                first_error = first_error or error
             finally:
                 self.__context._pop_locals()
+        if first_error is not None:
+            raise first_error
 
     def __visit(self, entities: Any) -> None:
         if entities is None:

@@ -33,7 +33,7 @@ from ..substitution import Substitution
 from .escalation import emit_signal, escalation_timers, late_sigint, terminal_reaches_children
 from .opaque_function import OpaqueFunction
 from .process_output import ProcessOutput
-from .process_settings import perform_seconds, ProcessSettings, SIGKILL_TIMEOUT, SIGTERM_TIMEOUT
+from .process_settings import ProcessSettings, SIGKILL_TIMEOUT, SIGTERM_TIMEOUT
 from .timer_action import TimerAction
 
 _Entities = list[LaunchDescriptionEntity] | None
@@ -335,12 +335,11 @@ class ExecuteLocal(Action):
         self.__shutdown.set_result(None)
         if self.__child.complete.done():
             return None
-        settings = self.__settings
         self.__timers = escalation_timers(
             self,
             self.__details['name'],
-            sigterm_sec=perform_seconds(context, settings.sigterm_timeout, 'sigterm_timeout'),
-            sigkill_sec=perform_seconds(context, settings.sigkill_timeout, 'sigkill_timeout'),
+            sigterm_sec=self.__settings.sigterm_sec,
+            sigkill_sec=self.__settings.sigkill_sec,
         )
         actions: list[LaunchDescriptionEntity] = list(self.__timers)
         if send_sigint:

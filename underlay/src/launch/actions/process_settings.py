@@ -59,6 +59,7 @@ class ProcessSettings:
     ) -> None:
         self.sigterm_timeout = normalize_seconds(sigterm_timeout)
         self.sigkill_timeout = normalize_seconds(sigkill_timeout)
+        self.sigterm_sec = self.sigkill_sec = 0.0
         output = os.environ.get('OVERRIDE_LAUNCH_PROCESS_OUTPUT') or output
         self.output: Any = output
         if not isinstance(output, Mapping):
@@ -72,7 +73,9 @@ class ProcessSettings:
             self.respawn_delay = normalize_seconds(respawn_delay)
 
     def perform(self, context: LaunchContext) -> None:
-        """Replace what holds substitutions by values; the time-outs wait for the end."""
+        """Replace what holds substitutions by values."""
+        self.sigterm_sec = perform_seconds(context, self.sigterm_timeout, 'sigterm_timeout')
+        self.sigkill_sec = perform_seconds(context, self.sigkill_timeout, 'sigkill_timeout')
         if not isinstance(self.output, Mapping):
             self.output = perform_substitutions(context, self.output)
         if 'emulate_tty' in context.launch_configurations:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Protocol
 
 from ..action import Action
 from ..event import Event
@@ -19,6 +19,12 @@ from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 from .opaque_function import OpaqueFunction
+
+
+class Alarm(Protocol):
+    """Something under way that can be cancelled."""
+
+    def cancel(self) -> Any: ...
 
 
 @expose_action('timer')
@@ -43,7 +49,7 @@ class TimerAction(Action):
         self.__actions = list(actions)
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self.__completed: asyncio.Future[None] | None = None
-        self.__alarm: asyncio.TimerHandle | None = None
+        self.__alarm: Alarm | None = None
         self.__canceled = False
 
     @classmethod
@@ -100,6 +106,11 @@ class TimerAction(Action):
         if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
             self.cancel()
 
+    def _start_alarm(self, context: LaunchContext, period_sec: float, event: TimerEvent) -> Alarm:
+        """Have the event emitted after the period; subclasses know other clocks."""
+        assert context.asyncio_loop is not None
+        return context.asyncio_loop.call_later(period_sec, context.emit_event_sync, event)
+
     def execute(self, context: LaunchContext) -> None:
         if self.__canceled:
             return
@@ -107,7 +118,7 @@ class TimerAction(Action):
         period = perform_typed_substitution(context, self.__period, float)
         event = TimerEvent(timer_action=self)
         self.__completed = context.asyncio_loop.create_future()
-        self.__alarm = context.asyncio_loop.call_later(period, context.emit_event_sync, event)
+        self.__alarm = self._start_alarm(context, period, event)
         context.register_event_handler(
             EventHandler(
                 matcher=lambda other: other is event,

@@ -53,3 +53,15 @@ class FileHandler(FormatPerLogger, logging.FileHandler):
 
     def __init__(self, filename: str, *, encoding: str = 'utf-8') -> None:
         super().__init__(filename, encoding=encoding, delay=True)
+
+
+def __getattr__(name: str) -> type[logging.Handler]:
+    """Make any other handler of ``logging`` and ``logging.handlers`` with a format per logger."""
+    import logging.handlers
+
+    base = getattr(logging.handlers, name, None) or getattr(logging, name, None)
+    if not isinstance(base, type) or not issubclass(base, logging.Handler):
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    made = type(name, (FormatPerLogger, base), {'__doc__': base.__doc__})
+    globals()[name] = made
+    return made

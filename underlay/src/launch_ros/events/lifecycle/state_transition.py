@@ -1,0 +1,51 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A lifecycle node has changed its state."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from launch.event import Event
+
+from .change_state import ChangeState
+
+if TYPE_CHECKING:
+    from ...actions import LifecycleNode
+
+
+class StateTransition(Event):
+    """Emitted when a lifecycle node has taken a transition.
+
+    :param msg: a ``lifecycle_msgs.msg.TransitionEvent``.
+    """
+
+    name = 'launch_ros.events.lifecycle.StateTransition'
+
+    def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
+        self.__action = action
+        self.__msg = msg
+
+    @property
+    def action(self) -> LifecycleNode:
+        return self.__action
+
+    @property
+    def msg(self) -> Any:
+        return self.__msg
+
+    @property
+    def timestamp(self) -> int:
+        return int(self.__msg.timestamp)
+
+    @property
+    def transition(self) -> str:
+        return str(self.__msg.transition.label)
+
+    @property
+    def start_state(self) -> str:
+        return ChangeState.valid_states[self.__msg.start_state.id]
+
+    @property
+    def goal_state(self) -> str:
+        return ChangeState.valid_states[self.__msg.goal_state.id]

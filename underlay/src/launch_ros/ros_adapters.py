@@ -1,0 +1,125 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The one ROS node that a launch itself has, where an action needs it."""
+
+from __future__ import annotations
+
+import os
+import threading
+from typing import Any, TYPE_CHECKING
+
+from launch.event_handlers import OnShutdown
+from launch.launch_context import LaunchContext
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+_KEY = 'ros_adapter'
+
+
+class ROSAdapter:
+    """A node spun in a thread of its own, with a context of its own.
+
+    :param use_sim_time: of the node.
+    """
+
+    def __init__(
+        self, *, argv: list[str] | None = None, use_sim_time: bool = False, autostart: bool = True
+    ) -> None:
+        self.__argv = argv or []
+        self.__use_sim_time = use_sim_time
+        self.__thread: threading.Thread | None = None
+        self.__context: Any = None
+        self.__node: Any = None
+        self.__executor: Any = None
+        if autostart:
+            self.start()
+
+    def start(self) -> None:
+        """Start spinning.
+
+        :raises RuntimeError: it has started already.
+        """
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.parameter import Parameter
+        from rclpy.signals import SignalHandlerOptions
+
+        if self.__thread is not None:
+            raise RuntimeError('Cannot start a ROS adapter that is already running')
+        self.__context = rclpy.Context()
+        # The signals belong to the launch.
+        rclpy.init(
+            args=self.__argv,
+            context=self.__context,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
+        self.__node = rclpy.create_node(
+            f'launch_ros_{os.getpid()}',
+            context=self.__context,
+            use_global_arguments=False,
+            parameter_overrides=[Parameter('use_sim_time', value=self.__use_sim_time)],
+        )
+        self.__executor = SingleThreadedExecutor(context=self.__context)
+        self.__executor.add_node(self.__node)
+        self.__thread = threading.Thread(target=self.__spin, name='launch_ros', daemon=True)
+        self.__thread.start()
+
+    def __spin(self) -> None:
+        from rclpy.executors import ExternalShutdownException, ShutdownException
+
+        try:
+            self.__executor.spin()
+        except (ExternalShutdownException, ShutdownException):
+            return
+
+    def shutdown(self) -> None:
+        """Stop spinning and destroy the node; may be called twice."""
+        if self.__thread is None:
+            return
+        self.__context.try_shutdown()
+        self.__executor.wake()
+        self.__thread.join(5.0)
+        self.__executor.shutdown(timeout_sec=0)
+        self.__node.destroy_node()
+        self.__thread = None
+
+    @property
+    def argv(self) -> list[str]:
+        return self.__argv
+
+    @property
+    def ros_context(self) -> Any:
+        return self.__context
+
+    @property
+    def ros_node(self) -> Node:
+        return self.__node
+
+    @property
+    def ros_executor(self) -> Any:
+        return self.__executor
+
+
+def _wants_sim_time(context: LaunchContext) -> bool:
+    values = [context.launch_configurations.get('use_sim_time')]
+    for item in context.launch_configurations.get('global_params', ()):
+        if isinstance(item, tuple) and item[0] == 'use_sim_time':
+            values.append(item[1])
+    return str(values[-1]).lower() in ('true', '1')
+
+
+def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
+    """Return the adapter of this launch, made when first asked for."""
+    adapter: ROSAdapter | None = context.get_locals_as_dict().get(_KEY)
+    if adapter is None:
+        adapter = ROSAdapter(use_sim_time=_wants_sim_time(context))
+        context.extend_globals({_KEY: adapter})
+        stop = adapter.shutdown
+        context.register_event_handler(OnShutdown(on_shutdown=lambda *_: stop()), append=True)
+    return adapter
+
+
+def get_ros_node(context: LaunchContext) -> Node:
+    """Return the node of this launch, made when first asked for."""
+    return get_ros_adapter(context).ros_node

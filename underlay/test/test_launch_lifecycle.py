@@ -1,0 +1,121 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Lifecycle nodes and timers of ROS time: what needs a ROS node in the launch."""
+
+from collections.abc import Callable
+from pathlib import Path
+import re
+import sys
+from typing import Any
+
+from launch_ros.events.lifecycle import ChangeState
+from lifecycle_msgs.msg import Transition  # type: ignore[import-untyped]
+import pytest
+
+LaunchFile = Callable[..., Path]
+Run = Callable[..., Any]
+
+LIFECYCLE_NODE = """\
+#!{python}
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+
+class Plain(LifecycleNode):
+    def on_configure(self, state):
+        print('is configured')
+        return TransitionCallbackReturn.SUCCESS
+    def on_activate(self, state):
+        print('is activated')
+        return super().on_activate(state)
+
+rclpy.init()
+try:
+    rclpy.spin(Plain('unnamed'))
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+"""
+BEFORE = """
+from launch_ros.actions import *
+from launch_ros.event_handlers import OnStateTransition
+"""
+
+
+@pytest.fixture
+def lifecycle_package(ros_package: Path) -> Path:
+    program = ros_package / 'lib' / 'some_pkg' / 'lifecycle_node'
+    program.write_text(LIFECYCLE_NODE.format(python=sys.executable))
+    program.chmod(0o755)
+    return ros_package
+
+
+def test_a_lifecycle_node_takes_the_asked_transitions(
+    python_launch_file: LaunchFile, run_launch: Run, lifecycle_package: Path
+) -> None:
+    del lifecycle_package
+    path = python_launch_file(
+        """
+        NODE,
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=NODE, goal_state='active',
+            entities=[LogInfo(msg='it is active'), Shutdown()])),
+        """,
+        before=BEFORE
+        + """
+NODE = LifecycleNode(package='some_pkg', executable='lifecycle_node', name='me', namespace='deep',
+                     output='screen', autostart=True)
+""",
+    )
+    launched = run_launch(path)
+    assert '[lifecycle_node-1] is configured' in launched.lines
+    assert '[lifecycle_node-1] is activated' in launched.lines
+    assert '[INFO] [launch.user]: it is active' in launched.lines
+    assert launched.returncode == 0
+
+
+def test_change_state_reaches_a_node_without_a_namespace(
+    launch_file: LaunchFile, run_launch: Run, lifecycle_package: Path
+) -> None:
+    del lifecycle_package
+    path = launch_file(
+        """
+        import launch, launch_ros.actions, launch_ros.events.lifecycle, launch_ros.event_handlers
+        from launch.actions import EmitEvent, LogInfo, RegisterEventHandler, Shutdown
+        from lifecycle_msgs.msg import Transition
+
+        def generate_launch_description():
+            node = launch_ros.actions.LifecycleNode(
+                package='some_pkg', executable='lifecycle_node', name='me', namespace='')
+            return launch.LaunchDescription([
+                RegisterEventHandler(launch_ros.event_handlers.OnStateTransition(
+                    target_lifecycle_node=node, start_state='configuring', goal_state='inactive',
+                    entities=[LogInfo(msg='it is inactive'), Shutdown()])),
+                node,
+                EmitEvent(event=launch_ros.events.lifecycle.ChangeState(
+                    lifecycle_node_matcher=launch.events.matches_action(node),
+                    transition_id=Transition.TRANSITION_CONFIGURE)),
+            ])
+        """
+    )
+    launched = run_launch(path)
+    assert '[INFO] [launch.user]: it is inactive' in launched.lines
+    assert launched.returncode == 0
+
+
+def test_a_ros_timer_rings_once(python_launch_file: LaunchFile, run_launch: Run) -> None:
+    path = python_launch_file(
+        "ROSTimer(period=0.1, actions=[LogInfo(msg='rang')]), "
+        "RosTimer(period=60.0, actions=[LogInfo(msg='never')]), "
+        'TimerAction(period=1.0, actions=[Shutdown()]),',
+        before=BEFORE,
+    )
+    launched = run_launch(path)
+    assert len(re.findall('rang', launched.output)) == 1
+    assert 'never' not in launched.output
+    assert launched.returncode == 0
+
+
+def test_an_unknown_transition_is_refused() -> None:
+    with pytest.raises(ValueError, match=r'transition_id=77 is none of .*1 \(configure\)'):
+        ChangeState(lifecycle_node_matcher=bool, transition_id=77)
+    assert ChangeState.valid_transitions[Transition.TRANSITION_CONFIGURE] == 'configure'
