@@ -11,7 +11,6 @@ import sys
 
 from ros2cli import graph
 from ros2cli.errors import CommandError
-from ros2cli.rtps import host
 from ros2cli.rtps.observer import Observer
 
 DEFAULT_TIMEOUT_SEC = 3.0
@@ -72,15 +71,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def read_graph(args: argparse.Namespace | None = None) -> graph.Graph:
-    """Read the graph of the domain, with a line on stderr where a process kept silent."""
+def read_graph(args: argparse.Namespace | None = None, *, quiet: bool = False) -> graph.Graph:
+    """Read the graph of the domain; unless `quiet`, with a line on stderr where it says little."""
     settings = settings_from_environment()
     if settings.discovery_range == 'OFF':
-        print(
-            'hint: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF, so that nothing is discovered; '
-            '`export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` shows the nodes of this machine',
-            file=sys.stderr,
-        )
+        if not quiet:
+            print(
+                'hint: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF, so that nothing is discovered; '
+                '`export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` shows the nodes of this machine',
+                file=sys.stderr,
+            )
         return graph.Graph([], [])
     settle_sec = max(0.0, getattr(args, 'spin_time', DEFAULT_SPIN_TIME_SEC))
     with Observer(
@@ -92,11 +92,17 @@ def read_graph(args: argparse.Namespace | None = None) -> graph.Graph:
             timeout_sec=max(DEFAULT_TIMEOUT_SEC, settle_sec + 1.0), settle_sec=settle_sec
         )
         found = graph.build(observer.participants.values(), observer.unanswered)
-    for port in found.silent_ports:
-        number = (port - host.discovery_ports(settings.domain_id).start) // 2
-        print(
-            f'hint: the ROS process number {number} of domain {settings.domain_id} does not '
-            'answer, its nodes are not shown; is it stopped (Ctrl-Z)? `fg` or `kill` it',
-            file=sys.stderr,
-        )
+    if not quiet:
+        _print_hints(settings, found)
     return found
+
+
+def _print_hints(settings: Settings, found: graph.Graph) -> None:
+    from ros2cli.diagnosis import nodes, places
+
+    findings = list(nodes.check_silent(found, settings.domain_id))
+    if not found.nodes:
+        # Somebody who sees nothing looks for what runs: it may run next door.
+        findings += places.check_domains(settings, here=0)
+    for finding in findings:
+        print(f'hint: {finding}', file=sys.stderr)

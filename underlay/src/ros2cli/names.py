@@ -8,6 +8,8 @@ import re
 
 # Prefixes by which rmw tells what a DDS topic is for.
 TOPIC, REQUEST, REPLY = 'rt', 'rq', 'rr'
+# The node of a command is called this and the number of its process.
+COMMAND_NODE = '_ros2cli_'
 _TYPE = re.compile(r'(?P<package>\w+)::(?P<kind>msg|srv|action)::dds_::(?P<name>\w+?)_')
 
 

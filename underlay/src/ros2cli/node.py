@@ -16,7 +16,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from ros2cli import discovery
+from ros2cli import discovery, names
 from ros2cli.errors import CommandError
 
 
@@ -29,7 +29,7 @@ class CommandNode:
         overrides = [Parameter('use_sim_time', value=True)] if use_sim_time else []
         try:
             self.node = Node(
-                name or f'_ros2cli_{os.getpid()}',
+                name or f'{names.COMMAND_NODE}{os.getpid()}',
                 use_global_arguments=False,
                 enable_rosout=False,
                 start_parameter_services=False,

@@ -100,7 +100,7 @@ def why_missing(package: str) -> str:
         return 'AMENT_PREFIX_PATH is empty: no ROS is sourced in this terminal'
     workspace = workspace_of(Path.cwd())
     if workspace is not None:
-        built = _built_prefix(workspace, package)
+        built = built_prefix(workspace, package)
         if built is not None:
             return (
                 f'it is built in {workspace}, but not sourced in this terminal; '
@@ -162,7 +162,7 @@ def source_of(package: str) -> Path | None:
     return source_in(workspace, package) if workspace is not None else None
 
 
-def _built_prefix(workspace: Path, package: str) -> Path | None:
+def built_prefix(workspace: Path, package: str) -> Path | None:
     for prefix in (workspace / 'install' / package, workspace / 'install'):
         if (prefix / _INDEX / package).exists():
             return prefix

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ros2cli import completion, nearest, packages
+from ros2cli.diagnosis import workspaces
 from ros2cli.errors import CommandError
 
 _SUFFIXES = ('.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml', '_launch.py',
@@ -92,6 +93,8 @@ def main(args: argparse.Namespace) -> int:
         return launching.print_description(path)
     if args.show_all_subprocesses_output:
         os.environ['OVERRIDE_LAUNCH_PROCESS_OUTPUT'] = 'both'
+    if args.package_name in packages.installed():
+        workspaces.print_hints(args.package_name)
     if args.launch_prefix:
         arguments.append(('launch-prefix', args.launch_prefix))
         arguments.append(('launch-prefix-filter', args.launch_prefix_filter or ''))

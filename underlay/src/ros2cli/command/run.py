@@ -12,6 +12,7 @@ import sys
 from typing import NoReturn
 
 from ros2cli import completion, packages
+from ros2cli.diagnosis import workspaces
 from ros2cli.errors import CommandError, UsageError
 
 
@@ -41,6 +42,7 @@ def main(args: argparse.Namespace) -> NoReturn:
         prefix = shlex.split(args.prefix or '')
     except ValueError as error:
         raise UsageError(f'--prefix {args.prefix!r} is refused: {error}') from None
+    workspaces.print_hints(args.package_name)
     replace_process([*prefix, str(path), *args.argv])
 
 

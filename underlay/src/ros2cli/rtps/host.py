@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 # DDSI-RTPS 2.3, 9.6.1.1: port base, domain gain, participant gain and offsets.
@@ -34,7 +35,8 @@ def participant_ports(domain_id: int) -> set[int] | None:
     return {port for port in discovery_ports(domain_id) if {port, port + 1} <= bound}
 
 
-def bound_udp_ports() -> set[int] | None:
+def bound_udp_ports(*, own: bool = False) -> set[int] | None:
+    """Return the UDP ports that are bound on this host (or `own`: by this user's processes)."""
     ports: set[int] = set()
     found = False
     for table in ('/proc/net/udp', '/proc/net/udp6'):
@@ -43,5 +45,8 @@ def bound_udp_ports() -> set[int] | None:
         except OSError:
             continue
         found = True
-        ports.update(int(line.split()[1].rpartition(':')[2], 16) for line in lines)
+        for columns in map(str.split, lines):
+            # local address:port is the second column, the user id the eighth (proc(5)).
+            if not own or int(columns[7]) == os.getuid():
+                ports.add(int(columns[1].rpartition(':')[2], 16))
     return ports if found else None

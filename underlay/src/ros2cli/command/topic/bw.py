@@ -13,6 +13,7 @@ from rclpy.qos import qos_profile_sensor_data
 
 from ros2cli import completion, discovery, topics
 from ros2cli.arguments import positive_int
+from ros2cli.diagnosis import silence
 from ros2cli.node import command_node
 
 _WINDOW = 100
@@ -51,6 +52,7 @@ def main(args: argparse.Namespace) -> None:
         )
         print(f'Subscribed to [{topic.name}]')
         node.node.create_timer(1.0, report, clock=Clock())
+        silence.hint_when_silent(node, topic.name, lambda: bool(samples))
         node.spin_until(lambda: False)
 
 

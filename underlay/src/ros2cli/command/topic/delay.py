@@ -15,6 +15,7 @@ from rclpy.time import Time
 
 from ros2cli import completion, discovery, topics
 from ros2cli.arguments import positive_int
+from ros2cli.diagnosis import silence
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
 
@@ -61,6 +62,7 @@ def main(args: argparse.Namespace) -> None:
             topic.message_class, topic.name, on_message, qos_profile_sensor_data
         )
         node.node.create_timer(1.0, report, clock=Clock())
+        silence.hint_when_silent(node, topic.name, lambda: bool(delays_sec))
         node.spin_until(lambda: False)
 
 

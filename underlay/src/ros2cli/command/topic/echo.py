@@ -14,6 +14,7 @@ from rosidl_runtime_py import message_to_csv, message_to_yaml
 
 from ros2cli import completion, discovery, expression, qos, topics
 from ros2cli.arguments import nonnegative_float, nonnegative_int
+from ros2cli.diagnosis import silence
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
 
@@ -96,9 +97,11 @@ def main(args: argparse.Namespace) -> None:
     keep = expression.message_filter(args.filter_expr)
     topic = topics.find(args, args.topic_name, type_name=args.message_type)
     shown = 0
+    arrived = False
 
     def on_message(msg: Any, info: Any) -> None:
-        nonlocal shown
+        nonlocal shown, arrived
+        arrived = True
         if (args.once and shown) or not (args.raw or keep(msg)):
             return
         if args.include_message_info:
@@ -115,6 +118,8 @@ def main(args: argparse.Namespace) -> None:
             event_callbacks=SubscriptionEventCallbacks(message_lost=_on_lost(args)),
             raw=args.raw,
         )
+        if args.timeout is None:
+            silence.hint_when_silent(node, topic.name, lambda: arrived)
         if not node.spin_until(lambda: bool(args.once and shown), args.timeout) and not shown:
             raise CommandError(
                 f"No message on '{topic.name}' within {args.timeout:g} s; "

@@ -20,6 +20,7 @@ from rclpy.qos import qos_profile_sensor_data
 
 from ros2cli import completion, discovery, expression, topics
 from ros2cli.arguments import positive_int
+from ros2cli.diagnosis import silence
 from ros2cli.node import command_node
 
 _WINDOW = 10000
@@ -49,6 +50,9 @@ class Rate:
             self.intervals_ns.append(now - self.last_ns)
             self.fresh = True
         self.last_ns = now
+
+    def has_begun(self) -> bool:
+        return self.last_ns is not None
 
     def report(self) -> str | None:
         """Describe the rate; None while nothing new came."""
@@ -125,4 +129,6 @@ def main(args: argparse.Namespace) -> None:
                     print(text if len(rates) == 1 else f'{name}\n{text}')
 
         node.node.create_timer(_REPORT_SEC, report, clock=Clock())
+        for name, rate in rates.items():
+            silence.hint_when_silent(node, name, rate.has_begun)
         node.spin_until(lambda: False)

@@ -5,15 +5,19 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 import time
+from typing import Any
 
 from rclpy.event_handler import PublisherEventCallbacks
+from rclpy.publisher import Publisher
 from rclpy.qos import qos_policy_name_from_kind
 
 from ros2cli import completion, discovery, interfaces, qos, topics
 from ros2cli.arguments import nonnegative_float, nonnegative_int, positive_float, yaml_mapping
+from ros2cli.diagnosis import silence
 from ros2cli.errors import UsageError
-from ros2cli.node import command_node
+from ros2cli.node import command_node, CommandNode
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -90,7 +94,7 @@ def main(args: argparse.Namespace) -> None:
     wanted = args.wait_matching_subscriptions
     if wanted is None:
         wanted = 1 if times else 0
-    elif args.max_wait_time_secs is not None and wanted == 0:
+    if args.max_wait_time_secs is not None and wanted == 0:
         raise UsageError('--max-wait-time-secs is only allowed with --wait-matching-subscriptions')
     message_class = interfaces.message(args.message_type)
     msg = message_class()
@@ -104,36 +108,55 @@ def main(args: argparse.Namespace) -> None:
             qos.profile(args),
             event_callbacks=PublisherEventCallbacks(incompatible_qos=_on_incompatible_qos),
         )
-        end = time.monotonic() + (args.max_wait_time_secs or float('inf'))
-        while publisher.get_subscription_count() < wanted:
-            print(f'Waiting for at least {wanted} matching subscription(s)...')
-            left = min(1.0, end - time.monotonic())
-            node.spin_until(lambda: publisher.get_subscription_count() >= wanted, left)
-            if publisher.get_subscription_count() < wanted and time.monotonic() >= end:
-                print(
-                    f'Timed out waiting for subscribers: Expected {wanted} subs but only got '
-                    f'{publisher.get_subscription_count()} subs'
-                )
-                return
-        print('publisher: beginning loop')
-        count = 0
+        silence.hint_when_unheard(publisher.topic_name)
+        if _wait_for_subscriptions(node, publisher, wanted, args.max_wait_time_secs):
+            _publish(node, publisher, msg, stamps, times, args)
 
-        def publish() -> None:
-            nonlocal count
-            if times and count >= times:
-                return
-            now = node.node.get_clock().now().to_msg()
-            for set_stamp in stamps:
-                set_stamp(now)
-            count += 1
-            if args.print and count % args.print == 0:
-                print(f'publishing #{count}: {msg!r}\n')
-            publisher.publish(msg)
 
-        publish()
-        node.node.create_timer(1.0 / args.rate, publish)
-        node.spin_until(lambda: bool(times and count >= times))
-        node.spin_until(lambda: False, args.keep_alive)
+def _wait_for_subscriptions(
+    node: CommandNode, publisher: Publisher, wanted: int, timeout_sec: float | None
+) -> bool:
+    end = time.monotonic() + (timeout_sec or float('inf'))
+    while publisher.get_subscription_count() < wanted:
+        if time.monotonic() >= end:
+            print(
+                f'Timed out waiting for subscribers: Expected {wanted} subs but only got '
+                f'{publisher.get_subscription_count()} subs'
+            )
+            return False
+        print(f'Waiting for at least {wanted} matching subscription(s)...')
+        left = min(1.0, end - time.monotonic())
+        node.spin_until(lambda: publisher.get_subscription_count() >= wanted, left)
+    return True
+
+
+def _publish(
+    node: CommandNode,
+    publisher: Publisher,
+    msg: Any,
+    stamps: list[Callable[..., None]],
+    times: int,
+    args: argparse.Namespace,
+) -> None:
+    count = 0
+
+    def publish() -> None:
+        nonlocal count
+        if times and count >= times:
+            return
+        now = node.node.get_clock().now().to_msg()
+        for set_stamp in stamps:
+            set_stamp(now)
+        count += 1
+        if args.print and count % args.print == 0:
+            print(f'publishing #{count}: {msg!r}\n')
+        publisher.publish(msg)
+
+    print('publisher: beginning loop')
+    publish()
+    node.node.create_timer(1.0 / args.rate, publish)
+    node.spin_until(lambda: bool(times and count >= times))
+    node.spin_until(lambda: False, args.keep_alive)
 
 
 def _on_incompatible_qos(event: object) -> None:

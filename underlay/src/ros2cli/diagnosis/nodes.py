@@ -1,0 +1,51 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes that get in each other's way, wait for a clock, or do not answer."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from ros2cli.diagnosis.finding import Finding
+from ros2cli.graph import Graph, Role
+
+_CLOCK = '/clock'
+
+
+def check_names(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that share a name."""
+    for name, number in Counter(node.full_name for node in graph.nodes).items():
+        if number > 1:
+            yield Finding(
+                name,
+                f'{number} nodes have this name, so that parameters and services reach only one '
+                'of them',
+                'end one (Ctrl-C in its terminal), or start it with '
+                f'`--ros-args -r __node:={name.rpartition("/")[2]}_2`',
+            )
+
+
+def check_clock(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that use simulation time while nobody tells it."""
+    waiting = sorted(
+        {graph.node_of(e).full_name for e in graph.with_role(Role.SUBSCRIPTION, _CLOCK)}
+    )
+    if waiting and not graph.with_role(Role.PUBLISHER, _CLOCK):
+        yield Finding(
+            ', '.join(waiting),
+            f'use_sim_time is true, but nobody publishes {_CLOCK}, so that its time stands still '
+            'at 0 and its timers never fire',
+            f'start the simulator, or run `ros2 param set {waiting[0]} use_sim_time false`',
+        )
+
+
+def check_silent(graph: Graph, domain_id: int) -> Iterator[Finding]:
+    """Find processes of this machine that are in the domain, but do not answer."""
+    for port in graph.silent_ports:
+        yield Finding(
+            f'domain {domain_id}',
+            f'the process that listens at UDP port {port} does not answer, its nodes are not '
+            'shown and get no messages',
+            f'it is stopped (Ctrl-Z) or hangs: `fg` continues it, `fuser -k {port}/udp` ends it',
+        )
