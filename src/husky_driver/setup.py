@@ -37,7 +37,7 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            'follow_path = husky_driver.node:main',
+            'follow_path = husky_driver.follow_path:main',
             'check = husky_driver.check:main',
             'grade = husky_driver.grade:main',
         ],

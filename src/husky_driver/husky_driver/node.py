@@ -1,11 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-Drive the Husky along a waypoint file, or as asked at the terminal.
-
-The only module of the driver that knows ROS. It answers every odometry message with one velocity
-command; what to answer is decided by a `Drive`.
-"""
+"""The node: it answers every odometry message with one command, which a `Drive` decides."""
 
 from __future__ import annotations
 
@@ -23,6 +18,7 @@ from rclpy.task import Future
 from husky_driver.display import DriveDisplay
 from husky_driver.drive import Drive
 from husky_driver.motion import Odometry, yaw_of
+from husky_driver.parameters import declare_settings
 from husky_driver.progress import Progress
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up

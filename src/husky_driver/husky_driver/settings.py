@@ -38,6 +38,15 @@ class Settings:
     startup_timeout_sec: float = _setting(
         5.0, 'the same before the first odometry: while the simulator starts', span=(0.1, 600.0)
     )
+    check: str = _setting(
+        'warn',
+        'a course that passes too near to obstacles: warn, refuse, or off',
+        choice=('warn', 'refuse', 'off'),
+    )
+    world: str = _setting('', 'MJCF file with the obstacles to check against; empty: the playpen')
+    start: tuple[float, ...] = _setting(
+        (0.0, 0.0, 0.0), 'where the robot starts in that world: x m, y m, yaw rad'
+    )
     progress: str = _setting(
         'auto', 'how progress is shown: auto, bar, lines or off', choice=PROGRESS
     )
@@ -50,6 +59,9 @@ class Settings:
                 raise ValueError(
                     f'parameter {item.name}: {value!r} is not allowed; allowed: {allowed}'
                 )
+
+        if len(self.start) != 3:
+            raise ValueError(f'parameter start: {len(self.start)} numbers; write [x, y, yaw]')
 
     @property
     def odometry_topic(self) -> str:

@@ -16,8 +16,8 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
+from husky_driver.follow_path import make_executor
 from husky_driver.motion import Command
-from husky_driver.node import make_executor
 from nav_msgs.msg import Odometry
 import pytest
 import rclpy
@@ -111,7 +111,7 @@ def follow_path(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
         environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
         environment['PYTHONPATH'] = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
         process = subprocess.Popen(
-            [sys.executable, '-m', 'husky_driver.node', *map(str, arguments)],
+            [sys.executable, '-m', 'husky_driver.follow_path', *map(str, arguments)],
             env=environment,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -230,7 +230,7 @@ def test_a_namespace_and_remaps_apply(
             'follow_path: parameter wayponts does not exist; did you mean waypoints?',
         ),
         (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
-        (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be a number'),
+        (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be of numbers'),
         (['--waypoints', 'no.yaml'], 'no.yaml: line 1, column 1: no such file'),
         ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
     ],

@@ -1,7 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+import math
 from pathlib import Path
 
+from husky_driver.route import plan_route
+from husky_driver.tracker import DriveLimits, plan_speeds
 from husky_driver.waypoints import Course, load_course, parse_course
 from husky_driver.yaml_tree import FileRefused, Problem
 from hypothesis import given, settings
@@ -134,7 +137,22 @@ values = st.recursive(
 keys = st.sampled_from(
     ['frame', 'speed', 'tolerance', 'loop', 'corners', 'waypoints', 'spede', '', '?', '-']
 )
+coordinates = st.floats(-60, 60, allow_nan=False).map(repr)
+likely_points = st.one_of(
+    st.tuples(coordinates, coordinates).map(lambda point: f'[{point[0]}, {point[1]}]'),
+    st.tuples(coordinates, coordinates, st.floats(0.05, 1.0), st.booleans()).map(
+        lambda p: f'{{x: {p[0]}, y: {p[1]}, speed: {p[2]:.3f}, reverse: {str(p[3]).lower()}}}'
+    ),
+    st.tuples(coordinates, coordinates, st.floats(-7, 7), st.floats(0, 9)).map(
+        lambda p: f'{{x: {p[0]}, y: {p[1]}, yaw: {p[2]}, dwell: {p[3]}}}'
+    ),
+)
+likely_courses = st.tuples(
+    st.sampled_from(['', 'loop: true\n', 'corners: sharp\n', 'tolerance: 0.1\n']),
+    st.lists(likely_points, min_size=2, max_size=8),
+).map(lambda course: course[0] + 'waypoints:\n' + '\n'.join(f'  - {p}' for p in course[1]))
 documents = st.one_of(
+    likely_courses,
     st.text(),
     values,
     st.lists(st.tuples(keys, values), max_size=6).map(
@@ -157,4 +175,8 @@ def test_any_file_is_either_a_course_or_refused_with_a_line(text: str) -> None:
         assert found
         assert all(problem.line >= 1 and problem.column >= 1 for problem in found)
     else:
-        assert len(found.waypoints) >= 2
+        legs = plan_route(found)
+        assert legs[-1].last == len(found.stops) - 1
+        assert all(
+            map(math.isfinite, plan_speeds(legs[0].curve, legs[0].speeds_m_s, DriveLimits()))
+        )

@@ -1,0 +1,114 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Drive the Husky along a waypoint file, or as asked at the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import signal
+import sys
+from types import FrameType
+
+import rclpy
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.node import FollowPath, INTERRUPTED, TERMINATED
+from husky_driver.prompt import ask_move
+from husky_driver.waypoints import Course, load_course
+
+
+def make_executor(context: rclpy.Context | None = None) -> Executor:
+    """Return the executor with the least overhead that this rclpy has."""
+    try:
+        from rclpy.experimental import EventsExecutor
+    except ImportError:  # the first Jazzy releases
+        return SingleThreadedExecutor(context=context)
+    return EventsExecutor(context=context)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    argv = list(sys.argv if args is None else args)
+    parser = Parser(prog='follow_path', allow_abbrev=False, description=__doc__)
+    parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
+    try:
+        options = parser.parse_args(remove_ros_args(argv)[1:])
+        # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
+        rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
+        node = FollowPath()
+    except Exception as error:  # rcl raises many types for what a person can mistype
+        return _refuse(' '.join(str(error).split()))
+    try:
+        return _run(node, options.waypoints or node.settings.waypoints)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def _refuse(message: str) -> int:
+    print(f'follow_path: {message}', file=sys.stderr)
+    return BAD_INPUT
+
+
+def _run(node: FollowPath, waypoints: str) -> int:
+    try:
+        drive = _checked(node, load_course(waypoints)) if waypoints else _ask()
+    except EOFError:
+        print()
+        return _refuse('nobody answers; give a file: --waypoints FILE')
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return BAD_INPUT
+    executor = make_executor()
+    executor.add_node(node)
+    node.start(drive)
+    _stop_on_signals(node)
+    while not node.finished.done():
+        # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up.
+        executor.spin_until_future_complete(node.finished, timeout_sec=1.0)
+    executor.remove_node(node)
+    return int(node.finished.result())
+
+
+def _checked(node: FollowPath, course: Course) -> Drive:
+    """
+    Look for obstacles beside the course before anything moves.
+
+    :raises ValueError: when the settings say that it must not be driven.
+    """
+    settings, log = node.settings, node.get_logger()
+    if settings.check != 'off':
+        try:
+            from husky_driver.clearance import survey
+        except ImportError:  # on a real robot there is no simulator that knows the obstacles
+            return Drive(course)
+        x, y, yaw = settings.start
+        near = survey(course, world=settings.world, start=(x, y, yaw)).near
+        for place in near:
+            log.warning(f'{course.file}: {place}')
+        if near and settings.check == 'refuse':
+            raise ValueError(f'{course.file}: not driven, it passes too near to obstacles')
+    return Drive(course)
+
+
+def _ask() -> Drive:
+    move = ask_move()
+    return DistanceDrive(move.speed_m_s, move.distance_m, forward=move.forward)
+
+
+def _stop_on_signals(node: FollowPath) -> None:
+    def on_signal(number: int, _frame: FrameType | None) -> None:
+        code = INTERRUPTED if number == signal.SIGINT else TERMINATED
+        node.stop(code, f'stopped by {signal.Signals(number).name}')
+
+    signal.signal(signal.SIGINT, on_signal)
+    signal.signal(signal.SIGTERM, on_signal)
+
+
+if __name__ == '__main__':
+    sys.exit(main())
