@@ -163,7 +163,7 @@ def test_ctrl_c_ends_every_child(python_launch_file: LaunchFile, interrupt_launc
     path = python_launch_file(
         """
         *[ExecuteProcess(cmd=['sleep', '60']) for _ in range(5)],
-        ExecuteProcess(cmd=['sh', '-c', 'sleep 0.3; echo ready; sleep 60'], output='screen'),
+        ExecuteProcess(cmd=['sh', '-c', 'sleep 0.3; echo ready; exec sleep 60'], output='screen'),
         """
     )
     launched = interrupt_launch(path, 'ready', signal.SIGINT)
