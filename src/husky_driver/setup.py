@@ -27,6 +27,7 @@ setup(
         (f'share/{package_name}', ['package.xml']),
         installed(here, 'launch/*.launch.py', 'launch'),
         installed(config, '*.yaml', 'config'),
+        installed(config, '*.schema.json', 'config'),
         installed(config / 'waypoints', '*.yaml', 'config/waypoints'),
     ],
     install_requires=['setuptools'],

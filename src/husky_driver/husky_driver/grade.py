@@ -9,17 +9,18 @@ from collections.abc import Sequence
 import json
 from pathlib import Path
 import sys
-import time
-from typing import Any
 
+from husky_driver.classroom import Classroom, write_csv
 from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.grading import grade_file, Graded
+from husky_driver.progress import Tally
 from husky_driver.report import as_json, summary, write_report
 from husky_driver.run_record import load_record, read_run
 from husky_driver.score_parts import FORMULA
 from husky_driver.scoring import judge
-from husky_driver.waypoints import Course, load_course
+from husky_driver.waypoints import load_course
 
-PASSED, NOT_PASSED = 0, 1
+PASSED, NOT_PASSED, INTERRUPTED = 0, 1, 130
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -40,8 +41,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         '--wall-time', metavar='SEC', type=float, help='how long the run took on the clock'
     )
-    parser.add_argument('--json', action='store_true', help='print the report as JSON')
+    parser.add_argument('--json', action='store_true', help='print the result as JSON')
     parser.add_argument('--world', metavar='FILE', default='', help='MJCF world (the playpen)')
+    parser.add_argument(
+        '--jobs', metavar='N', type=int, default=0, help='files at a time (as many as cores)'
+    )
     return parser
 
 
@@ -52,45 +56,86 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('give waypoint files, or --record FILE with --waypoints FILE')
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
+    if options.jobs < 0:
+        parser.error(f'--jobs {options.jobs}: give a number above 0')
     try:
         if options.record:
-            course = load_course(options.waypoints)
-            record = load_record(options.record)
-            return _grade(course, record, Path(options.report), options, options.wall_time)
-        return _grade_files(options)
+            return _grade_record(options)
+        if len(options.files) == 1:
+            return _grade_one(options)
+        return _grade_many(options)
     except (ValueError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT
     except KeyboardInterrupt:
-        return 130
+        print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
+        return INTERRUPTED
 
 
-def _grade_files(options: argparse.Namespace) -> int:
-    from husky_driver.rehearsal import drive_course  # the simulator takes its time
-
-    begun = time.monotonic()
-    (name,) = options.files
-    course = load_course(name)
-    record, _ = drive_course(course, world=options.world)
-    return _grade(course, record, Path(options.report), options, time.monotonic() - begun)
+def _grade_record(options: argparse.Namespace) -> int:
+    course = load_course(options.waypoints)
+    run = read_run(load_record(options.record), options.robot)
+    report = judge(run, course, wall_time_sec=options.wall_time)
+    write_report(Path(options.report), report, run, course)
+    return _show_one(Graded(options.waypoints, as_json(report), summary(report)), options)
 
 
-def _grade(
-    course: Course,
-    record: dict[str, Any],
-    folder: Path,
-    options: argparse.Namespace,
-    wall_time_sec: float | None,
-) -> int:
-    run = read_run(record, options.robot)
-    report = judge(run, course, wall_time_sec=wall_time_sec)
-    write_report(folder, report, run, course)
+def _grade_one(options: argparse.Namespace) -> int:
+    graded = grade_file(options.files[0], Path(options.report), world=options.world)
+    return _show_one(graded, options)
+
+
+def _show_one(graded: Graded, options: argparse.Namespace) -> int:
+    if graded.report is None:
+        print(graded.text, file=sys.stderr)
+        return BAD_INPUT
     if options.json:
-        print(json.dumps(as_json(report), indent=2))
+        print(json.dumps(graded.report, indent=2))
     else:
-        print(summary(report))
-        print(f'  report: {folder / "report.html"}')
-    return PASSED if report.passed else NOT_PASSED
+        print(graded.text)
+        print(f'  report: {Path(options.report) / "report.html"}')
+    return PASSED if graded.passed else NOT_PASSED
+
+
+def _grade_many(options: argparse.Namespace) -> int:
+    folder = Path(options.report)
+    folder.mkdir(parents=True, exist_ok=True)
+    tally = Tally(len(options.files), sys.stderr, bar=sys.stderr.isatty())
+    room = Classroom(
+        options.files,
+        folder,
+        world=options.world,
+        jobs=options.jobs,
+        done=lambda number, graded: tally.add(f'{room.names[number]} {graded.score:.1f}'),
+    )
+    try:
+        results = room.grade()
+    finally:
+        tally.close()
+    write_csv(folder / 'grades.csv', results)
+    if options.json:
+        entries = [
+            {'file': graded.file, 'refused': graded.refused or None, 'report': graded.report}
+            for graded in results
+        ]
+        print(json.dumps(entries, indent=2))
+    else:
+        print(table(room.names, results))
+        print(f'grades: {folder / "grades.csv"}')
+    return PASSED if all(graded.passed for graded in results) else NOT_PASSED
+
+
+def table(names: Sequence[str], results: Sequence[Graded]) -> str:
+    """Return one line a file: name, score, verdict and the first reason."""
+    width = max(map(len, names))
+    lines = []
+    for name, graded in zip(names, results, strict=True):
+        reasons = [graded.refused] if graded.refused else (graded.report or {})['reasons']
+        verdict = 'passed' if graded.passed else 'refused' if graded.refused else 'not passed'
+        more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
+        reason = reasons[0].splitlines()[0] + more if reasons else ''
+        lines.append(f'{name:<{width}}  {graded.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
+    return '\n'.join(lines)
 
 
 if __name__ == '__main__':

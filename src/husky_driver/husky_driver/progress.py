@@ -47,3 +47,31 @@ class Progress:
             self._stream.write('\n')
             self._stream.flush()
             self._shown = False
+
+
+class Tally:
+    """Counts files: one bar on a terminal, else a line every 10 %."""
+
+    def __init__(self, total: int, stream: TextIO, *, bar: bool) -> None:
+        self._total = total
+        self._stream = stream
+        self._bar = bar
+        self._count = 0
+
+    def add(self, note: str) -> None:
+        """Count one more, and show the note about it."""
+        self._count += 1
+        done = BAR_WIDTH * self._count // self._total
+        text = f'{self._count} of {self._total}  {note}'
+        if self._bar:
+            width = max(shutil.get_terminal_size().columns - 1, 10)
+            bar = f'[{"#" * done}{"." * (BAR_WIDTH - done)}] {text}'
+            self._stream.write('\r' + bar[:width].ljust(width))
+        elif self._count * 10 // self._total > (self._count - 1) * 10 // self._total:
+            self._stream.write(text + '\n')
+        self._stream.flush()
+
+    def close(self) -> None:
+        if self._bar and self._count:
+            self._stream.write('\n')
+            self._stream.flush()

@@ -26,7 +26,9 @@ JSON_KEYS = (
 def as_json(report: Report) -> dict[str, Any]:
     """Return what report.json holds."""
     content = asdict(report)
-    return {key: content[key] for key in JSON_KEYS}
+    # Through JSON, so that it is the same whether it was written and read, or not.
+    chosen: dict[str, Any] = json.loads(json.dumps({key: content[key] for key in JSON_KEYS}))
+    return chosen
 
 
 def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -> None:

@@ -1,7 +1,9 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+import json
 import math
 from pathlib import Path
+from typing import Any
 
 from husky_driver.route import plan_route
 from husky_driver.tracker import DriveLimits, plan_speeds
@@ -10,6 +12,9 @@ from husky_driver.yaml_tree import FileRefused, Problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
+import yaml
+
+jsonschema = pytest.importorskip('jsonschema')
 
 
 def problems(text: str) -> list[str]:
@@ -116,6 +121,41 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
     }.items():
         with pytest.raises(FileRefused, match=reason):
             load_course(tmp_path / path)
+
+
+@pytest.fixture
+def schema(courses: Path) -> Any:
+    text = (courses.parent / 'waypoints.schema.json').read_text()
+    return jsonschema.Draft202012Validator(json.loads(text))
+
+
+def test_the_schema_for_editors_accepts_every_course_of_the_lab(
+    courses: Path, schema: Any
+) -> None:
+    jsonschema.Draft202012Validator.check_schema(schema.schema)
+    for path in courses.glob('*.yaml'):
+        assert list(schema.iter_errors(yaml.safe_load(path.read_text()))) == []
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        'speed: 1.4\nwaypoints: [[0, 0], [1, 0]]',
+        'frame: map\nwaypoints: [[0, 0], [1, 0]]',
+        'waypoints: [[0, 0], [1, 0, 2]]',
+        'waypoints: [[0, 0], {x: 1}]',
+        'waypoints: [[0, 0], {x: 1, y: 2, yaw: 90}]',
+        'waypoints: [[0, 0], {x: 1, y: 2, z: 3}]',
+        'waypoints: [[0, 0]]',
+        'corners: round\nwaypoints: [[0, 0], [1, 0]]',
+        'tolerance: 0\nwaypoints: [[0, 0], [1, 0]]',
+        'spede: 1\nwaypoints: [[0, 0], [1, 0]]',
+        'speed: 0.5',
+    ],
+)
+def test_the_schema_refuses_what_the_driver_refuses(schema: Any, text: str) -> None:
+    assert problems(text)
+    assert list(schema.iter_errors(yaml.safe_load(text)))
 
 
 scalars = st.one_of(

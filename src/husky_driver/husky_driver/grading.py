@@ -1,0 +1,99 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Grade one waypoint file, and remember what was graded so that it is not done twice."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import hashlib
+import importlib.util
+import json
+from pathlib import Path
+import time
+from typing import Any
+
+from husky_driver.report import as_json, summary, write_report
+from husky_driver.run_record import read_run
+from husky_driver.scoring import judge
+from husky_driver.waypoints import load_course
+
+KEY_FILE = '.graded'
+
+
+@dataclass(frozen=True)
+class Graded:
+    """What came of one file: a report as in report.json, or why there is none."""
+
+    file: str
+    report: dict[str, Any] | None
+    text: str  # for the terminal
+    refused: str = ''
+
+    @property
+    def passed(self) -> bool:
+        return self.report is not None and self.report['completed'] and not self.collisions
+
+    @property
+    def collisions(self) -> int:
+        return 0 if self.report is None else len(self.report['collisions'])
+
+    @property
+    def score(self) -> float:
+        return 0.0 if self.report is None else float(self.report['score'])
+
+
+def grade_file(file: str, folder: Path, *, world: str = '') -> Graded:
+    """
+    Drive the course of a file in the simulator and write the report on it.
+
+    :raises OSError: when the report cannot be written.
+    """
+    from husky_driver.rehearsal import drive_course  # the simulator takes its time
+
+    begun = time.monotonic()
+    try:
+        course = load_course(file)
+        record, _ = drive_course(course, world=world)
+    except ValueError as error:
+        return Graded(file, None, str(error), refused=str(error))
+    run = read_run(record)
+    report = judge(run, course, wall_time_sec=time.monotonic() - begun)
+    write_report(folder, report, run, course)
+    return Graded(file, as_json(report), summary(report))
+
+
+def graded_before(file: str, folder: Path, key: str) -> Graded | None:
+    """Return the result of an earlier run on the same content, if there is one."""
+    try:
+        if (folder / KEY_FILE).read_text(encoding='utf-8') != key:
+            return None
+        report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+        return Graded(file, report, '') if isinstance(report, dict) else None
+    except (OSError, ValueError):
+        return None
+
+
+def remember(folder: Path, key: str) -> None:
+    (folder / KEY_FILE).write_text(key, encoding='utf-8')
+
+
+def key_of(file: str, world: str = '') -> str:
+    """Return a hash of all that a grade depends on: the file, the world and the programs."""
+    digest = hashlib.sha256()
+    for path in (Path(file), *_programs_and_worlds(world)):
+        try:
+            digest.update(path.read_bytes())
+        except OSError:
+            digest.update(b'?')
+    return digest.hexdigest()
+
+
+def _programs_and_worlds(world: str) -> list[Path]:
+    paths: list[Path] = [Path(world)] if world else []
+    for package in ('husky_driver', 'husky_sim'):
+        spec = importlib.util.find_spec(package)
+        for folder in (spec.submodule_search_locations or []) if spec else []:
+            paths += sorted(Path(folder).glob('*.py'))
+    from husky_sim.world import default_worlds
+
+    return [*paths, *sorted(default_worlds().glob('*.xml'))]
