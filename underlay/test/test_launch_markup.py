@@ -40,7 +40,8 @@ XML = """
         <log message="$(var greeting)"/>
       </group>
       <log message="$(var greeting) $(env COLOUR) $(dirname)"/>
-      <executable cmd="sh -c 'echo $COLOUR $SHAPE'" output="screen" name="shell">
+      <executable cmd="sh -c 'echo $COLOUR $SHAPE $(var mode)' $(var mode)ly"
+                  output="screen" name="shell">
         <env name="SHAPE" value="round"/>
       </executable>
       <timer period="0.05"><log message="later"/></timer>
@@ -93,7 +94,7 @@ def test_xml_and_yaml_files_do_what_they_say(
         'each b',
         'later',
     ]
-    assert '[shell-1] red round' in launched.lines
+    assert '[shell-1] red round slow' in launched.lines
     assert '[echo-2] from yaml' in launched.lines
     assert _logged(run_launch(path, 'mode:=fast').output)[:2] == ['hello fast', 'quick']
 

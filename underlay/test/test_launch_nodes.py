@@ -119,6 +119,10 @@ def test_nodes_of_xml_files_are_the_same(
               <param name="text" value="$(var n)" type="str"/>
               <param name="outer"><param name="inner" value="true"/></param>
               <param name="list" value="a,b" value-sep=","/>
+              <param name="numbers" value="1;2" value-sep=";"/>
+              <param name="digits" value="'1'//'2'" value-sep="//"/>
+              <param name="digit" value="'1'"/>
+              <param name="quoted" value="\\'1\\'"/>
               <param from="$(find-pkg-share some_pkg)/p.yaml" allow_substs="true"/>
               <remap from="unused" to="other"/>
             </node>
@@ -138,6 +142,10 @@ def test_nodes_of_xml_files_are_the_same(
         'text': '4',
         'outer.inner': True,
         'list': ['a', 'b'],
+        'numbers': [1, 2],
+        'digits': ['1', '2'],
+        'digit': '1',
+        'quoted': "'1'",
         'from_file': 4,
     }
     assert {key: parameters.get(key) for key in wanted} == wanted

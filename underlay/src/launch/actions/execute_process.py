@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 import shlex
 from typing import Any
 
@@ -17,6 +17,7 @@ from ..substitutions import TextSubstitution
 from .execute_local import ExecuteLocal
 from .shutdown_action import Shutdown
 
+_MARK = 0xF0000
 _TEXTS = {
     'cwd': 'cwd',
     'name': 'name',
@@ -32,6 +33,24 @@ _TYPED = {
     'shell': bool,
     'emulate_tty': bool,
 }
+
+
+def _unmark(word: str, parts: Sequence[Substitution]) -> list[Substitution]:
+    """Return a word with its marks replaced by the substitutions they stand for."""
+    found: list[Substitution] = []
+    plain = ''
+    for character in word:
+        index = ord(character) - _MARK
+        if 0 <= index < len(parts):
+            if plain:
+                found.append(TextSubstitution(text=plain))
+                plain = ''
+            found.append(parts[index])
+        else:
+            plain += character
+    if plain or not found:
+        found.append(TextSubstitution(text=plain))
+    return found
 
 
 @expose_action('executable')
@@ -57,25 +76,12 @@ class ExecuteProcess(ExecuteLocal):
     @classmethod
     def _parse_cmdline(cls, cmd: str, parser: Parser) -> list[list[Substitution]]:
         """Split a command line at its spaces, but not inside of substitutions and quotes."""
-        words: list[list[Substitution]] = []
-        word: list[Substitution] = []
-        for sub in parser.parse_substitution(cmd):
-            if not isinstance(sub, TextSubstitution):
-                word.append(sub)
-                continue
-            text = sub.text
-            if text[:1].isspace() and word:
-                words.append(word)
-                word = []
-            tokens = shlex.split(text)
-            for index, token in enumerate(tokens):
-                word.append(TextSubstitution(text=token))
-                if index < len(tokens) - 1 or text[-1:].isspace():
-                    words.append(word)
-                    word = []
-        if word:
-            words.append(word)
-        return words
+        parts = parser.parse_substitution(cmd)
+        marked = ''
+        for index, sub in enumerate(parts):
+            # A character of the private area stands for a substitution while words are split.
+            marked += sub.text if isinstance(sub, TextSubstitution) else chr(_MARK + index)
+        return [_unmark(word, parts) for word in shlex.split(marked)]
 
     @classmethod
     def parse(

@@ -108,10 +108,19 @@ def parse_substitution(value: str) -> list[Substitution]:
     return _Reader(str(value)).fragments('', '')
 
 
+def _parse_if_substitutions(value: str) -> Any:
+    from ..substitutions import TextSubstitution
+
+    parsed = parse_substitution(value)
+    if len(parsed) == 1 and isinstance(parsed[0], TextSubstitution):
+        return parsed[0].text
+    return parsed
+
+
 def parse_if_substitutions(value: Any) -> Any:
-    """Return a value with every text in it parsed, where it has substitutions."""
+    """Return a value with every text in it parsed; one without substitutions stays text."""
     if isinstance(value, str):
-        return parse_substitution(value)
+        return _parse_if_substitutions(value)
     if isinstance(value, list):
         return [parse_if_substitutions(item) for item in value]
     return value
