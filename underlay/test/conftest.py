@@ -6,9 +6,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 import os
 from pathlib import Path
+import select
 import subprocess
 import sys
 import textwrap
+import time
 
 import pytest
 
@@ -145,6 +147,41 @@ def interrupt_launch(launch_environment: None) -> Callable[..., Launched]:
         return Launched(rest.returncode, seen + rest.output)
 
     return run
+
+
+@pytest.fixture
+def terminal_launch(launch_environment: None) -> Iterator[Callable[[Path, str, bytes], str]]:
+    """Return a function that runs a launch file at a terminal, and types after a line has come."""
+    del launch_environment
+    master, slave = os.openpty()
+
+    def run(path: Path, after: str, keys: bytes) -> str:
+        process = subprocess.Popen(
+            ['setsid', '--ctty', sys.executable, '-c', _RUNNER, str(path)],
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            env={**os.environ, 'PYTHONPATH': str(SOURCES)},
+        )
+        output = ''
+        deadline = time.monotonic() + 20.0
+        try:
+            while process.poll() is None and time.monotonic() < deadline:
+                if select.select([master], [], [], 0.1)[0]:
+                    output += os.read(master, 4096).decode(errors='replace')
+                if keys and after in output:
+                    os.write(master, keys)
+                    keys = b''
+        finally:
+            process.kill()
+            process.wait()
+        while select.select([master], [], [], 0.1)[0]:
+            output += os.read(master, 4096).decode(errors='replace')
+        return output
+
+    yield run
+    os.close(master)
+    os.close(slave)
 
 
 _NODE = """\

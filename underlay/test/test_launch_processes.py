@@ -172,6 +172,36 @@ def test_ctrl_c_ends_every_child(python_launch_file: LaunchFile, interrupt_launc
     assert launched.returncode == 0
 
 
+def test_ctrl_c_at_a_terminal_interrupts_a_child_once(
+    python_launch_file: LaunchFile, terminal_launch: Callable[[Path, str, bytes], str]
+) -> None:
+    path = python_launch_file(
+        """
+        ExecuteProcess(cmd=['python3', '-c', CHILD], output='screen'),
+        """,
+        before='''
+CHILD = """
+import signal, time
+count = 0
+def interrupted(number, frame):
+    global count
+    count += 1
+signal.signal(signal.SIGINT, interrupted)
+print('ready')
+while not count:
+    time.sleep(0.05)
+time.sleep(0.8)
+print('interrupted', count, 'times')
+"""
+''',
+    )
+    output = terminal_launch(path, 'ready', b'\x03')
+    assert 'user interrupted with ctrl-c (SIGINT)' in output
+    assert '[python3-1] interrupted 1 times' in output
+    assert 'sending signal' not in output
+    assert 'process has finished cleanly' in output
+
+
 def test_on_exit_shutdown_makes_a_process_required(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

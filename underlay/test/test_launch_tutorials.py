@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Launch files in the manner of the tutorials and demos: includes, namespaces, handlers, formats."""
+"""Launch files in the manner of tutorials and demos: includes, namespaces, event handlers."""
 
 from collections.abc import Callable
 from pathlib import Path
