@@ -6,6 +6,7 @@ The live view as a ROS 2 node: shows a running simulator in the browser and cont
 It asks the simulator for its world, so it can be started at any time, before or after it.
 """
 
+from pathlib import Path
 import sys
 import time
 from typing import Any
@@ -19,6 +20,9 @@ from std_msgs.msg import Float64MultiArray
 
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import QOS, RATE_HZ, read_scene, Scene
+from husky_sim.view.course import is_available, waypoint_folder
+from husky_sim.view.driver_process import DriverProcess
+from husky_sim.view.editor import Editor
 from husky_sim.view.pace import Pace
 from husky_sim.view.panel import Controls, Numbers, Panel
 from husky_sim.view.picture import Picture
@@ -26,6 +30,7 @@ from husky_sim.view.robot_link import RobotLink
 from husky_sim.view.server import address_of, AddressError, close_server, open_server
 from husky_sim.view.simulator import SimulatorLink, world_and_robots
 from husky_sim.view.spinning import spin_until_interrupted
+from husky_sim.view.work import Work
 from husky_sim.world import load_world
 
 TITLE = 'Husky playpen'
@@ -37,19 +42,21 @@ _PARAMETERS = {
     'simulator': ('husky_sim', 'Name of the simulator node to show.'),
     'viewer_host': ('127.0.0.1', 'Address to serve the page at; 0.0.0.0 lets others look.'),
     'viewer_port': (8080, 'Port of the page; the next free one if it is taken.'),
+    'waypoints_folder': ('', "Where the editor saves; empty: the workspace's config/waypoints."),
 }
 
 
 class ViewNode(Node):
     """Serves the page."""
 
-    def __init__(self) -> None:
+    def __init__(self, **arguments: Any) -> None:
         """
         Open the page; it is filled when the simulator answers.
 
+        :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
         :raises AddressError: if the page cannot be served there.
         """
-        super().__init__('husky_view')
+        super().__init__('husky_view', **arguments)
         settings: dict[str, Any] = {
             name: self.declare_parameter(
                 name, default, ParameterDescriptor(description=text, read_only=True)
@@ -58,8 +65,12 @@ class ViewNode(Node):
         }
         self._simulator = SimulatorLink(self, settings['simulator'], self._on_refused)
         self._server = open_server(settings['viewer_host'], settings['viewer_port'], title=TITLE)
-        self._address = address_of(self._server)
+        self.address = address_of(self._server)
+        self._folder = Path(settings['waypoints_folder'] or waypoint_folder())
+        self._driver = DriverProcess()
+        self._work = Work()
         self._panel: Panel | None = None
+        self._editor: Editor | None = None
         self._scene: Scene | None = None
         self._answer: Any = None
         self._pace = Pace()
@@ -101,12 +112,24 @@ class ViewNode(Node):
             choose_robot=self._on_choose_robot,
             choose_camera=self._on_choose_camera,
         )
-        self._panel = Panel(self._server, controls, robots=[robot.name for robot in robots])
+        self._panel = Panel(
+            self._server, self._work, controls, robots=[robot.name for robot in robots]
+        )
         self._scenes = self.create_subscription(
             Float64MultiArray, f'{self._simulator.name}/scene', self._on_scene, QOS
         )
         self._frames = self.create_timer(1.0 / RATE_HZ, self._on_frame, clock=self._steady)
-        self.get_logger().info(f'look at {self._address}')
+        if is_available():
+            self._editor = Editor(
+                self._server,
+                self._work,
+                world,
+                folder=self._folder,
+                ground_m=self._picture.scene.ground_m,
+                drive=self._on_drive_file,
+                tell=self._panel.tell,
+            )
+        self.get_logger().info(f'look at {self.address}')
 
     def _on_scene(self, msg: Float64MultiArray) -> None:
         scene = read_scene(msg, robots=len(self._links))
@@ -119,7 +142,7 @@ class ViewNode(Node):
         if panel is None:
             return
         now = time.monotonic()
-        panel.work()
+        self._work.do()
         command = panel.pad.command(now_sec=now)
         if command is not None:
             self._links[self._driven].drive(*command)
@@ -153,6 +176,8 @@ class ViewNode(Node):
 
     def _on_choose_robot(self, place: int) -> None:
         self._driven = self._picture.followed = place
+        if self._editor is not None:
+            self._editor.choose_robot(place)
 
     def _on_choose_camera(self, client: Any, preset: str) -> None:
         robot = self._picture.scene.position(self._driven)
@@ -162,10 +187,23 @@ class ViewNode(Node):
     def _on_refused(self, what: str, reason: str) -> None:
         self.get_logger().warning(f'{what}: {reason}')
         if self._panel is not None:
-            self._panel.tell(what, reason, error=True)
+            self._panel.tell(what, reason, True)
+
+    def _on_drive_file(self, file: Path) -> None:
+        """Drive a saved file from the start."""
+        link = self._links[self._driven]
+        if not self._driver.is_running and link.has_other_driver:
+            self._on_refused('Not driven', 'somebody else drives this robot: end that first')
+            return
+        self._driver.end()
+        robot = self._picture.world.robots[self._driven].name
+        parts = [self.get_namespace().strip('/'), robot if len(self._links) > 1 else '']
+        namespace = '/'.join(part for part in parts if part)
+        self._simulator.reset(then=lambda: self._driver.start(file, namespace))
 
     def destroy_node(self) -> None:
         """Close the page; may be called twice."""
+        self._driver.end()
         close_server(self._server)
         super().destroy_node()
 

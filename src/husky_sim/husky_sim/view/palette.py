@@ -14,6 +14,13 @@ REACHED: Rgb = (0, 200, 120)
 LIDAR: Rgb = (255, 70, 30)
 COLLISION: Rgb = (255, 0, 0)
 
+# Of the editor.
+EDITED: Rgb = (255, 255, 255)
+SELECTED: Rgb = (255, 160, 0)
+CLEAR: Rgb = (0, 200, 120)
+SCARCE: Rgb = (255, 190, 0)
+BLOCKED: Rgb = (255, 60, 40)
+
 LEGEND: tuple[tuple[Rgb, str], ...] = (
     (PATH, 'given path and waypoints'),
     (TRUE_TRAIL, 'true trail'),

@@ -3,13 +3,11 @@
 """
 The panel beside a live simulation: numbers, controls, the pad, cameras and the legend.
 
-A click comes in on a thread of the server. It is put into a queue, and `Panel.work` does it
-on the thread that owns everything else.
+What is clicked is left as work for the thread that owns everything else.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from queue import Empty, SimpleQueue
 import time
 from typing import Any
 
@@ -19,6 +17,7 @@ from husky_sim.view import cameras
 from husky_sim.view.pad import Direction, HOLD_HZ, Pad
 from husky_sim.view.page import GO, page_html, STOP
 from husky_sim.view.palette import legend_html
+from husky_sim.view.work import Work
 
 PAUSE, RESUME, STEP, RESET = 'Pause', 'Resume', 'Step', 'Reset'
 FACTORS = {'½×': 0.5, '1×': 1.0, '2×': 2.0, '5×': 5.0, 'max': 0.0}
@@ -39,7 +38,7 @@ class Numbers:
 
 @dataclass(frozen=True, kw_only=True)
 class Controls:
-    """What the clicks do; called on the thread of `Panel.work`."""
+    """What the clicks do; called on the thread that does the work."""
 
     pause: Callable[[bool], None]
     step: Callable[[], None]
@@ -54,12 +53,17 @@ class Panel:
     """The elements of the page."""
 
     def __init__(
-        self, server: viser.ViserServer, controls: Controls, *, robots: Sequence[str]
+        self,
+        server: viser.ViserServer,
+        work: Work,
+        controls: Controls,
+        *,
+        robots: Sequence[str],
     ) -> None:
         self.pad = Pad()
         self._server = server
         self._controls = controls
-        self._work: SimpleQueue[Callable[[], None]] = SimpleQueue()
+        self._later = work.put
         self._paused = False
         self._stopped = False
         gui = server.gui
@@ -122,18 +126,6 @@ class Panel:
         if client is not None:
             self._later(lambda: self._controls.choose_camera(client, preset))
 
-    def _later(self, action: Callable[[], None]) -> None:
-        self._work.put(action)
-
-    def work(self) -> None:
-        """Do what was clicked since the last call."""
-        while True:
-            try:
-                action = self._work.get_nowait()
-            except Empty:
-                return
-            action()
-
     def show_stopped(self, stopped: bool) -> None:
         """Say whether the robot is held by the stop button."""
         self._stopped = stopped
@@ -149,7 +141,7 @@ class Panel:
         if html != self._numbers.content:
             self._numbers.content = html
 
-    def tell(self, title: str, body: str, *, error: bool = False) -> None:
+    def tell(self, title: str, body: str, error: bool) -> None:
         """Tell every tab something, for some seconds."""
         for client in self._server.get_clients().values():
             client.add_notification(

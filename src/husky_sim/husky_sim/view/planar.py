@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Poses in the plane: from a robot's odometry frame into the world and back."""
 
+from collections.abc import Sequence
 import math
 
 import numpy as np
@@ -24,6 +25,16 @@ def to_odom(start: RobotStart, points: Array) -> Array:
     cos, sin = math.cos(start.yaw), math.sin(start.yaw)
     turn = np.array([[cos, -sin], [sin, cos]])
     return (points - np.array([start.x, start.y])) @ turn
+
+
+def on_ground(
+    origin: Sequence[float] | Array, direction: Sequence[float] | Array, height_m: float
+) -> Array | None:
+    """Return where (x, y) a ray meets a level ground; None if it does not."""
+    if direction[2] >= -1e-6 or origin[2] <= height_m:
+        return None
+    along = (height_m - origin[2]) / direction[2]
+    return np.array([origin[0] + along * direction[0], origin[1] + along * direction[1]])
 
 
 def distance_to_line(point: Array, line: Array) -> float:

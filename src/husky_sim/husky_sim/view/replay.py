@@ -21,6 +21,7 @@ from husky_sim.view.playback import Playback
 from husky_sim.view.replay_panel import ReplayPanel, SLIDER_HZ
 from husky_sim.view.run import load_run, Poser, Run, RunRefused
 from husky_sim.view.server import address_of, AddressError, close_server, open_server
+from husky_sim.view.work import Work
 from husky_sim.world import load_world
 
 FRAME_SEC = 1.0 / 30.0
@@ -42,14 +43,17 @@ class Replay:
         self._picture = Picture(server, world)
         self._poser = Poser(run, world)
         self.playback = Playback(run.duration_sec)
-        self._panel = ReplayPanel(server, self.playback, run.collisions, self._on_choose_camera)
+        self._work = Work()
+        self._panel = ReplayPanel(
+            server, self._work, self.playback, run.collisions, self._on_choose_camera
+        )
         self._shown = 0  # the entry shown last
         self._told = 0  # collisions shown
         self._panel_due_sec = 0.0
 
     def frame(self, wall_sec: float, *, now_sec: float) -> None:
         """Let so much wall time pass; now is of a steady clock."""
-        self._panel.work()
+        self._work.do()
         playback, run = self.playback, self._run
         jumped = playback.step(wall_sec)
         entry = run.entry_at(playback.time_sec)

@@ -4,7 +4,6 @@
 
 from collections.abc import Callable, Sequence
 import math
-from queue import Empty, SimpleQueue
 from typing import Any
 
 import viser
@@ -13,6 +12,7 @@ from husky_sim.view import cameras
 from husky_sim.view.collisions import Collision
 from husky_sim.view.palette import legend_html
 from husky_sim.view.playback import Playback
+from husky_sim.view.work import Work
 
 PLAY, STAND, RESTART = 'Play', 'Pause', 'From the start'
 FACTORS = {'¼×': 0.25, '1×': 1.0, '2×': 2.0, '5×': 5.0, '20×': 20.0}
@@ -21,21 +21,18 @@ MOST_BUTTONS = 30
 
 
 class ReplayPanel:
-    """
-    The elements of the page.
-
-    What was clicked waits until `work` is called, on the thread that owns the playback.
-    """
+    """The elements of the page; what is clicked is left as work for the playback's thread."""
 
     def __init__(
         self,
         server: viser.ViserServer,
+        work: Work,
         playback: Playback,
         collisions: Sequence[Collision],
         choose_camera: Callable[[viser.ClientHandle, str], None],
     ) -> None:
         self._playback = playback
-        self._work: SimpleQueue[Callable[[], None]] = SimpleQueue()
+        self._later = work.put
         self._choose_camera = choose_camera
         gui = server.gui
         self._figures = gui.add_html('')
@@ -64,38 +61,29 @@ class ReplayPanel:
 
     def _on_time(self, word: str) -> None:
         if word == RESTART:
-            self._work.put(lambda: self._playback.jump(0.0))
+            self._later(lambda: self._playback.jump(0.0))
         else:
-            self._work.put(self._playback.toggle)
+            self._later(self._playback.toggle)
 
     def _on_slider(self, event: Any) -> None:
         # Our own updates come without a client.
         if event.client is not None:
             time_sec = float(event.target.value)
-            self._work.put(lambda: self._playback.jump(time_sec))
+            self._later(lambda: self._playback.jump(time_sec))
 
     def _on_factor(self, factor: float) -> None:
-        self._work.put(lambda: setattr(self._playback, 'factor', factor))
+        self._later(lambda: setattr(self._playback, 'factor', factor))
 
     def _on_camera(self, client: viser.ClientHandle | None, preset: str) -> None:
         if client is not None:
-            self._work.put(lambda: self._choose_camera(client, preset))
+            self._later(lambda: self._choose_camera(client, preset))
 
     def _jumper(self, time_sec: float) -> Callable[[Any], None]:
         def jump() -> None:
             self._playback.playing = False
             self._playback.jump(time_sec)
 
-        return lambda _: self._work.put(jump)
-
-    def work(self) -> None:
-        """Do what was clicked since the last call."""
-        while True:
-            try:
-                action = self._work.get_nowait()
-            except Empty:
-                return
-            action()
+        return lambda _: self._later(jump)
 
     def show(self, *, speed_m_s: float, drift_m: float, collisions: int) -> None:
         """Bring the figures and the slider up to date."""

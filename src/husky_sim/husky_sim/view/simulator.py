@@ -49,9 +49,9 @@ class SimulatorLink:
         """Advance a paused simulation by one control period."""
         self._call('Step', self._step, Trigger.Request())
 
-    def reset(self) -> None:
-        """Put everything back to the start."""
-        self._call('Reset', self._reset, Empty.Request())
+    def reset(self, then: Callable[[], None] | None = None) -> None:
+        """Put everything back to the start; `then` is called when it is done."""
+        self._call('Reset', self._reset, Empty.Request(), then)
 
     def set_factor(self, factor: float) -> None:
         """Choose how fast time passes; 0 is as fast as possible."""
@@ -59,7 +59,9 @@ class SimulatorLink:
         parameter = Parameter(name='real_time_factor', value=value)
         self._call('Speed', self._set, SetParameters.Request(parameters=[parameter]))
 
-    def _call(self, what: str, client: Any, request: Any) -> None:
+    def _call(
+        self, what: str, client: Any, request: Any, then: Callable[[], None] | None = None
+    ) -> None:
         if not client.service_is_ready():
             self._refused(what, f'{self.name} does not answer: is the simulator running?')
             return
@@ -69,6 +71,9 @@ class SimulatorLink:
                 if not getattr(result, 'successful', getattr(result, 'success', True)):
                     reason = getattr(result, 'reason', '') or getattr(result, 'message', '')
                     self._refused(what, reason)
+                    return
+            if then is not None:
+                then()
 
         client.call_async(request).add_done_callback(on_done)
 
