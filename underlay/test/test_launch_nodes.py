@@ -195,6 +195,10 @@ def test_two_nodes_of_one_name_are_warned_about(
             "parameter 'a' has the value nothing",
         ),
         ("package='some_pkg', executable='plain_node', output='scren'", "output 'scren' is not"),
+        (
+            "package='some_pkg', executable='plain_node', output_format='{lin}'",
+            "output_format '{lin}' is refused: KeyError: 'lin'",
+        ),
     ],
 )
 def test_a_wrong_node_is_one_line_with_its_place(

@@ -10,31 +10,20 @@ import signal
 from typing import Any
 
 from ..action import Action
-from ..child_process import ChildProcess, printable_command, start_child_process
 from ..descriptions import Executable
 from ..event import Event
 from ..event_handler import EventHandler
 from ..event_handlers import OnProcessExit, OnProcessStart, OnShutdown
 from ..events import Shutdown
-from ..events.process import (
-    ProcessExited,
-    ProcessStarted,
-    ProcessStderr,
-    ProcessStdin,
-    ProcessStdout,
-    ShutdownProcess,
-    SignalProcess,
-)
+from ..events.process import ProcessStdin, ShutdownProcess, SignalProcess
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
-from ..logging import get_logger, get_output_loggers
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
 from .escalation import emit_signal, escalation_timers, late_sigint, terminal_reaches_children
 from .opaque_function import OpaqueFunction
-from .process_output import ProcessOutput
+from .process_run import ProcessRun
 from .process_settings import ProcessSettings, SIGKILL_TIMEOUT, SIGTERM_TIMEOUT
-from .timer_action import TimerAction
 
 _Entities = list[LaunchDescriptionEntity] | None
 
@@ -88,15 +77,8 @@ class ExecuteLocal(Action):
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
         self.__on_exit = on_exit
-        self.__respawn_retries = 0
         self.__process_event_args: dict[str, Any] | None = None
-        self.__child: ChildProcess | None = None
-        self.__outputs: dict[int, ProcessOutput] = {}
-        self.__handlers: list[Any] = []
-        self.__timers: list[TimerAction] = []
-        self.__completed: asyncio.Future[None] | None = None
-        self.__shutdown: asyncio.Future[None] | None = None
-        self.__return_code: int | None = None
+        self.__run: ProcessRun | None = None
 
     @property
     def process_description(self) -> Executable:
@@ -129,21 +111,21 @@ class ExecuteLocal(Action):
 
     @property
     def return_code(self) -> int | None:
-        return self.__return_code
+        return None if self.__run is None else self.__run.return_code
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        return self.__completed
+        return None if self.__run is None else self.__run.completed
 
     def get_stdout(self) -> str:
-        return self.__get_cached(1, 'stdout')
+        return self.__get_cached(0, 'stdout')
 
     def get_stderr(self) -> str:
-        return self.__get_cached(2, 'stderr')
+        return self.__get_cached(1, 'stderr')
 
-    def __get_cached(self, fd: int, name: str) -> str:
+    def __get_cached(self, index: int, name: str) -> str:
         if not self.__cached_output:
             raise RuntimeError(f'cached_output must be true to be able to get {name}')
-        return self.__outputs[fd].text if fd in self.__outputs else ''
+        return '' if self.__run is None else self.__run.outputs[index].text
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         return self.__on_exit if isinstance(self.__on_exit, list) else []
@@ -172,20 +154,26 @@ class ExecuteLocal(Action):
         self.prepare(context)
         if context.is_shutdown:
             return None
-        name = str(self.__process_description.final_name)
-        for fd, logger in enumerate(get_output_loggers(name, self.__settings.output), start=1):
-            self.__outputs[fd] = ProcessOutput(
-                logger, self.__format_line, cached=self.__cached_output
-            )
-        assert context.asyncio_loop is not None
-        self.__completed = context.asyncio_loop.create_future()
-        self.__shutdown = context.asyncio_loop.create_future()
+        self.__format_line('')  # a wrong format is refused here, not in the middle of the output
         self.__register_handlers(context)
-        context.asyncio_loop.create_task(self.__run(context))
+        self.__run = ProcessRun(
+            context,
+            self.__details,
+            self.__settings,
+            format_line=self.__format_line,
+            cached=self.__cached_output,
+            log_cmd=self.__log_cmd,
+        )
         return None
 
     def __format_line(self, line: str) -> str:
-        return self.__output_format.format(line=line, this=self)
+        try:
+            return self.__output_format.format(line=line, this=self)
+        except (LookupError, AttributeError, ValueError) as error:
+            raise ValueError(
+                f"output_format '{self.__output_format}' is refused: {type(error).__name__}: "
+                f'{error}; allowed are {{line}} and {{this}} with its attributes'
+            ) from error
 
     def __register_handlers(self, context: LaunchContext) -> None:
         functions: dict[type[Event], Callable[[LaunchContext], Any]] = {
@@ -194,96 +182,26 @@ class ExecuteLocal(Action):
             ProcessStdin: self.__on_stdin,
         }
         for kind, function in functions.items():
-            self.__handlers.append(
+            context.register_event_handler(
                 EventHandler(matcher=_matches(kind), entities=OpaqueFunction(function=function))
             )
-        self.__handlers.append(OnShutdown(on_shutdown=self.__on_launch_shutdown))
+        context.register_event_handler(OnShutdown(on_shutdown=self.__on_launch_shutdown))
         if self.__on_exit is not None:
-            self.__handlers.append(OnProcessExit(target_action=self, on_exit=self.__on_exit))
-        for handler in self.__handlers:
-            context.register_event_handler(handler)
+            context.register_event_handler(
+                OnProcessExit(target_action=self, on_exit=self.__on_exit)
+            )
 
     @property
     def __details(self) -> dict[str, Any]:
         assert self.__process_event_args is not None
         return self.__process_event_args
 
-    async def __run(self, context: LaunchContext) -> None:
-        """Start the process, as often as it is to be, and see it end."""
-        try:
-            while await self.__run_once(context):
-                self.__respawn_retries += 1
-                self.__child = None
-        finally:
-            for timer in self.__timers:
-                timer.cancel()
-            assert self.__completed is not None
-            if not self.__completed.done():
-                self.__completed.set_result(None)
-
-    async def __run_once(self, context: LaunchContext) -> bool:
-        """Run the process to its end and return whether it is to run again."""
-        details = self.__details
-        logger = get_logger(details['name'])
-        cmd = printable_command(details['cmd'])
-        if self.__log_cmd:
-            logger.info(f"process details: cmd='{cmd}', cwd='{details['cwd']}'")
-        try:
-            child = await self.__start(context)
-        except (OSError, ValueError) as error:
-            logger.error(f"cannot start the process: {error}, cmd '{cmd}'")
-            return False
-        pid = child.pid
-        returncode = await child.complete
-        self.__return_code = returncode
-        for output in self.__outputs.values():
-            output.flush()
-        if returncode == 0:
-            logger.info(f'process has finished cleanly [pid {pid}]')
-        else:
-            logger.error(f"process has died [pid {pid}, exit code {returncode}, cmd '{cmd}'].")
-        context.emit_event_sync(ProcessExited(returncode=returncode, **details))
-        return await self.__is_to_respawn(context)
-
-    async def __start(self, context: LaunchContext) -> ChildProcess:
-        details = self.__details
-        return await start_child_process(
-            details['cmd'],
-            on_output=lambda fd, data: self.__on_output(context, fd, data),
-            on_started=lambda child: self.__on_started(context, child),
-            cwd=details['cwd'],
-            env=details['env'],
-            shell=self.__settings.shell,
-            emulate_tty=self.__settings.emulate_tty,
-        )
-
-    async def __is_to_respawn(self, context: LaunchContext) -> bool:
-        assert self.__shutdown is not None
-        if not self.__settings.respawns(self.__respawn_retries):
-            return False
-        if self.__settings.respawn_delay:
-            await asyncio.wait((self.__shutdown,), timeout=self.__settings.respawn_delay)
-        return not (context.is_shutdown or self.__shutdown.done())
-
-    def __on_started(self, context: LaunchContext, child: ChildProcess) -> None:
-        self.__child = child
-        self.__details['pid'] = child.pid
-        get_logger(self.__details['name']).info(f'process started with pid [{child.pid}]')
-        context.emit_event_sync(ProcessStarted(**self.__details))
-
-    def __on_output(self, context: LaunchContext, fd: int, data: bytes) -> None:
-        kind = ProcessStdout if fd == 1 else ProcessStderr
-        event = kind(text=data, **self.__details)
-        if context.would_handle_event(event):
-            context.emit_event_sync(event)
-        self.__outputs[fd].feed(data)
-
     # ---- events ----
 
     def __on_stdin(self, context: LaunchContext) -> None:
         event = context.locals.event
-        if event.action is self and self.__child is not None:
-            self.__child.write(event.text)
+        if event.action is self and self.__run is not None and self.__run.child is not None:
+            self.__run.child.write(event.text)
 
     def __on_shutdown_process(self, context: LaunchContext) -> _Entities:
         if not context.locals.event.process_matcher(self):
@@ -293,34 +211,23 @@ class ExecuteLocal(Action):
     def __on_launch_shutdown(self, event: Shutdown, context: LaunchContext) -> _Entities:
         by_terminal = event.due_to_sigint and not context.noninteractive
         actions = self._shutdown_process(context, send_sigint=not by_terminal)
-        if actions and by_terminal and not terminal_reaches_children():
+        if actions and self.__run and by_terminal and not terminal_reaches_children():
             late = late_sigint(self)
-            self.__timers.append(late)
+            self.__run.timers.append(late)
             actions.append(late)
         return actions
 
     def __on_signal_process(self, context: LaunchContext) -> None:
         event = context.locals.event
-        if not event.process_matcher(self):
-            return
-        if self.__child is None or self.__child.complete.done():
-            return
-        name = self.__details['name']
-        get_logger(name).info(f"sending signal '{event.signal_name}' to process[{name}]")
-        try:
-            self.__child.send_signal(event.signal)
-        except ProcessLookupError:
-            get_logger(name).debug(f"signal '{event.signal_name}' not sent: it has ended")
+        if event.process_matcher(self) and self.__run is not None:
+            self.__run.send_signal(event.signal)
 
     def _shutdown_process(self, context: LaunchContext, *, send_sigint: bool) -> _Entities:
         """Begin to end the process; return the actions that do it."""
-        if self.__shutdown is None or self.__shutdown.done():
+        run = self.__run
+        if run is None or run.shutdown.done():
             return None
-        assert self.__completed is not None
-        if self.__completed.done():
-            self.__shutdown.set_result(None)
-            return None
-        if self.__child is None:
+        if run.child is None and not run.completed.done():
             # It is just being started: end it as soon as it runs.
             context.register_event_handler(
                 OnProcessStart(
@@ -332,16 +239,16 @@ class ExecuteLocal(Action):
                 )
             )
             return None
-        self.__shutdown.set_result(None)
-        if self.__child.complete.done():
+        run.shutdown.set_result(None)
+        if run.completed.done() or run.child is None or run.child.complete.done():
             return None
-        self.__timers = escalation_timers(
+        run.timers = escalation_timers(
             self,
             self.__details['name'],
             sigterm_sec=self.__settings.sigterm_sec,
             sigkill_sec=self.__settings.sigkill_sec,
         )
-        actions: list[LaunchDescriptionEntity] = list(self.__timers)
+        actions: list[LaunchDescriptionEntity] = list(run.timers)
         if send_sigint:
             actions.append(emit_signal(self, signal.SIGINT))
         return actions
