@@ -159,6 +159,20 @@ def from_python(value: Any, text: str) -> ParameterValue:
     return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=text)
 
 
+def from_file(name: str, value: Any) -> ParameterValue:
+    """Make a parameter's value of one in a parameter file.
+
+    :raises CommandError: it is no scalar and no list of one kind.
+    """
+    kinds = {type(item) for item in (value if isinstance(value, list) else [value])}
+    if len(kinds) > 1 or not kinds <= {bool, int, float, str}:
+        raise CommandError(
+            f"parameter '{name}': {value!r} is refused; a value is true or false, a number, a "
+            'string, or a list of one of these kinds'
+        )
+    return from_python(value, str(value))
+
+
 def _check(item: Any) -> None:
     if isinstance(item, int) and item not in _INT64:
         raise CommandError(f'{item} is refused: an integer parameter has 64 bits')

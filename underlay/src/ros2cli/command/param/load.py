@@ -6,13 +6,16 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from rcl_interfaces.msg import Parameter
-from rclpy.parameter import parameter_dict_from_yaml_file
+import yaml
 
 from ros2cli import params
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
+
+_WILDCARD = '/**'
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -45,15 +48,43 @@ def main(args: argparse.Namespace) -> int:
 
 
 def read(file: str, node_name: str, *, use_wildcard: bool) -> list[Parameter]:
-    """Read the parameters of a node from a file.
+    """Read the parameters of a node from a file; what names the node overrides the wildcard.
 
     :raises CommandError: there is no such file, or it is no parameter file.
     """
-    if not Path(file).is_file():
-        raise CommandError(f"'{file}' is no file: a YAML file with parameters is expected")
     try:
-        found = parameter_dict_from_yaml_file(file, use_wildcard, target_nodes=[node_name])
-    except Exception as error:
-        reason = ' '.join(str(error).split())
-        raise CommandError(f"'{file}' is no parameter file: {reason}") from None
-    return list(found.values())
+        content = yaml.safe_load(Path(file).read_text(encoding='utf-8'))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, 'strerror', None) or 'it is no UTF-8 text'
+        raise CommandError(f"'{file}' is no file that can be read: {reason}") from None
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise CommandError(f"'{file}' is no YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(content, dict):
+        raise CommandError(f"'{file}' is no parameter file: its top level must name nodes")
+    found: dict[str, Any] = {}
+    keys = [_WILDCARD] if use_wildcard else []
+    for key in (*keys, node_name, node_name.lstrip('/')):
+        if key in content:
+            found |= _flattened(_parameters_of(content[key], file, key))
+    return [
+        Parameter(name=name, value=params.from_file(name, value)) for name, value in found.items()
+    ]
+
+
+def _parameters_of(value: Any, file: str, key: str) -> dict[Any, Any]:
+    below = value.get('ros__parameters') if isinstance(value, dict) else None
+    if not isinstance(below, dict):
+        raise CommandError(
+            f"'{file}' is no parameter file: '{key}' needs 'ros__parameters' with names and values"
+        )
+    return below
+
+
+def _flattened(tree: dict[Any, Any], prefix: str = '') -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, value in tree.items():
+        if isinstance(value, dict):
+            found |= _flattened(value, f'{prefix}{name}.')
+        else:
+            found[f'{prefix}{name}'] = value
+    return found

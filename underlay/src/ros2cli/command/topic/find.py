@@ -29,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '-a',
         '--all',
         action='store_true',
+        default=argparse.SUPPRESS,  # else it would undo that of the command
         help='Consider hidden topics as well',
     )
 

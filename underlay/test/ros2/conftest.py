@@ -1,0 +1,198 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of the `ros2` command share: a domain of their own, the command, processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent.parent
+SOURCES = HERE.parent.parent / 'src'
+sys.path.insert(0, str(SOURCES))
+_DOMAINS = range(45, 70)
+_next_domain = os.getpid()
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a command has printed, and its exit status."""
+
+    status: int
+    out: str
+    err: str
+
+    @property
+    def lines(self) -> list[str]:
+        return self.out.splitlines()
+
+
+Ros2 = Callable[..., Answer]
+
+
+class Processes:
+    """Processes that end with the test."""
+
+    def __init__(self) -> None:
+        self._started: list[subprocess.Popen[str]] = []
+
+    def start(self, *words: str, ready: str | None = None) -> subprocess.Popen[str]:
+        """Start a process; where `ready` is given, wait until it has printed a line with it."""
+        process = subprocess.Popen(
+            words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        self._started.append(process)
+        if ready is not None:
+            assert process.stdout is not None
+            seen = ''
+            for line in process.stdout:
+                seen += line
+                if ready in line:
+                    return process
+            pytest.fail(f'{words} ended without {ready!r}; it printed:\n{seen}')
+        return process
+
+    def node(self, kind: str, name: str, *arguments: str) -> subprocess.Popen[str]:
+        """Start one of the nodes in nodes.py and wait until it spins."""
+        return self.start(
+            sys.executable, str(HERE / 'nodes.py'), kind, name, *arguments, ready='ready'
+        )
+
+    def ros2(self, *words: str, ready: str | None = None) -> subprocess.Popen[str]:
+        return self.start(sys.executable, '-m', 'ros2cli', *words, ready=ready)
+
+    def end(self) -> None:
+        for process in self._started:
+            process.send_signal(signal.SIGCONT)
+            process.send_signal(signal.SIGINT)
+        for process in self._started:
+            try:
+                process.communicate(timeout=5)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+
+
+def set_domain(monkeypatch: pytest.MonkeyPatch) -> int:
+    """Move this process and its children to a domain that nobody uses."""
+    from ros2cli.rtps import host
+
+    global _next_domain
+    for _ in _DOMAINS:
+        _next_domain += 1
+        domain_id = _DOMAINS[_next_domain % len(_DOMAINS)]
+        if not host.participant_ports(domain_id):
+            break
+    else:
+        pytest.fail(f'all domains from {_DOMAINS[0]} to {_DOMAINS[-1]} are in use')
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain_id))
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
+    monkeypatch.setenv('PYTHONPATH', str(SOURCES))
+    monkeypatch.setenv('PYTHONUNBUFFERED', '1')
+    for name in ('ROS_STATIC_PEERS', 'ROS_LOCALHOST_ONLY'):
+        monkeypatch.delenv(name, raising=False)
+    return domain_id
+
+
+@pytest.fixture
+def domain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> int:
+    monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
+    return set_domain(monkeypatch)
+
+
+@pytest.fixture(scope='module')
+def shared_domain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[int]:
+    """Give all tests of a module one domain."""
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path_factory.mktemp('ros_log')))
+        yield set_domain(monkeypatch)
+
+
+@pytest.fixture
+def processes(domain: int) -> Iterator[Processes]:
+    del domain  # the processes must be in the test's domain
+    started = Processes()
+    yield started
+    started.end()
+
+
+@pytest.fixture(scope='module')
+def shared_processes(shared_domain: int) -> Iterator[Processes]:
+    del shared_domain
+    started = Processes()
+    yield started
+    started.end()
+
+
+@pytest.fixture
+def ros2() -> Ros2:
+    """Return a function that runs the command to its end, or interrupts it after a time."""
+
+    def run(
+        *words: str,
+        interrupt_after_sec: float | None = None,
+        timeout_sec: float = 20.0,
+        folder: Path | None = None,
+        text: str | None = None,
+    ) -> Answer:
+        process = subprocess.Popen(
+            [sys.executable, '-m', 'ros2cli', *words],
+            stdin=subprocess.PIPE if text is not None else None,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=folder,
+        )
+        try:
+            if interrupt_after_sec is not None:
+                end = time.monotonic() + interrupt_after_sec
+                while process.poll() is None and time.monotonic() < end:
+                    time.sleep(0.02)
+                process.send_signal(signal.SIGINT)
+            out, err = process.communicate(text, timeout=timeout_sec)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            out, err = process.communicate()
+            pytest.fail(f'ros2 {" ".join(words)} did not end; it printed:\n{out}{err}')
+        assert 'Traceback' not in err, err
+        return Answer(process.returncode, out, err)
+
+    return run
+
+
+def make_package(prefix: Path, name: str, **programs: str) -> Path:
+    """Install a package with the given programs (shell or Python text by name)."""
+    index = prefix / 'share' / 'ament_index' / 'resource_index' / 'packages'
+    folder = prefix / 'lib' / name
+    for needed in (index, folder, prefix / 'share' / name):
+        needed.mkdir(parents=True, exist_ok=True)
+    (index / name).touch()
+    for program, text in programs.items():
+        (folder / program).write_text(text)
+        (folder / program).chmod(0o755)
+    return prefix
+
+
+@pytest.fixture
+def installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
+    """Return a function that installs a package in a prefix of the test."""
+
+    def install(name: str, **programs: str) -> Path:
+        prefix = make_package(tmp_path / 'prefix', name, **programs)
+        others = os.environ.get('AMENT_PREFIX_PATH', '')
+        if str(prefix) not in others.split(os.pathsep):
+            monkeypatch.setenv('AMENT_PREFIX_PATH', f'{prefix}{os.pathsep}{others}')
+        return prefix
+
+    monkeypatch.setenv('PYTHONPATH', str(SOURCES))
+    return install

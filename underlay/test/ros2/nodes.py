@@ -1,0 +1,116 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Small nodes that the tests of the `ros2` command start as processes: nodes.py KIND NAME ..."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from geometry_msgs.msg import Twist, TwistStamped
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.service_introspection import ServiceIntrospectionState
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+BEST_EFFORT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def talker(node: Node) -> None:
+    publisher = node.create_publisher(String, 'chatter', 10)
+    count = 0
+
+    def publish() -> None:
+        nonlocal count
+        count += 1
+        publisher.publish(String(data=f'hello {count}'))
+
+    node.create_timer(0.05, publish)
+
+
+def listener(node: Node) -> None:
+    node.create_subscription(String, 'chatter', lambda msg: print(f'heard {msg.data}'), 10)
+
+
+def latched(node: Node) -> None:
+    node.create_publisher(String, 'latched', LATCHED).publish(String(data='once'))
+
+
+def best_effort(node: Node) -> None:
+    publisher = node.create_publisher(String, 'chatter', BEST_EFFORT)
+    node.create_timer(0.05, lambda: publisher.publish(String(data='maybe')))
+
+
+def stamped(node: Node) -> None:
+    publisher = node.create_publisher(TwistStamped, 'stamped', 10)
+
+    def publish() -> None:
+        msg = TwistStamped()
+        msg.header.stamp = node.get_clock().now().to_msg()
+        msg.twist.linear.x = 1.5
+        publisher.publish(msg)
+
+    node.create_timer(0.05, publish)
+
+
+def robot(node: Node) -> None:
+    node.declare_parameter('command_timeout_sec', 0.25)
+    node.create_subscription(Twist, 'cmd_vel', lambda _: None, 10)
+
+
+def slow_driver(node: Node) -> None:
+    publisher = node.create_publisher(Twist, 'cmd_vel', 10)
+    node.create_timer(0.5, lambda: publisher.publish(Twist()))
+
+
+def stamped_driver(node: Node) -> None:
+    node.create_publisher(TwistStamped, 'cmd_vel', 10)
+
+
+def service(node: Node) -> None:
+    def on_flip(request: Any, response: Any) -> Any:
+        response.success = request.data
+        response.message = 'flipped'
+        return response
+
+    server = node.create_service(SetBool, 'flip', on_flip)
+    server.configure_introspection(node.get_clock(), LATCHED, ServiceIntrospectionState.CONTENTS)
+
+
+def parameters(node: Node) -> None:
+    speed = FloatingPointRange(from_value=0.0, to_value=1.0)
+    node.declare_parameter(
+        'speed', 0.5, ParameterDescriptor(description='how fast', floating_point_range=[speed])
+    )
+    node.declare_parameter('wheel.radius', 3)
+    node.declare_parameter('names', ['x', 'y'])
+    node.declare_parameter('fixed', 'z', ParameterDescriptor(read_only=True))
+    node.declare_parameter('loose', 1, ParameterDescriptor(dynamic_typing=True))
+
+
+def plain(node: Node) -> None:
+    del node
+
+
+def main() -> None:
+    kind, name, *_ = sys.argv[1:]
+    rclpy.init(args=sys.argv)
+    node = Node(name)
+    globals()[kind](node)
+    print('ready', flush=True)
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,201 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The verbs that show the graph, beside real nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+import signal
+import sys
+import time
+from typing import Any
+
+import pytest
+
+NUMBER = 12
+
+
+@pytest.fixture(scope='module')
+def crowd(shared_processes: Any) -> list[str]:
+    """Run twelve nodes; return their names."""
+    names = [f'node_{i:02}' for i in range(NUMBER - 3)]
+    path = str(Path(__file__).with_name('nodes.py'))
+    for name in names:
+        shared_processes.start(sys.executable, path, 'plain', name)
+    shared_processes.node('talker', 'talker')
+    shared_processes.node('listener', 'listener')
+    shared_processes.node('service', 'server')
+    _wait_for({f'/{name}' for name in names})
+    return [*names, 'talker', 'listener', 'server']
+
+
+def _wait_for(names: set[str]) -> None:
+    from ros2cli import discovery
+
+    end = time.monotonic() + 20
+    while missing := names - {node.full_name for node in discovery.read_graph(quiet=True).nodes}:
+        assert time.monotonic() < end, f'{missing} did not start'
+
+
+def test_every_node_is_listed_in_every_run(crowd: list[str], ros2: Callable[..., Any]) -> None:
+    expected = sorted(f'/{name}' for name in crowd)
+    for _ in range(5):
+        answer = ros2('node', 'list')
+        assert (answer.status, answer.lines, answer.err) == (0, expected, '')
+
+
+def test_the_observer_alone_is_complete_twenty_times_of_twenty(crowd: list[str]) -> None:
+    from ros2cli import discovery
+
+    expected = {f'/{name}' for name in crowd}
+    start = time.monotonic()
+    for _ in range(20):
+        graph = discovery.read_graph(quiet=True)
+        assert {node.full_name for node in graph.nodes} == expected
+        assert {'/chatter', '/rosout', '/parameter_events'} <= graph.topics().keys()
+    assert (time.monotonic() - start) / 20 < 0.8
+
+
+@pytest.mark.usefixtures('crowd')
+def test_topics_are_listed_with_their_types(ros2: Callable[..., Any]) -> None:
+    answer = ros2('topic', 'list', '--show-types')
+    assert '/chatter [std_msgs/msg/String]' in answer.lines
+    assert '/rosout [rcl_interfaces/msg/Log]' in answer.lines
+    assert answer.lines == sorted(answer.lines)
+    assert ros2('topic', 'list', '--count-topics').out == f'{len(answer.lines)}\n'
+
+
+@pytest.mark.usefixtures('crowd')
+def test_hidden_topics_are_shown_only_when_asked(ros2: Callable[..., Any]) -> None:
+    hidden = '/flip/_service_event'
+    assert hidden not in ros2('topic', 'list').lines
+    assert hidden in ros2('topic', 'list', '-a').lines
+    assert hidden in ros2('topic', '--include-hidden-topics', 'list').lines
+
+
+@pytest.mark.usefixtures('crowd')
+def test_the_verbose_list_counts_publishers(ros2: Callable[..., Any]) -> None:
+    published, _, subscribed = ros2('topic', 'list', '-v').out.partition('Subscribed topics:')
+    assert ' * /chatter [std_msgs/msg/String] 1 publisher\n' in published
+    assert f' * /rosout [rcl_interfaces/msg/Log] {NUMBER} publishers\n' in published
+    assert ' * /chatter [std_msgs/msg/String] 1 subscriber\n' in subscribed
+
+
+@pytest.mark.usefixtures('crowd')
+def test_topic_info_tells_type_and_counts(ros2: Callable[..., Any]) -> None:
+    answer = ros2('topic', 'info', '/chatter')
+    assert answer.lines == [
+        'Type: std_msgs/msg/String',
+        'Publisher count: 1',
+        'Subscription count: 1',
+    ]
+
+
+@pytest.mark.usefixtures('crowd')
+def test_verbose_topic_info_agrees_with_rclpy(ros2: Callable[..., Any]) -> None:
+    import rclpy
+
+    out = ros2('topic', 'info', '-v', '/chatter').out
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    node = rclpy.create_node('_probe', context=context)
+    try:
+        end = time.monotonic() + 10
+        while not (infos := node.get_publishers_info_by_topic('/chatter')):
+            assert time.monotonic() < end, 'rclpy did not find the publisher'
+            time.sleep(0.02)
+        (info,) = infos
+        end = time.monotonic() + 10
+        while info.node_name != 'talker':
+            assert time.monotonic() < end, 'rclpy did not find the node of the publisher'
+            time.sleep(0.02)
+            (info,) = node.get_publishers_info_by_topic('/chatter')
+    finally:
+        node.destroy_node()
+        rclpy.shutdown(context=context)
+    ours = out.partition('Publisher count: 1\n\n')[2].partition('\n\nSubscription count')[0]
+    assert ours == str(info)
+
+
+@pytest.mark.usefixtures('crowd')
+def test_node_info_has_upstreams_form(ros2: Callable[..., Any]) -> None:
+    lines = ros2('node', 'info', '/talker').lines
+    assert lines[:7] == [
+        '/talker',
+        '  Subscribers:',
+        '',
+        '  Publishers:',
+        '    /chatter: std_msgs/msg/String',
+        '    /parameter_events: rcl_interfaces/msg/ParameterEvent',
+        '    /rosout: rcl_interfaces/msg/Log',
+    ]
+    assert '    /talker/get_parameters: rcl_interfaces/srv/GetParameters' in lines
+    assert lines[-6:] == [
+        '  Service Clients:',
+        '',
+        '  Action Servers:',
+        '',
+        '  Action Clients:',
+        '',
+    ]
+
+
+@pytest.mark.usefixtures('crowd')
+def test_an_unknown_node_is_refused_with_the_nearest_name(ros2: Callable[..., Any]) -> None:
+    answer = ros2('node', 'info', '/taker')
+    assert answer.status == 1
+    assert answer.err == "Unable to find node '/taker'; did you mean '/talker'?\n"
+
+
+@pytest.mark.usefixtures('crowd')
+def test_types_and_names_find_each_other(ros2: Callable[..., Any]) -> None:
+    assert ros2('topic', 'type', '/chatter').out == 'std_msgs/msg/String\n'
+    assert ros2('topic', 'type', '/nothing').status == 1
+    assert ros2('topic', 'find', 'std_msgs/msg/String').lines == ['/chatter']
+    assert ros2('service', 'type', '/flip').out == 'std_srvs/srv/SetBool\n'
+    assert ros2('service', 'find', 'std_srvs/srv/SetBool').lines == ['/flip']
+
+
+@pytest.mark.usefixtures('crowd')
+def test_services_are_listed(ros2: Callable[..., Any]) -> None:
+    lines = ros2('service', 'list', '-t').lines
+    assert '/flip [std_srvs/srv/SetBool]' in lines
+    assert '/talker/list_parameters [rcl_interfaces/srv/ListParameters]' in lines
+    assert ros2('service', 'info', '/flip').lines == [
+        'Type: std_srvs/srv/SetBool',
+        'Clients count: 0',
+        'Services count: 1',
+    ]
+
+
+def test_a_stopped_process_is_named_and_the_others_are_shown(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('plain', 'awake')
+    asleep = processes.node('plain', 'asleep')
+    asleep.send_signal(signal.SIGSTOP)
+    answer = ros2('node', 'list')
+    assert answer.lines == ['/awake']
+    assert 'hint: ' in answer.err
+    assert 'does not answer' in answer.err
+    assert '/udp' in answer.err
+
+
+def test_a_node_that_has_ended_is_gone_at_once(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('plain', 'stays')
+    goes = processes.node('plain', 'goes')
+    goes.kill()
+    goes.wait()
+    assert ros2('node', 'list').lines == ['/stays']
+
+
+@pytest.mark.usefixtures('domain')
+def test_a_bad_domain_is_refused_in_one_line(
+    monkeypatch: pytest.MonkeyPatch, ros2: Callable[..., Any]
+) -> None:
+    monkeypatch.setenv('ROS_DOMAIN_ID', 'lab')
+    answer = ros2('topic', 'list')
+    assert answer.status == 1
+    assert answer.err.startswith("ROS_DOMAIN_ID='lab' is refused: a domain is a number from 0")
+    assert answer.err.count('\n') == 1

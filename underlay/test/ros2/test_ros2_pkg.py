@@ -1,0 +1,147 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""`ros2 pkg` and `ros2 interface`: what is installed, and new packages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import importlib
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+
+def test_packages_of_every_prefix_are_listed(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    prefix = installed_package('demo', show='#!/bin/sh\n')
+    lines = ros2('pkg', 'list').lines
+    assert {'demo', 'rclpy', 'std_msgs'} <= set(lines)
+    assert lines == sorted(lines)
+    assert ros2('pkg', 'prefix', 'demo').out == f'{prefix}\n'
+    assert ros2('pkg', 'prefix', '--share', 'demo').out == f'{prefix}/share/demo\n'
+    assert ros2('pkg', 'executables', 'demo').lines == ['show']
+    assert 'demo show' in ros2('pkg', 'executables').lines
+    assert ros2('pkg', 'executables', '--full-path', 'demo').lines == [f'{prefix}/lib/demo/show']
+
+
+def test_the_manifest_is_shown(ros2: Callable[..., Any]) -> None:
+    assert ros2('pkg', 'xml', 'std_msgs', '--tag', 'name').out == 'std_msgs\n'
+    assert '<name>std_msgs</name>' in ros2('pkg', 'xml', 'std_msgs').out
+    assert ros2('pkg', 'xml', 'std_msgs', '-t', 'nothing').status == 1
+
+
+def test_a_new_python_package_builds_passes_its_tests_and_runs(
+    ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    source = tmp_path / 'src'
+    source.mkdir()
+    answer = ros2(
+        'pkg', 'create', 'my_package', '--build-type', 'ament_python', '--node-name', 'my_node',
+        '--license', 'Apache-2.0', '--dependencies', 'rclpy', 'std_msgs', folder=source,
+    )  # fmt: skip
+    assert answer.status == 0
+    assert 'going to create a new package' in answer.lines
+    package = source / 'my_package'
+    assert 'Apache License' in (package / 'LICENSE').read_text()
+    before = ros2('run', 'my_package', 'my_node', folder=tmp_path)
+    assert before.status == 1
+    assert 'but not built; run `colcon build --packages-select my_package`' in before.err
+    _colcon('build', tmp_path)
+    unsourced = ros2('run', 'my_package', 'my_node', folder=tmp_path)
+    assert f'run `source {tmp_path}/install/setup.bash`' in unsourced.err
+    _colcon('test', tmp_path)
+    _colcon('test-result', tmp_path)
+    command = f'{sys.executable} -m ros2cli run my_package my_node'
+    ran = subprocess.run(
+        ['bash', '-c', f'source install/setup.bash && {command}'],
+        cwd=tmp_path, capture_output=True, text=True,
+    )  # fmt: skip
+    assert ran.stdout == 'Hi from my_package.\n', ran.stderr
+
+
+def _colcon(verb: str, workspace: Path) -> None:
+    colcon = shutil.which('colcon')
+    assert colcon, 'colcon is part of the installation'
+    done = subprocess.run([colcon, verb], cwd=workspace, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_new_cpp_package_has_what_it_declares(ros2: Callable[..., Any], tmp_path: Path) -> None:
+    words = ('--node-name', 'mine', '--library-name', 'mine', '--dependencies', 'std_msgs')
+    answer = ros2('pkg', 'create', 'other', *words, folder=tmp_path)
+    assert '[WARNING] renaming node to mine_node' in answer.err
+    package = tmp_path / 'other'
+    lists = (package / 'CMakeLists.txt').read_text()
+    assert 'add_executable(mine_node src/mine_node.cpp)' in lists
+    assert 'find_package(std_msgs REQUIRED)' in lists
+    assert (package / 'include' / 'other' / 'mine.hpp').is_file()
+    # What colcon reads manifests with; it carries no types.
+    parsed = importlib.import_module('catkin_pkg.package').parse_package(
+        str(package / 'package.xml')
+    )
+    assert [str(d) for d in parsed.buildtool_depends] == ['ament_cmake_ros']
+    assert parsed.get_build_type() == 'ament_cmake'
+
+
+@pytest.mark.parametrize(
+    ('words', 'status', 'message'),
+    [
+        (('My-Package',), 2, "'My-Package' is no package name"),
+        (('test', '--build-type', 'ament_python'), 1, "can't be named 'test'"),
+        (('here',), 1, 'The directory already exists'),
+        (('a', '--maintainer-email', 'me'), 2, "'me' is no email address"),
+        (('a', '--node-name', 'my node'), 2, "'my node' is no node name"),
+    ],
+)
+def test_a_bad_package_is_refused(
+    ros2: Callable[..., Any], tmp_path: Path, words: tuple[str, ...], status: int, message: str
+) -> None:
+    (tmp_path / 'here').mkdir()
+    answer = ros2('pkg', 'create', *words, folder=tmp_path)
+    assert answer.status == status
+    assert message in answer.err
+    assert [path.name for path in tmp_path.iterdir()] == ['here']
+
+
+def test_licenses_are_listed(ros2: Callable[..., Any]) -> None:
+    assert {'Apache-2.0', 'MIT', 'BSD-3-Clause'} <= set(
+        ros2('pkg', 'create', 'x', '--license', '?').lines
+    )
+
+
+def test_interfaces_are_listed_by_kind(ros2: Callable[..., Any]) -> None:
+    lines = ros2('interface', 'list').lines
+    assert lines[0] == 'Messages:'
+    assert lines.index('Services:') < lines.index('    std_srvs/srv/Empty')
+    assert lines.index('    std_msgs/msg/String') < lines.index('Services:')
+    assert ros2('interface', 'package', 'std_srvs').lines == [
+        'std_srvs/srv/Empty',
+        'std_srvs/srv/SetBool',
+        'std_srvs/srv/Trigger',
+    ]
+    assert 'std_srvs' in ros2('interface', 'packages', '-s').lines
+    assert 'std_srvs' not in ros2('interface', 'packages', '-m').lines
+
+
+def test_an_interface_is_shown_with_what_it_contains(ros2: Callable[..., Any]) -> None:
+    assert ros2('interface', 'show', '--no-comments', 'geometry_msgs/msg/Twist').lines == [
+        'Vector3  linear', '\tfloat64 x', '\tfloat64 y', '\tfloat64 z',
+        'Vector3  angular', '\tfloat64 x', '\tfloat64 y', '\tfloat64 z',
+    ]  # fmt: skip
+    piped = ros2('interface', 'show', '-', text='std_srvs/srv/Trigger\n')
+    assert '---' in piped.lines
+    wrong = ros2('interface', 'show', 'std_msgs/msg/Sting')
+    assert wrong.status == 1
+    assert "did you mean 'std_msgs/msg/String'" in wrong.err
+
+
+def test_a_prototype_can_be_filled_in(ros2: Callable[..., Any]) -> None:
+    assert ros2('interface', 'proto', 'std_srvs/srv/SetBool', '--no-quotes').lines == [
+        'data: false',
+        '',
+    ]

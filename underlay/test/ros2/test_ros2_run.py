@@ -1,0 +1,124 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""`ros2 run`: it becomes the program, and says why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+_SHOW = '#!/bin/sh\necho "$$" "$@"\n'
+
+
+def test_the_exit_status_is_that_of_the_program(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    installed_package('demo', seven='#!/bin/sh\nexit 7\n')
+    assert ros2('run', 'demo', 'seven').status == 7
+
+
+def test_every_argument_behind_the_executable_is_passed_on(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    installed_package('demo', show=_SHOW)
+    words = ('-h', '--prefix', 'x', '--ros-args', '-r', '__node:=me', '--', 'a b')
+    assert ros2('run', 'demo', 'show', *words).out.split(' ', 1)[1] == ' '.join(words) + '\n'
+
+
+def test_a_prefix_goes_before_the_program(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    prefix = installed_package('demo', show=_SHOW)
+    answer = ros2('run', '--prefix', 'echo "a b"', 'demo', 'show', 'c')
+    assert answer.out == f'a b {prefix}/lib/demo/show c\n'
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_reaches_the_program_and_nothing_is_left(
+    installed_package: Callable[..., Path], number: signal.Signals
+) -> None:
+    installed_package(
+        'demo',
+        waits=f'#!{sys.executable}\n'
+        'import os, signal, sys\n'
+        'for n in (signal.SIGINT, signal.SIGTERM):\n'
+        '    signal.signal(n, lambda n, _: (print("got", n, flush=True), sys.exit(n + 20)))\n'
+        'print(os.getpid(), flush=True)\n'
+        'signal.pause()\n',
+    )
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'ros2cli', 'run', 'demo', 'waits'],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    assert int(process.stdout.readline()) == process.pid, 'the program is another process'
+    process.send_signal(number)
+    out, _ = process.communicate(timeout=5)
+    assert out == f'got {int(number)}\n'
+    assert process.returncode == int(number) + 20
+
+
+@pytest.mark.parametrize(
+    ('words', 'status', 'message'),
+    [
+        (('demo', 'sho'), 1, "package 'demo' has no 'sho'; did you mean 'show'?"),
+        (('dmo', 'show'), 1, "Package 'dmo' not found: no such package is sourced or installed; "
+                             "did you mean 'demo'?"),
+        (('demo',), 2, "the name of the executable is missing; package 'demo' has show"),
+        (('--prefix', '"', 'demo', 'show'), 2, 'is refused: No closing quotation'),
+        (('demo', 'broken'), 1, "its first line names '/no/python'"),
+        (('empty', 'x'), 1, "package 'empty' has none"),
+    ],
+)  # fmt: skip
+def test_what_cannot_run_is_explained(
+    installed_package: Callable[..., Path],
+    ros2: Callable[..., Any],
+    words: tuple[str, ...],
+    status: int,
+    message: str,
+) -> None:
+    programs = {'show': _SHOW}
+    if 'broken' in words:
+        programs['broken'] = '#!/no/python\n'
+    installed_package('demo', **programs)
+    installed_package('empty')
+    answer = ros2('run', *words)
+    assert answer.status == status
+    assert message in answer.err
+
+
+def test_executables_of_one_name_are_all_named(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    prefix = installed_package('demo', show=_SHOW)
+    second = prefix / 'lib' / 'demo' / 'tools' / 'show'
+    second.parent.mkdir()
+    second.write_text(_SHOW)
+    second.chmod(0o755)
+    answer = ros2('run', 'demo', 'show')
+    assert answer.status == 1
+    assert answer.err.startswith("Multiple executables named 'show' in package 'demo'")
+    assert str(second) in answer.err
+
+
+def test_the_first_prefix_wins(
+    installed_package: Callable[..., Path],
+    ros2: Callable[..., Any],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    first = installed_package('demo', show='#!/bin/sh\necho first\n')
+    second = tmp_path / 'second'
+    for folder in ('lib/demo', 'share/ament_index/resource_index/packages'):
+        (second / folder).mkdir(parents=True)
+    (second / 'share/ament_index/resource_index/packages/demo').touch()
+    monkeypatch.setenv('AMENT_PREFIX_PATH', f'{first}{os.pathsep}{second}')
+    assert ros2('run', 'demo', 'show').out == 'first\n'

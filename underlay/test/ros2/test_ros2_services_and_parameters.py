@@ -1,0 +1,149 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""`ros2 service` and `ros2 param` beside a node that has both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture(scope='module')
+def world(shared_processes: Any) -> Any:
+    shared_processes.node('service', 'server')
+    shared_processes.node('parameters', 'owner')
+    return shared_processes
+
+
+@pytest.mark.usefixtures('world')
+def test_a_service_answers(ros2: Callable[..., Any]) -> None:
+    answer = ros2('service', 'call', '/flip', 'std_srvs/srv/SetBool', 'data: true')
+    assert answer.status == 0
+    assert 'requester: making request: std_srvs.srv.SetBool_Request(data=True)' in answer.lines
+    assert "std_srvs.srv.SetBool_Response(success=True, message='flipped')" in answer.lines
+
+
+@pytest.mark.usefixtures('world')
+def test_a_request_may_come_from_stdin(ros2: Callable[..., Any]) -> None:
+    words = ('service', 'call', '/flip', 'std_srvs/srv/SetBool', '--stdin')
+    assert 'success=False' in ros2(*words, text='data: false\n').out
+
+
+@pytest.mark.parametrize(
+    ('words', 'message'),
+    [
+        (('std_srvs/srv/SetBool', 'data: 5'), 'expected true or false'),
+        (('std_srvs/srv/SetBol',), "no service 'SetBol'; did you mean 'SetBool'"),
+        (('std_msgs/msg/String',), 'to be a service'),
+        (('std_srvs/srv/SetBool', '{{'), 'is no YAML'),
+    ],
+)
+@pytest.mark.usefixtures('world')
+def test_a_bad_call_is_refused(
+    ros2: Callable[..., Any], words: tuple[str, ...], message: str
+) -> None:
+    answer = ros2('service', 'call', '/flip', *words)
+    assert answer.status == 1
+    assert message in answer.err
+
+
+def test_echo_shows_requests_and_responses(world: Any) -> None:
+    words = ('/flip', 'std_srvs/srv/SetBool', 'data: true', '-r', '5')
+    calls = world.ros2('service', 'call', *words, ready='response')
+    echo = world.ros2('service', 'echo', '/flip', ready='message: flipped')
+    for process in (calls, echo):
+        process.terminate()
+        rest, _ = process.communicate(timeout=5)
+        assert 'Traceback' not in rest
+
+
+@pytest.mark.usefixtures('world')
+def test_parameters_are_listed_with_types(ros2: Callable[..., Any]) -> None:
+    answer = ros2('param', 'list', '/owner', '--param-type')
+    assert '  speed (type: double)' in answer.lines
+    assert '  names (type: string array)' in answer.lines
+    everything = ros2('param', 'list')
+    assert '/owner:' in everything.lines
+    assert '  wheel.radius' in everything.lines
+    assert ros2('param', 'list', 'owner', '--filter', 'rad').lines == ['  wheel.radius']
+
+
+@pytest.mark.parametrize(
+    ('name', 'shown'),
+    [
+        ('speed', 'Double value is: 0.5'),
+        ('wheel.radius', 'Integer value is: 3'),
+        ('names', "String values are: ['x', 'y']"),
+        ('use_sim_time', 'Boolean value is: False'),
+    ],
+)
+@pytest.mark.usefixtures('world')
+def test_a_parameter_is_shown(ros2: Callable[..., Any], name: str, shown: str) -> None:
+    assert ros2('param', 'get', '/owner', name).out == f'{shown}\n'
+
+
+@pytest.mark.usefixtures('world')
+def test_a_parameter_that_is_set_stays_set(ros2: Callable[..., Any]) -> None:
+    assert ros2('param', 'set', '/owner', 'wheel.radius', '7').out == 'Set parameter successful\n'
+    assert ros2('param', 'get', '/owner', 'wheel.radius', '--hide-type').out == '7\n'
+
+
+@pytest.mark.parametrize(
+    ('words', 'message'),
+    [
+        (('get', '/owner', 'nothing'), 'Parameter not set'),
+        (('get', '/owne', 'speed'), "Node not found: '/owne'; did you mean '/owner'?"),
+        (('set', '/owner', 'speed', '7.0'), 'Setting parameter failed: Parameter speed out of'),
+        (('set', '/owner', 'speed', 'fast'), 'Setting parameter failed: Wrong parameter type'),
+        (('set', '/owner', 'fixed', 'a'), 'read-only'),
+        (('set', '/owner', 'wheel.radius', '9' * 30), 'an integer parameter has 64 bits'),
+        (('delete', '/owner', 'speed'), 'Deleting parameter failed'),
+        (('load', '/owner', '/nothing.yaml'), "'/nothing.yaml' is no file"),
+        (('list', '--filter', '('), 'is no regular expression'),
+    ],
+)
+@pytest.mark.usefixtures('world')
+def test_what_cannot_be_done_is_said(
+    ros2: Callable[..., Any], words: tuple[str, ...], message: str
+) -> None:
+    answer = ros2('param', *words)
+    assert answer.status == 1
+    assert message in answer.err
+
+
+@pytest.mark.usefixtures('world')
+def test_a_dump_can_be_loaded(ros2: Callable[..., Any], tmp_path: Path) -> None:
+    dump = ros2('param', 'dump', '/owner').out
+    assert '/owner:\n  ros__parameters:\n' in dump
+    file = tmp_path / 'owner.yaml'
+    file.write_text('/**:\n  ros__parameters:\n    speed: 0.25\n    wheel:\n      radius: 9\n')
+    answer = ros2('param', 'load', '/owner', str(file))
+    assert answer.lines == [
+        'Set parameter speed successful',
+        'Set parameter wheel.radius successful',
+    ]
+    assert ros2('param', 'get', '/owner', 'speed').out == 'Double value is: 0.25\n'
+
+
+@pytest.mark.usefixtures('world')
+def test_descriptions_show_ranges(ros2: Callable[..., Any]) -> None:
+    assert ros2('param', 'describe', '/owner', 'speed', 'fixed').lines == [
+        'Parameter name: speed',
+        '  Type: double',
+        '  Description: how fast',
+        '  Constraints:',
+        '    Min value: 0.0',
+        '    Max value: 1.0',
+        'Parameter name: fixed',
+        '  Type: string',
+        '  Constraints:',
+        '    Read only: true',
+    ]
+
+
+@pytest.mark.usefixtures('world')
+def test_a_loose_parameter_can_be_deleted(ros2: Callable[..., Any]) -> None:
+    assert ros2('param', 'delete', '/owner', 'loose').out == 'Deleted parameter successfully\n'

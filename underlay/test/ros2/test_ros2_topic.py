@@ -1,0 +1,168 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The verbs of `ros2 topic` that take part in the graph."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import signal
+import time
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture(scope='module')
+def world(shared_processes: Any) -> Any:
+    shared_processes.node('talker', 'talker')
+    shared_processes.node('latched', 'latched')
+    shared_processes.node('stamped', 'stamped')
+    return shared_processes
+
+
+@pytest.mark.usefixtures('world')
+def test_echo_prints_messages_as_yaml(ros2: Callable[..., Any]) -> None:
+    answer = ros2('topic', 'echo', '/chatter', '--once')
+    first, last = answer.lines
+    assert first.startswith('data: hello ')
+    assert (last, answer.status) == ('---', 0)
+
+
+@pytest.mark.usefixtures('world')
+def test_echo_hears_what_was_said_before_it_came(ros2: Callable[..., Any]) -> None:
+    assert ros2('topic', 'echo', '--once', '/latched').lines == ['data: once', '---']
+
+
+@pytest.mark.usefixtures('world')
+def test_echo_shows_a_field_or_a_line(ros2: Callable[..., Any]) -> None:
+    field = ros2('topic', 'echo', '--once', '/stamped', '--field', 'twist.linear')
+    assert field.lines == ['x: 1.5', 'y: 0.0', 'z: 0.0', '---']
+    line = ros2('topic', 'echo', '--once', '--csv', '/stamped')
+    assert line.out.endswith(',,1.5,0.0,0.0,0.0,0.0,0.0\n')
+
+
+@pytest.mark.usefixtures('world')
+def test_echo_filters(ros2: Callable[..., Any]) -> None:
+    answer = ros2('topic', 'echo', '--once', '/chatter', '--filter', "m.data.endswith('0')")
+    assert answer.lines[0].endswith('0')
+
+
+@pytest.mark.usefixtures('world')
+def test_echo_shows_raw_bytes(ros2: Callable[..., Any]) -> None:
+    assert b'once' in eval(ros2('topic', 'echo', '--raw', '--once', '/latched').lines[0])
+
+
+@pytest.mark.usefixtures('world')
+def test_echo_ends_at_its_timeout(ros2: Callable[..., Any]) -> None:
+    answer = ros2('topic', 'echo', '/silence', 'std_msgs/msg/String', '--timeout', '0.3')
+    assert answer.status == 1
+    assert answer.err.startswith("No message on '/silence' within 0.3 s")
+
+
+@pytest.mark.parametrize(
+    ('words', 'message'),
+    [
+        (('/nothing',), 'Could not determine the type for the passed topic'),
+        (('/chater',), "did you mean '/chatter'?"),
+        (('/chatter', 'std_msgs/msg/Strin'), "has no message 'Strin'; did you mean 'String'"),
+        (('/chatter', 'nothing_msgs/msg/A'), "package 'nothing_msgs' not found"),
+        (('/chatter', 'x'), 'as std_msgs/msg/String'),
+        (('/a//b',), "'/a//b' is no valid topic name"),
+        (('/latched', '--field', 'datum'), "has no field 'datum'; there is data"),
+        (('/latched', '--filter', 'm.x ='), "Invalid expression 'm.x ='"),
+        (('/latched', '--filter', 'm.x'), "--filter 'm.x' fails"),
+    ],
+)
+@pytest.mark.usefixtures('world')
+def test_echo_refuses_in_words(
+    ros2: Callable[..., Any], words: tuple[str, ...], message: str
+) -> None:
+    answer = ros2('topic', 'echo', *words)
+    assert answer.status in (1, 2)
+    assert message in answer.err
+
+
+@pytest.mark.usefixtures('world')
+def test_hz_measures_the_rate(ros2: Callable[..., Any]) -> None:
+    answer = ros2('topic', 'hz', '/chatter', interrupt_after_sec=3.5)
+    rates = [float(line.split()[-1]) for line in answer.lines if line.startswith('average rate')]
+    assert rates, answer
+    assert rates[-1] == pytest.approx(20.0, rel=0.1)
+    assert 'window: ' in answer.out
+    assert answer.status == signal.SIGINT
+
+
+def test_bw_and_delay_measure_too(world: Any) -> None:
+    bandwidth = world.ros2('topic', 'bw', '/chatter', ready='messages')
+    delay = world.ros2('topic', 'delay', '/stamped', ready='average delay: 0.0')
+    for process in (bandwidth, delay):
+        process.send_signal(signal.SIGINT)
+        rest, _ = process.communicate(timeout=5)
+        assert 'Traceback' not in rest
+
+
+@pytest.mark.usefixtures('world')
+def test_delay_needs_a_header(ros2: Callable[..., Any]) -> None:
+    assert ros2('topic', 'delay', '/chatter').err == 'msg does not have header\n'
+
+
+def test_a_message_published_once_arrives(processes: Any, ros2: Callable[..., Any]) -> None:
+    listener = processes.node('listener', 'listener')
+    answer = ros2('topic', 'pub', '--once', '/chatter', 'std_msgs/msg/String', 'data: good day')
+    assert answer.status == 0
+    assert answer.lines[-2:] == [
+        "publishing #1: std_msgs.msg.String(data='good day')",
+        '',
+    ]
+    assert listener.stdout.readline() == 'heard good day\n'
+
+
+@pytest.mark.usefixtures('processes')
+def test_times_and_rate_are_kept(ros2: Callable[..., Any]) -> None:
+    start = time.monotonic()
+    answer = ros2('topic', 'pub', '-t', '5', '-w', '0', '-r', '10', '/x', 'std_msgs/Empty')
+    assert answer.out.count('publishing #') == 5
+    assert time.monotonic() - start > 0.4
+
+
+@pytest.mark.usefixtures('processes')
+def test_a_header_gets_the_time_when_it_asks_for_it(ros2: Callable[..., Any]) -> None:
+    words = ('/x', 'std_msgs/msg/Header', '{stamp: now, frame_id: map}')
+    out = ros2('topic', 'pub', '-t', '1', '-w', '0', *words).out
+    (sec,) = [part for part in out.split('sec=') if part[0].isdigit()][:1]
+    assert abs(int(sec.partition(',')[0]) - time.time()) < 60
+
+
+@pytest.mark.parametrize(
+    ('words', 'status', 'message'),
+    [
+        (('std_msgs/msg/String', 'data: [1'), 1, 'is no YAML'),
+        (('std_msgs/msg/String', '5'), 1, 'needs to be a dictionary in YAML format'),
+        (('std_msgs/msg/String', 'text: x'), 1, "no attribute 'text'; its fields are data"),
+        (('std_msgs/msg/Int8', 'data: 300'), 1, '300 does not fit int8 (-128 to 127)'),
+        (('std_msgs/msg/Bool', 'data: maybe'), 1, 'expected true or false'),
+        (('geometry_msgs/msg/Twist', 'linear: 3'), 1, 'expected to be a dictionary'),
+        (('std_msgs/msg/String', '-r', '0'), 2, 'must be a number above 0'),
+    ],
+)
+@pytest.mark.usefixtures('domain')
+def test_pub_refuses_in_words(
+    ros2: Callable[..., Any], words: tuple[str, ...], status: int, message: str
+) -> None:
+    answer = ros2('topic', 'pub', '/x', *words)
+    assert answer.status == status
+    assert message in answer.err
+
+
+def test_a_closed_pipe_ends_echo_without_a_word(processes: Any) -> None:
+    processes.node('talker', 'talker')
+    echo = processes.ros2('topic', 'echo', '/chatter', ready='data')
+    echo.stdout.close()
+    assert echo.wait(timeout=5) == 128 + signal.SIGPIPE
+
+
+def test_sigterm_ends_pub(processes: Any) -> None:
+    publisher = processes.ros2('topic', 'pub', '/x', 'std_msgs/msg/Empty', ready='publishing')
+    publisher.send_signal(signal.SIGTERM)
+    out, _ = publisher.communicate(timeout=5)
+    assert 'Traceback' not in out
