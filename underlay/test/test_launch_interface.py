@@ -1,0 +1,110 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The names that launch files import from Jazzy's launch and launch_ros."""
+
+import importlib
+import inspect
+from pathlib import Path
+import subprocess
+import sys
+
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, GroupAction, TimerAction
+from launch_ros.actions import LifecycleNode, Node
+import pytest
+
+NAMES = {
+    'launch': 'Action Condition Event EventHandler LaunchContext LaunchDescription '
+    'LaunchDescriptionEntity LaunchDescriptionSource LaunchIntrospector LaunchService '
+    'SomeSubstitutionsType SomeSubstitutionsType_types_tuple Substitution actions conditions '
+    'event_handlers events frontend launch_description_sources logging substitutions',
+    'launch.actions': 'AppendEnvironmentVariable DeclareLaunchArgument EmitEvent ExecuteLocal '
+    'ExecuteProcess GroupAction IncludeLaunchDescription LogInfo OpaqueCoroutine OpaqueFunction '
+    'PopEnvironment PopLaunchConfigurations PushEnvironment PushLaunchConfigurations '
+    'RegisterEventHandler ResetEnvironment ResetLaunchConfigurations SetEnvironmentVariable '
+    'SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler '
+    'UnsetEnvironmentVariable UnsetLaunchConfiguration',
+    'launch.conditions': 'IfCondition UnlessCondition LaunchConfigurationEquals '
+    'LaunchConfigurationNotEquals InvalidConditionExpressionError evaluate_condition_expression',
+    'launch.event_handlers': 'OnActionEventBase OnExecutionComplete OnProcessExit OnProcessIO '
+    'OnProcessStart OnShutdown',
+    'launch.events': 'ExecutionComplete IncludeLaunchDescription Shutdown TimerEvent '
+    'matches_action process',
+    'launch.events.process': 'ProcessExited ProcessIO ProcessStarted ProcessStderr ProcessStdin '
+    'ProcessStdout ProcessTargetedEvent RunningProcessEvent ShutdownProcess SignalProcess '
+    'matches_executable matches_name matches_pid',
+    'launch.frontend': 'Entity Parser InvalidFrontendLaunchFileError expose_action '
+    'expose_substitution',
+    'launch.launch_description_sources': 'AnyLaunchDescriptionSource '
+    'FrontendLaunchDescriptionSource PythonLaunchDescriptionSource InvalidLaunchFileError '
+    'InvalidPythonLaunchFileError InvalidFrontendLaunchFileError '
+    'get_launch_description_from_any_launch_file get_launch_description_from_frontend_launch_file '
+    'get_launch_description_from_python_launch_file load_python_launch_file_as_module',
+    'launch.substitutions': 'AllSubstitution AndSubstitution AnonName AnySubstitution Command '
+    'EnvironmentVariable EqualsSubstitution FileContent FindExecutable IfElseSubstitution '
+    'LaunchConfiguration LaunchLogDir LocalSubstitution NotEqualsSubstitution NotSubstitution '
+    'OrSubstitution PathJoinSubstitution PythonExpression SubstitutionFailure TextSubstitution '
+    'ThisLaunchFile ThisLaunchFileDir',
+    'launch.some_substitutions_type': 'SomeSubstitutionsType SomeSubstitutionsType_types_tuple',
+    'launch.utilities': 'create_future ensure_argument_type is_a is_a_subclass isclassinstance '
+    'normalize_to_list_of_entities normalize_to_list_of_substitutions perform_substitutions '
+    'visit_all_entities_and_collect_futures',
+    'launch.utilities.type_utils': 'coerce_to_type normalize_typed_substitution '
+    'perform_typed_substitution',
+    'launch.logging': 'get_logger get_output_loggers launch_config handlers reset',
+    'launch_ros': 'actions descriptions event_handlers events substitutions '
+    'get_default_launch_description',
+    'launch_ros.actions': 'ComposableNodeContainer LifecycleNode LifecycleTransition '
+    'LoadComposableNodes Node PushROSNamespace PushRosNamespace RosTimer ROSTimer SetParameter '
+    'SetParametersFromFile SetRemap SetROSLogDir SetUseSimTime',
+    'launch_ros.descriptions': 'ComposableNode Parameter ParameterFile ParameterValue',
+    'launch_ros.event_handlers': 'OnStateTransition',
+    'launch_ros.events.lifecycle': 'ChangeState StateTransition matches_node_name',
+    'launch_ros.events.matchers': 'matches_node_name',
+    'launch_ros.parameter_descriptions': 'Parameter ParameterFile ParameterValue',
+    'launch_ros.ros_adapters': 'ROSAdapter get_ros_adapter get_ros_node',
+    'launch_ros.substitutions': 'ExecutableInPackage FindPackage FindPackagePrefix '
+    'FindPackageShare Parameter',
+    'launch_ros.utilities': 'evaluate_parameters normalize_parameters normalize_remap_rules '
+    'make_namespace_absolute prefix_namespace',
+    'launch_xml.launch_description_sources': 'XMLLaunchDescriptionSource',
+    'launch_yaml.launch_description_sources': 'YAMLLaunchDescriptionSource',
+    'ros2run.api': 'get_executable_path',
+}
+
+
+@pytest.mark.parametrize('module', NAMES)
+def test_the_names_exist_where_launch_files_import_them(module: str) -> None:
+    found = importlib.import_module(module)
+    assert [name for name in NAMES[module].split() if not hasattr(found, name)] == []
+
+
+@pytest.mark.parametrize(
+    ('action', 'names'),
+    [
+        (DeclareLaunchArgument, 'name default_value description choices'),
+        (
+            ExecuteProcess.__mro__[1],
+            'process_description shell sigterm_timeout sigkill_timeout emulate_tty output '
+            'output_format cached_output log_cmd on_exit respawn respawn_delay '
+            'respawn_max_retries',
+        ),
+        (ExecuteProcess, 'cmd prefix name cwd env additional_env'),
+        (GroupAction, 'actions scoped forwarding launch_configurations'),
+        (TimerAction, 'period actions cancel_on_shutdown'),
+        (
+            Node,
+            'executable package name namespace exec_name parameters remappings ros_arguments '
+            'arguments',
+        ),
+        (LifecycleNode, 'name namespace autostart'),
+    ],
+)
+def test_the_arguments_have_upstreams_names(action: type, names: str) -> None:
+    parameters = inspect.signature(action.__init__).parameters  # type: ignore[misc]
+    assert [name for name in names.split() if name not in parameters] == []
+
+
+def test_importing_launch_brings_no_ros() -> None:
+    code = 'import sys, launch, launch_ros.actions; sys.exit("rclpy" in sys.modules)'
+    source = str(Path(__file__).resolve().parent.parent / 'src')
+    subprocess.run([sys.executable, '-c', code], check=True, env={'PYTHONPATH': source})

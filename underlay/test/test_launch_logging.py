@@ -1,0 +1,129 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Log folder, formats and destinations."""
+
+from collections.abc import Callable
+import logging
+from pathlib import Path
+import re
+from typing import Any
+
+from launch import LaunchDescription, LaunchService
+from launch.actions import ExecuteProcess, LogInfo
+from launch.logging import get_logger, get_output_loggers, handlers, launch_config, reset
+import pytest
+
+pytestmark = pytest.mark.usefixtures('launch_environment')
+
+Run = Callable[..., Any]
+
+
+def _run(*actions: Any, debug: bool = False) -> int:
+    service = LaunchService(debug=debug)
+    service.include_launch_description(LaunchDescription(actions))
+    return service.run()
+
+
+def test_the_log_folder_is_named_after_time_host_and_process_and_linked(tmp_path: Path) -> None:
+    _run(LogInfo(msg='hello'))
+    folder = Path(launch_config.log_dir)
+    assert folder.parent == tmp_path / 'ros_log'
+    assert re.fullmatch(r'\d{4}(-\d{2}){5}-\d{6}-.+-\d+', folder.name)
+    assert (tmp_path / 'ros_log' / 'latest').resolve() == folder.resolve()
+    assert 'hello' in (folder / 'launch.log').read_text()
+
+
+def test_ros_home_holds_the_logs_without_ros_log_dir(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv('ROS_LOG_DIR')
+    monkeypatch.setenv('ROS_HOME', str(tmp_path / 'home'))
+    reset()
+    assert Path(launch_config.log_dir).parent == tmp_path / 'home' / 'log'
+
+
+def test_a_log_folder_that_is_a_file_is_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'file'))
+    reset()
+    with pytest.warns(UserWarning, match='cannot write logs below'):
+        assert Path(launch_config.log_dir).is_dir()
+
+
+def test_formats_may_come_from_the_environment(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv('OVERRIDE_LAUNCH_SCREEN_FORMAT', '<{message}>')
+    monkeypatch.setenv('OVERRIDE_LAUNCH_LOG_FORMAT', '{levelname}!{message}')
+    reset()
+    _run(LogInfo(msg='hello'))
+    assert '<hello>' in capsys.readouterr().out.splitlines()
+    assert 'INFO!hello' in (Path(launch_config.log_dir) / 'launch.log').read_text().splitlines()
+
+
+def test_formats_may_be_set(capsys: pytest.CaptureFixture[str]) -> None:
+    launch_config.set_screen_format('default_with_timestamp')
+    get_logger('launch').info('one')
+    launch_config.set_screen_format('%(levelname)s %(message)s', screen_style='%')
+    get_logger('launch').info('two')
+    first, second = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r'\d+\.\d{7} \[INFO\] \[launch\]: one', first)
+    assert second == 'INFO two'
+    with pytest.raises(ValueError, match='Cannot set a custom format style'):
+        launch_config.set_screen_format('default', screen_style='{')
+
+
+def test_streams_may_go_to_different_places(capsys: pytest.CaptureFixture[str]) -> None:
+    command = ['sh', '-c', 'echo out; echo err >&2']
+    _run(ExecuteProcess(cmd=command, output={'stdout': 'screen', 'stderr': {'log', 'own_log'}}))
+    shown = capsys.readouterr().out
+    assert re.search(r'^\[sh-\d+\] out$', shown, re.M)
+    assert 'err' not in re.sub('process|cmd', '', shown).replace('\n', ' ').split()
+    folder = Path(launch_config.log_dir)
+    (own,) = folder.glob('sh-*-stderr.log')
+    assert re.fullmatch(r'\[sh-\d+\] err\n', own.read_text())
+
+
+@pytest.mark.parametrize(
+    ('output', 'message'),
+    [
+        ('scren', "output 'scren' is not a valid standard output config"),
+        ({'stdin': 'log'}, "'stdin' is not a valid output source"),
+        ({'both': {'paper'}}, 'paper is not a valid output destination'),
+    ],
+)
+def test_a_wrong_destination_is_refused(output: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        get_output_loggers('process', output)
+
+
+def test_the_environment_overrides_the_output_of_all_processes(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv('OVERRIDE_LAUNCH_PROCESS_OUTPUT', 'screen')
+    _run(ExecuteProcess(cmd=['echo', 'shown'], output='log'))
+    assert re.search(r'^\[echo-\d+\] shown$', capsys.readouterr().out, re.M)
+
+
+def test_debug_shows_the_traceback(capsys: pytest.CaptureFixture[str]) -> None:
+    assert _run(ExecuteProcess(cmd=['']), debug=True) == 1
+    output = capsys.readouterr().out
+    assert 'Traceback (most recent call last)' in output
+    assert '[DEBUG] [launch]: processing event' in output
+
+
+def test_other_handlers_of_logging_can_be_used() -> None:
+    made: list[logging.Handler] = []
+
+    def factory(path: str, encoding: str | None = None) -> logging.Handler:
+        rotating: Any = handlers.RotatingFileHandler
+        made.append(rotating(path, maxBytes=1024, backupCount=3, encoding=encoding))
+        return made[-1]
+
+    launch_config.log_handler_factory = factory
+    _run(LogInfo(msg='hello'))
+    assert len(made) == 1
+    with pytest.raises(AttributeError, match='no attribute'):
+        _ = handlers.NoSuchHandler
