@@ -6,12 +6,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 import json
 from pathlib import Path
 import sys
+import time
 
 from husky_driver.classroom import Classroom, write_csv
 from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.courses import default_course
 from husky_driver.grading import grade_file, Graded
 from husky_driver.progress import Tally
 from husky_driver.report import as_json, summary, write_report
@@ -33,7 +36,20 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('files', metavar='FILE', nargs='*', help='waypoint files to grade')
     parser.add_argument('--record', metavar='FILE', help="what the simulator's 'record' wrote")
-    parser.add_argument('--waypoints', metavar='FILE', help='the course of that record')
+    parser.add_argument('--waypoints', metavar='FILE', help='the course of a record or controller')
+    parser.add_argument(
+        '--controller', metavar='COMMAND', help='grade a node of yours: "ros2 run my_pkg my_node"'
+    )
+    parser.add_argument(
+        '--answers', metavar='A,B,..', default='', help='what is typed into a controller that asks'
+    )
+    parser.add_argument(
+        '--real-time-factor',
+        metavar='F',
+        type=float,
+        default=1.0,
+        help='how fast the time of a controller passes (1.0)',
+    )
     parser.add_argument('--robot', metavar='NAME', help='which robot of the record')
     parser.add_argument(
         '--report', metavar='DIR', default='report', help='where the reports go (%(default)s)'
@@ -52,8 +68,8 @@ def _parser() -> argparse.ArgumentParser:
 def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(args)
-    if bool(options.files) == bool(options.record):
-        parser.error('give waypoint files, or --record FILE with --waypoints FILE')
+    if sum(map(bool, (options.files, options.record, options.controller))) != 1:
+        parser.error('give waypoint files, or --record FILE, or --controller COMMAND')
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if options.jobs < 0:
@@ -61,6 +77,8 @@ def main(args: Sequence[str] | None = None) -> int:
     try:
         if options.record:
             return _grade_record(options)
+        if options.controller:
+            return _grade_controller(options)
         if len(options.files) == 1:
             return _grade_one(options)
         return _grade_many(options)
@@ -78,6 +96,28 @@ def _grade_record(options: argparse.Namespace) -> int:
     report = judge(run, course, wall_time_sec=options.wall_time)
     write_report(Path(options.report), report, run, course)
     return _show_one(Graded(options.waypoints, as_json(report), summary(report)), options)
+
+
+def _grade_controller(options: argparse.Namespace) -> int:
+    from husky_driver.live import drive_live  # rclpy and the simulator take their time
+
+    begun, folder = time.monotonic(), Path(options.report)
+    course = load_course(options.waypoints or default_course())
+    live = drive_live(
+        options.controller,
+        course,
+        folder,
+        world=options.world,
+        answers=options.answers.replace(',', '\n') + '\n',
+        real_time_factor=options.real_time_factor,
+    )
+    run = read_run(live.record)
+    report = judge(run, course, wall_time_sec=time.monotonic() - begun)
+    if not report.passed:
+        report = replace(report, reasons=(*live.notes, *report.reasons))
+    write_report(folder, report, run, course)
+    text = f'{summary(report)}\n  the run ended: {live.ending}'
+    return _show_one(Graded(options.controller, as_json(report), text), options)
 
 
 def _grade_one(options: argparse.Namespace) -> int:

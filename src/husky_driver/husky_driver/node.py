@@ -17,7 +17,7 @@ from rclpy.task import Future
 
 from husky_driver.display import DriveDisplay
 from husky_driver.drive import Drive
-from husky_driver.motion import Odometry, yaw_of
+from husky_driver.motion import Odometry, relative_odometry, yaw_of
 from husky_driver.parameters import declare_settings
 from husky_driver.progress import Progress
 
@@ -43,6 +43,7 @@ class FollowPath(Node):
         self._stopping: int | None = None  # the exit code to leave with, once it stands
         self._stop_deadline_sec = 0.0
         self._hint = ''
+        self._origin: Odometry | None = None
         self._command = Twist()
         topic = 'husky_velocity_controller/cmd_vel'
         self._commands = self.create_publisher(Twist, topic, 10)
@@ -83,13 +84,21 @@ class FollowPath(Node):
         self._pending = None
         self._last_stamp = stamp
         self._heard_sec = time.monotonic()
-        command = self._drive.step(read_odometry(msg))
+        command = self._drive.step(self._relative(read_odometry(msg)))
         if command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
         elif self._stopping is not None:
             self._finish(self._stopping)
         else:
             self._conclude()
+
+    def _relative(self, odometry: Odometry) -> Odometry:
+        """Let the frame begin where the robot starts, as that of odometry does by itself."""
+        if self.settings.odometry != 'ground_truth':
+            return odometry
+        if self._origin is None:
+            self._origin = odometry
+        return relative_odometry(odometry, self._origin)
 
     def _publish(self, speed_m_s: float, yaw_rate_rad_s: float) -> None:
         self._command.linear.x = speed_m_s

@@ -9,6 +9,7 @@ is the same as that of the two nodes in lockstep, bit for bit, in a fraction of 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import math
 from typing import Any
 
@@ -18,15 +19,18 @@ from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world import default_worlds
 
 from husky_driver.drive import Drive
-from husky_driver.motion import Odometry, yaw_of
+from husky_driver.motion import Command, Odometry, yaw_of
 from husky_driver.waypoints import Course
 from husky_sim.config import RobotStart, SimulationConfig
 
 MAX_SIM_SEC = 3600.0
 
+Pose = tuple[float, float, float]
+Controller = Callable[[Odometry], Command | None]
+
 
 def drive_course(
-    course: Course, *, world: str = '', start: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    course: Course, *, world: str = '', start: Pose = (0.0, 0.0, 0.0)
 ) -> tuple[dict[str, Any], Drive]:
     """
     Drive the course to its end; return the simulator's record and the drive.
@@ -34,6 +38,18 @@ def drive_course(
     :param world: MJCF file; empty: the playpen.
     :raises ValueError: when the world or the start cannot be used.
     """
+    drive = Drive(course)
+    return drive_with(drive.step, world=world, start=start), drive
+
+
+def drive_with(
+    controller: Controller,
+    *,
+    world: str = '',
+    start: Pose = (0.0, 0.0, 0.0),
+    limit_sec: float = MAX_SIM_SEC,
+) -> dict[str, Any]:
+    """Let a controller answer each odometry until it answers None; return the record."""
     x, y, yaw = start
     config = SimulationConfig(
         world=world or str(default_worlds() / 'playpen.xml'),
@@ -44,15 +60,15 @@ def drive_course(
     except SimulatorError as error:
         raise ValueError(str(error)) from None
     (robot,) = simulation.robots
-    record, drive = RunRecord(simulation), Drive(course)
-    while simulation.time_sec < MAX_SIM_SEC:
-        command = drive.step(_heard(simulation.time_ns, robot))
+    record = RunRecord(simulation)
+    while simulation.time_sec < limit_sec:
+        command = controller(_heard(simulation.time_ns, robot))
         if command is None:
             break
         robot.controller.command(*command, time_sec=simulation.time_sec)
         simulation.advance()
         record.append()
-    return record.as_dict(), drive
+    return record.as_dict()
 
 
 def _heard(time_ns: int, robot: SimulatedRobot) -> Odometry:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from husky_driver import score_parts, verdict
+from husky_driver import diagnosis, score_parts, verdict
 from husky_driver.alignment import align
 from husky_driver.path import Curve
 from husky_driver.route import Leg, plan_route
@@ -98,6 +98,7 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
             ('tracking', score_parts.tracking(rms)),
         ]
     )
+    guessed = diagnosis.guesses(run, curve, rms, _driven(run)) if reached < len(visits) else []
     accelerations = _accelerations(run, begin, end)
     return Report(
         course=course.name,
@@ -117,7 +118,7 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
         trajectory_sha256=run.trajectory_sha256,
         score=points,
         parts=parts,
-        reasons=verdict.reasons(run, course, visits),
+        reasons=(*verdict.reasons(run, course, visits), *guessed),
         begin=begin,
         end=end,
         along_m=tuple(along),

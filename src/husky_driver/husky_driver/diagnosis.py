@@ -1,0 +1,78 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Guess what a wrong run meant: typical mistakes leave typical traces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import math
+
+from husky_driver.alignment import align
+from husky_driver.path import Curve
+from husky_driver.run_record import RunRecord
+
+FAR_M = 0.5  # off the path by so much, it is worth guessing
+NEAR_M = 0.3
+DRIVEN_M = 2.0
+DEGREES_RAD_S = 6.3  # nobody means a whole turn a second
+ROUNDS = 2.0
+
+Turn = Callable[[float, float], tuple[float, float]]
+
+MISTAKES: tuple[tuple[str, Turn], ...] = (
+    ('mirrored: y is to the left of the Husky, not to its right', lambda x, y: (x, -y)),
+    ('with x and y swapped: x is forward, y is to the left', lambda x, y: (y, x)),
+    ('turned by 180 degrees: x is forward, not backward', lambda x, y: (-x, -y)),
+    ('turned by 90 degrees to the left: x is forward, y is to the left', lambda x, y: (y, -x)),
+    ('turned by 90 degrees to the right: x is forward, y is to the left', lambda x, y: (-y, x)),
+)
+
+
+def guesses(run: RunRecord, curve: Curve, rms_m: float, driven_m: float) -> list[str]:
+    """Return what the mistake may be; nothing when the run leaves no such trace."""
+    return [*_units(run), *_rounds(run, curve), *_frame(run, curve, rms_m, driven_m)]
+
+
+def _units(run: RunRecord) -> list[str]:
+    fastest = max(run.command_yaw_rate_rad_s, key=abs)
+    if abs(fastest) > DEGREES_RAD_S:
+        return [
+            f'it commanded angular.z = {fastest:g}: that is rad/s, not degrees; '
+            'the Husky turns 2 rad/s at most'
+        ]
+    speed = max(run.command_speed_m_s, key=abs)
+    if abs(speed) > 3.0:
+        return [f'it commanded linear.x = {speed:g}: that is m/s; the Husky drives 1 m/s at most']
+    return []
+
+
+def _rounds(run: RunRecord, curve: Curve) -> list[str]:
+    """Tell of a robot that turned round and round, as one does that takes degrees for radians."""
+    turned = sum(
+        abs(math.remainder(after - before, 2 * math.pi))
+        for before, after in zip(run.yaw, run.yaw[1:], strict=False)
+    )
+    needed = sum(
+        abs(after - before)
+        for before, after in zip(curve.heading, curve.heading[1:], strict=False)
+    )
+    extra = (turned - needed) / (2 * math.pi)
+    if extra < ROUNDS:
+        return []
+    return [
+        f'it turned {extra:.1f} rounds more than the path does: angles are in radians, and an '
+        'angle between two headings must be brought back to -pi..pi'
+    ]
+
+
+def _frame(run: RunRecord, curve: Curve, rms_m: float, driven_m: float) -> list[str]:
+    if rms_m < FAR_M or driven_m < DRIVEN_M:
+        return []
+    best, what = rms_m / 2, ''
+    for name, turn in MISTAKES:
+        places = [turn(x, y) for x, y in zip(run.x, run.y, strict=True)]
+        _, offsets = align(curve, [p[0] for p in places], [p[1] for p in places])
+        rms = math.sqrt(sum(offset * offset for offset in offsets) / len(offsets))
+        if rms < min(best, NEAR_M):
+            best, what = rms, name
+    return [f'it drove the course {what}'] if what else []
