@@ -22,7 +22,7 @@ _BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 def main(argv: Sequence[str] | None = None) -> int:
     """Run `ros2` with the given words (default: those of the process); return its exit status."""
     words = list(sys.argv[1:] if argv is None else argv)
-    parser = _build_parser(_completed_words() if '_ARGCOMPLETE' in os.environ else words)
+    parser = build_parser(_completed_words() if '_ARGCOMPLETE' in os.environ else words)
     if '_ARGCOMPLETE' in os.environ:
         import argcomplete
 
@@ -71,7 +71,8 @@ def _completed_words() -> list[str]:
     return [word for word in words[1:-1] if word]
 
 
-def _build_parser(words: Sequence[str]) -> argparse.ArgumentParser:
+def build_parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """Build the parser of a line; only what its words name is imported."""
     parser = argparse.ArgumentParser(
         prog='ros2',
         description='ros2 is an extensible command-line tool for ROS 2.',

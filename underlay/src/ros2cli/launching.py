@@ -52,12 +52,6 @@ def print_arguments(path: Path) -> int:
     for argument in declared:
         print(f"\n    '{argument.name}':")
         lines = argument.description.splitlines() or ['no description given']
-        choices = getattr(argument, 'choices', None)
-        if choices:
-            lines[0] = (
-                f'{lines[0]}{" " if lines[0].endswith(".") else ". "}'
-                f'Valid choices are: {list(choices)}'
-            )
         for line in lines:
             print(f'        {line}')
         if argument.default_value is not None:

@@ -107,6 +107,7 @@ def set_domain(monkeypatch: pytest.MonkeyPatch) -> int:
 @pytest.fixture
 def domain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> int:
     monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
+    monkeypatch.chdir(tmp_path)  # away from the workspace of the project
     return set_domain(monkeypatch)
 
 

@@ -67,15 +67,19 @@ def check_range(settings: Settings) -> Iterator[Finding]:
         observer.observe(timeout_sec=_LISTEN_SEC, settle_sec=_LISTEN_SEC)
         others = elsewhere(observer.participants.values(), own_addresses())
     if others:
-        yield Finding(
-            'ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
-            f'{len(others)} ROS process{"" if len(others) == 1 else "es"} of domain '
-            f'{settings.domain_id} on other machines ({", ".join(sorted(set(others)))}) cannot be '
-            'reached from here',
-            '`export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET` in every terminal, on both sides, if '
-            'they belong to you',
-            serious=False,
-        )
+        yield range_finding(settings, others)
+
+
+def range_finding(settings: Settings, others: list[str]) -> Finding:
+    return Finding(
+        'ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+        f'{len(others)} ROS process{"" if len(others) == 1 else "es"} of domain '
+        f'{settings.domain_id} on other machines ({", ".join(sorted(set(others)))}) cannot be '
+        'reached from here',
+        '`export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET` in every terminal, on both sides, if they '
+        'belong to you',
+        serious=False,
+    )
 
 
 def elsewhere(participants: Iterable[Participant], own: set[str]) -> list[str]:

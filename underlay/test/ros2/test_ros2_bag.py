@@ -1,0 +1,122 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""`ros2 bag`: what is recorded is what is played, and other readers of MCAP read it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import importlib
+from pathlib import Path
+import signal
+import time
+from typing import Any
+
+from mcap.reader import make_reader
+import pytest
+import yaml
+
+
+def _record(processes: Any, folder: Path, *words: str, until: str) -> str:
+    recorder = processes.ros2('bag', 'record', '-o', str(folder), *words, ready=until)
+    time.sleep(1.0)  # The length of the recording.
+    recorder.send_signal(signal.SIGINT)
+    rest, _ = recorder.communicate(timeout=10)
+    assert 'Traceback' not in rest
+    return str(rest)
+
+
+@pytest.fixture
+def bag(processes: Any, tmp_path: Path) -> Path:
+    talker = processes.node('talker', 'talker')
+    processes.node('latched', 'latched')
+    rest = _record(processes, tmp_path / 'run', '--all', until='Recording...')
+    assert 'Recording stopped: ' in rest
+    talker.terminate()
+    talker.wait()
+    return tmp_path / 'run'
+
+
+def test_a_bag_is_recorded_described_and_played(
+    bag: Path, processes: Any, ros2: Callable[..., Any]
+) -> None:
+    info = ros2('bag', 'info', str(bag)).out
+    assert 'Storage id:        mcap' in info
+    assert 'Topic: /chatter | Type: std_msgs/msg/String | Count: ' in info
+    assert 'Topic: /latched | Type: std_msgs/msg/String | Count: 1 | ' in info
+
+    metadata = yaml.safe_load((bag / 'metadata.yaml').read_text())
+    content = metadata['rosbag2_bagfile_information']
+    assert content['version'] == 9
+    assert content['relative_file_paths'] == ['run_0.mcap']
+    counts = {
+        topic['topic_metadata']['name']: topic['message_count']
+        for topic in content['topics_with_message_count']
+    }
+    assert counts['/chatter'] > 5
+
+    decoder = importlib.import_module('mcap_ros2.decoder').DecoderFactory()
+    with (bag / 'run_0.mcap').open('rb') as stream:
+        reader = make_reader(stream, decoder_factories=[decoder])
+        decoded = list(reader.iter_decoded_messages(topics=['/chatter']))
+    texts = [message[3].data for message in decoded]
+    assert len(texts) == counts['/chatter']
+    first = int(texts[0].split()[1])
+    assert texts == [f'hello {first + i}' for i in range(len(texts))]
+
+    listener = processes.node('listener', 'listener')
+    played = ros2('bag', 'play', str(bag), '--topics', '/chatter', '--rate', '4')
+    assert played.status == 0
+    heard = [listener.stdout.readline().strip() for _ in texts]
+    assert heard == [f'heard {text}' for text in texts]
+
+
+def test_only_chosen_topics_are_recorded(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    processes.node('talker', 'talker')
+    _record(processes, tmp_path / 'run', '/chatter', until="Subscribed to topic '/chatter'")
+    assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
+
+
+def test_a_topic_that_comes_later_is_recorded(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    recorder = processes.ros2(
+        'bag', 'record', '-o', str(tmp_path / 'run'), '-e', 'chat', ready='Recording'
+    )
+    processes.node('talker', 'talker')
+    for line in recorder.stdout:
+        if "Subscribed to topic '/chatter'" in line:
+            break
+    recorder.terminate()
+    recorder.wait(timeout=10)
+    assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
+
+
+@pytest.mark.parametrize(
+    ('words', 'status', 'message'),
+    [
+        (('record',), 2, 'Need to specify one option'),
+        (('record', '-e', '('), 2, 'is no regular expression'),
+        (('record', '-a', '-o', '.'), 1, 'already exists'),
+        (('info', 'nothing'), 1, "Bag path 'nothing' does not exist!"),
+        (('info', 'broken.mcap'), 1, 'cannot be read as MCAP'),
+        (('info', '.'), 1, 'holds no MCAP file'),
+        (('play', 'broken.mcap'), 1, 'cannot be read as MCAP'),
+        (('play', 'x', '-r', '-1'), 2, 'must be a number above 0'),
+    ],
+)
+def test_a_bad_call_is_refused(
+    domain: int,
+    ros2: Callable[..., Any],
+    tmp_path: Path,
+    words: tuple[str, ...],
+    status: int,
+    message: str,
+) -> None:
+    del domain
+    if 'broken.mcap' in words:
+        (tmp_path / 'broken.mcap').write_bytes(b'no bag at all')
+    answer = ros2('bag', *words, folder=tmp_path)
+    assert answer.status == status
+    assert message in answer.err

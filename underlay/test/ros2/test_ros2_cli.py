@@ -1,0 +1,132 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The command line itself: help, choices, completion, speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+from typing import Any
+
+import pytest
+
+COMMANDS = {
+    'action': {'info', 'list', 'send_goal', 'type'},
+    'bag': {'info', 'play', 'record'},
+    'daemon': {'start', 'status', 'stop'},
+    'interface': {'list', 'package', 'packages', 'proto', 'show'},
+    'node': {'info', 'list'},
+    'param': {'delete', 'describe', 'dump', 'get', 'list', 'load', 'set'},
+    'pkg': {'create', 'executables', 'list', 'prefix', 'xml'},
+    'service': {'call', 'echo', 'find', 'info', 'list', 'type'},
+    'topic': {'bw', 'delay', 'echo', 'find', 'hz', 'info', 'list', 'pub', 'type'},
+}
+SINGLE = {'doctor', 'launch', 'run'}
+
+
+def test_every_command_is_in_the_help(ros2: Callable[..., Any]) -> None:
+    answer = ros2('--help')
+    assert answer.status == 0
+    listed = answer.out.partition('Commands:')[2].split('\n\n')[0].split('\n')
+    names = {line.split()[0] for line in listed if line.strip()}
+    assert names == COMMANDS.keys() | SINGLE
+
+
+@pytest.mark.parametrize('command', sorted(COMMANDS))
+def test_every_verb_is_in_the_help_of_its_command(ros2: Callable[..., Any], command: str) -> None:
+    answer = ros2(command)
+    assert answer.status == 0
+    listed = answer.out.partition('Commands:')[2].split('\n\n')[0].split('\n')
+    assert {line.split()[0] for line in listed if line.strip()} == COMMANDS[command]
+
+
+def test_every_verb_has_help_and_completion_words() -> None:
+    from ros2cli import cli, verbs
+
+    for command, names in [*COMMANDS.items(), *((name, {''}) for name in SINGLE)]:
+        for name in names:
+            parser = cli.build_parser([word for word in (command, name) if word])
+            assert parser.format_help()
+            package = f'ros2cli.command.{command}' if name else 'ros2cli.command'
+            assert verbs.first_line(package, name or command).endswith('.')
+
+
+def test_the_help_does_not_import_rclpy_and_is_quick(ros2: Callable[..., Any]) -> None:
+    code = 'import sys; from ros2cli.cli import main\ntry: main(["--help"])\nexcept SystemExit: '
+    code += 'print(sorted(m for m in sys.modules if m in ("rclpy", "yaml", "numpy")))'
+    done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == '[]'
+    times = []
+    for _ in range(5):
+        start = time.perf_counter()
+        ros2('--help')
+        times.append(time.perf_counter() - start)
+    assert min(times) < 0.25
+
+
+@pytest.mark.parametrize(
+    ('words', 'message'),
+    [
+        (('topc',), "'topc' is no command of ros2; did you mean 'topic'?"),
+        (('topic', 'lst'), "'lst' is no verb of ros2 topic; did you mean 'list'?"),
+        (('topic', 'list', '--nonsense'), 'unrecognized arguments: --nonsense'),
+        (('topic', 'echo'), 'the following arguments are required: topic_name'),
+    ],
+)
+def test_a_wrong_word_is_refused_with_what_was_meant(
+    ros2: Callable[..., Any], words: tuple[str, ...], message: str
+) -> None:
+    answer = ros2(*words)
+    assert answer.status == 2
+    assert message in answer.err
+
+
+def test_the_daemon_is_said_not_to_exist(ros2: Callable[..., Any]) -> None:
+    for verb in COMMANDS['daemon']:
+        answer = ros2('daemon', verb)
+        assert answer.status == 0
+        assert answer.out.startswith('There is no daemon here, and none is needed')
+
+
+def _complete(line: str, folder: Path) -> set[str]:
+    """Ask argcomplete as bash does: by environment variables and file descriptor 8."""
+    out = folder / 'completions'
+    command = f'exec "{sys.executable}" -m ros2cli 8>"{out}" 9>/dev/null'
+    environment = {
+        **os.environ,
+        '_ARGCOMPLETE': '1',
+        'COMP_LINE': line,
+        'COMP_POINT': str(len(line)),
+        '_ARGCOMPLETE_COMP_WORDBREAKS': ' \t\n',
+        'IFS': '\013',
+    }
+    subprocess.run(['bash', '-c', command], env=environment, check=True, timeout=20)
+    return {word.strip() for word in out.read_text().split('\013')}
+
+
+def test_tab_completes_commands_verbs_and_names(processes: Any, tmp_path: Path) -> None:
+    processes.node('talker', 'talker')
+    assert _complete('ros2 to', tmp_path) == {'topic'}
+    assert _complete('ros2 topic ec', tmp_path) == {'echo'}
+    assert _complete('ros2 topic echo /chat', tmp_path) == {'/chatter'}
+    assert _complete('ros2 node info /t', tmp_path) == {'/talker'}
+    assert _complete('ros2 pkg prefix rclp', tmp_path) == {'rclpy'}
+    assert 'std_msgs/msg/String' in _complete('ros2 topic pub /x std_msgs/msg/S', tmp_path)
+    assert '--once' in _complete('ros2 topic echo --on', tmp_path)
+
+
+def test_a_reader_that_has_seen_enough_ends_the_command_quietly() -> None:
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'ros2cli', 'interface', 'list'],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert process.stdout is not None
+    assert process.stderr is not None
+    process.stdout.close()
+    _, err = process.communicate()
+    assert (process.returncode, err) == (128 + signal.SIGPIPE, '')

@@ -1,0 +1,218 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Each fault about which ROS is silent is brought about here, and the line about it is read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+
+def _line(answer: Any, check: str) -> str:
+    """Return the one line of a check."""
+    found = [line for line in answer.lines if f' ({check}): ' in line]
+    assert len(found) == 1, answer
+    return str(found[0])
+
+
+def test_nothing_is_wrong_with_two_nodes_that_talk(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    processes.node('talker', 'talker')
+    processes.node('listener', 'listener')
+    answer = ros2('doctor', folder=tmp_path)
+    assert not [line for line in answer.lines if line.startswith('problem')], answer
+    assert answer.status == 0
+    assert 'All 10 checks passed' in answer.lines
+
+
+def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('stamped_driver', 'driver')
+    processes.node('robot', 'husky')
+    answer = ros2('doctor')
+    assert answer.status == 1
+    line = _line(answer, 'types')
+    assert '/driver publishes geometry_msgs/msg/TwistStamped' in line
+    assert '/husky subscribes to geometry_msgs/msg/Twist, so that nothing arrives' in line
+    assert 'use one type in both' in line
+    assert 'Failed modules: types' in answer.err
+
+
+def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('best_effort', 'sensor')
+    processes.node('listener', 'listener')
+    line = _line(ros2('doctor'), 'qos')
+    assert '/sensor offers BEST_EFFORT, but /listener requests RELIABLE' in line
+    assert 'reliability=ReliabilityPolicy.BEST_EFFORT' in line
+
+
+def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('plain', 'waits', '--ros-args', '-p', 'use_sim_time:=true')
+    line = _line(ros2('wtf'), 'clock')
+    assert '/waits: use_sim_time is true, but nobody publishes /clock' in line
+    assert '`ros2 param set /waits use_sim_time false`' in line
+
+
+def test_two_nodes_of_one_name(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('plain', 'twin')
+    processes.node('plain', 'twin')
+    line = _line(ros2('doctor'), 'names')
+    assert '/twin: 2 nodes have this name' in line
+    assert '-r __node:=twin_2' in line
+    assert 'share an exact name' in ros2('node', 'list').err
+
+
+def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('robot', 'husky')
+    processes.node('slow_driver', 'driver')
+    line = _line(ros2('doctor'), 'commands')
+    assert '/cmd_vel: commands come up to 0.5' in line
+    assert '/husky stops the robot 0.25 s after the last one' in line
+    assert 'publish at least 6 times a second' in line
+
+
+def test_nodes_in_another_domain(
+    processes: Any, ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    processes.node('plain', 'elsewhere')
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain + 30))
+    line = _line(ros2('doctor'), 'domain')
+    assert 'export ROS_DOMAIN_ID=' in line
+    assert str(domain) in line.partition('in domain ')[2].partition(' on this')[0].split(', ')
+    hint = ros2('node', 'list')
+    assert hint.out == ''
+    assert hint.err.startswith('hint: domain ')
+
+
+def test_a_workspace_that_is_not_built_not_sourced_or_out_of_date(
+    ros2: Callable[..., Any], tmp_path: Path, domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = tmp_path / 'src'
+    source.mkdir()
+    ros2(
+        'pkg', 'create', 'mine', '--build-type', 'ament_python', '--node-name', 'hello',
+        '--license', 'MIT', folder=source,
+    )  # fmt: skip
+    line = _line(ros2('doctor', folder=tmp_path), 'workspace')
+    assert f'mine: not built yet in {tmp_path}' in line
+    assert f'run `colcon build` in {tmp_path}' in line
+
+    colcon = shutil.which('colcon')
+    assert colcon
+    subprocess.run([colcon, 'build'], cwd=tmp_path, check=True, capture_output=True)
+    line = _line(ros2('doctor', folder=source), 'workspace')
+    assert f'mine: built in {tmp_path}, but not sourced in this terminal' in line
+    assert f'`source {tmp_path}/install/setup.bash`' in line
+
+    prefixes = [str(tmp_path / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
+    monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
+    (modules,) = tmp_path.glob('install/mine/lib/python3*/site-packages')
+    monkeypatch.setenv('PYTHONPATH', f'{os.environ["PYTHONPATH"]}{os.pathsep}{modules}')
+    assert not [x for x in ros2('doctor', folder=tmp_path).lines if '(workspace)' in x]
+
+    (source / 'mine' / 'mine' / 'hello.py').write_text('def main():\n    print("changed")\n')
+    line = _line(ros2('doctor', folder=tmp_path), 'workspace')
+    assert 'hello.py has changed since the package was built, so that the old one runs' in line
+    assert f'run `colcon build --packages-select mine` in {tmp_path}' in line
+    ran = ros2('run', 'mine', 'hello')
+    assert ran.err.startswith('hint: mine: ')
+    assert ran.out == 'Hi from mine.\n'
+    assert domain
+
+
+def test_nodes_on_another_machine() -> None:
+    from ros2cli.diagnosis import places
+    from ros2cli.discovery import Settings
+    from ros2cli.rtps.observer import Participant
+
+    near = Participant(b'a' * 12, '127.0.0.1', 7410, 7411)
+    far = Participant(b'b' * 12, '192.0.2.77', 7410, 7411)
+    assert places.elsewhere([near, far], places.own_addresses()) == ['192.0.2.77']
+    finding = places.range_finding(Settings(0, 'LOCALHOST', ()), ['192.0.2.77'])
+    assert '1 ROS process of domain 0 on other machines (192.0.2.77) cannot be reached' in str(
+        finding
+    )
+    assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET' in str(finding)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason='a second network needs root')
+def test_a_peer_behind_a_network_interface_is_found(domain: int, ros2: Callable[..., Any]) -> None:
+    ip = shutil.which('ip')
+    if ip is None:
+        pytest.skip('there is no `ip`')
+    name = f'ros2test{os.getpid() % 1000}'
+    commands = (
+        f'netns add {name}',
+        f'link add {name}a type veth peer name {name}b netns {name}',
+        f'addr add 198.18.7.1/24 dev {name}a',
+        f'link set {name}a up multicast on',
+        f'route add 239.255.0.1/32 dev {name}a',
+        f'-n {name} addr add 198.18.7.2/24 dev {name}b',
+        f'-n {name} link set {name}b up multicast on',
+        f'-n {name} link set lo up',
+        f'-n {name} route add default dev {name}b',
+    )
+    environment = {**os.environ, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'}
+    node = None
+    try:
+        for command in commands:
+            done = subprocess.run([ip, *command.split()], capture_output=True, text=True)
+            if done.returncode:
+                pytest.skip(f'ip {command}: {done.stderr.strip()}')
+        path = str(Path(__file__).with_name('nodes.py'))
+        node = subprocess.Popen(
+            [ip, 'netns', 'exec', name, sys.executable, path, 'plain', 'far'],
+            stdout=subprocess.PIPE, text=True, env=environment,
+        )  # fmt: skip
+        assert node.stdout is not None
+        assert node.stdout.readline() == 'ready\n'
+        line = _line(ros2('doctor'), 'range')
+        assert f'1 ROS process of domain {domain} on other machines (198.18.7.2)' in line
+        assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET' in line
+    finally:
+        if node is not None:
+            node.terminate()
+            node.communicate()
+        subprocess.run([ip, 'link', 'del', f'{name}a'], capture_output=True)
+        subprocess.run([ip, 'netns', 'del', name], capture_output=True)
+
+
+def test_echo_says_why_nothing_comes(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('best_effort', 'sensor')
+    words = ('topic', 'echo', '/chatter', '--qos-reliability', 'reliable')
+    answer = ros2(*words, interrupt_after_sec=4)
+    assert 'hint: /chatter: /sensor offers BEST_EFFORT' in answer.err
+    nobody = ros2('topic', 'echo', '/quiet', 'std_msgs/msg/String', interrupt_after_sec=4)
+    assert 'hint: /quiet: nobody publishes it' in nobody.err
+
+
+def test_pub_says_why_nobody_hears(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('robot', 'husky')
+    words = ('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
+    answer = ros2('topic', 'pub', '-t', '1', '-w', '1', '--max-wait-time-secs', '0.5', *words)
+    assert '/husky subscribes to geometry_msgs/msg/Twist' in answer.err
+    assert 'Timed out waiting for subscribers' in answer.out
+
+
+def test_a_missing_profile_and_an_empty_prefix_are_named(
+    domain: int, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('AMENT_PREFIX_PATH', '')
+    line = _line(ros2('doctor'), 'environment')
+    assert 'AMENT_PREFIX_PATH: is empty' in line
+    assert domain
+
+
+def test_the_report_names_the_essentials(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('talker', 'talker')
+    answer = ros2('doctor', '--report')
+    assert answer.status == 0
+    for text in ('distribution name: jazzy', '/talker', '/chatter: std_msgs/msg/String'):
+        assert text in answer.out
