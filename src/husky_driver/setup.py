@@ -41,6 +41,7 @@ setup(
             'follow_path = husky_driver.follow_path:main',
             'check = husky_driver.check:main',
             'grade = husky_driver.grade:main',
+            'teleop = husky_driver.teleop:main',
         ],
     },
 )

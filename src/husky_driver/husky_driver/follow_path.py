@@ -10,24 +10,15 @@ import sys
 from types import FrameType
 
 import rclpy
-from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from husky_driver.command_line import BAD_INPUT, Parser
 from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.executor import make_executor
 from husky_driver.node import FollowPath, INTERRUPTED, TERMINATED
 from husky_driver.prompt import ask_move
 from husky_driver.waypoints import Course, load_course
-
-
-def make_executor(context: rclpy.Context | None = None) -> Executor:
-    """Return the executor with the least overhead that this rclpy has."""
-    try:
-        from rclpy.experimental import EventsExecutor
-    except ImportError:  # the first Jazzy releases
-        return SingleThreadedExecutor(context=context)
-    return EventsExecutor(context=context)
 
 
 def main(args: Sequence[str] | None = None) -> int:
@@ -59,7 +50,7 @@ def _run(node: FollowPath, waypoints: str) -> int:
     try:
         drive = _checked(node, load_course(waypoints)) if waypoints else _ask()
     except EOFError:
-        print()
+        print(flush=True)
         return _refuse('nobody answers; give a file: --waypoints FILE')
     except ValueError as error:
         print(error, file=sys.stderr)

@@ -26,7 +26,7 @@ from typing import Any, IO
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 
-from husky_driver.follow_path import make_executor
+from husky_driver.executor import make_executor
 from husky_driver.referee import Referee, START_WITHIN_SEC
 from husky_driver.run_record import load_record
 from husky_driver.watcher import Watcher

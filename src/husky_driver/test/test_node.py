@@ -16,7 +16,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_driver.follow_path import make_executor
+from husky_driver.executor import make_executor
 from husky_driver.motion import Command
 from nav_msgs.msg import Odometry
 import pytest

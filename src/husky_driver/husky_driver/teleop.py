@@ -1,0 +1,138 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Drive the Husky by the keys of a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+import os
+import select
+import signal
+import sys
+import termios
+import time
+import tty
+from typing import Any
+
+from geometry_msgs.msg import Twist
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.utilities import remove_ros_args
+
+from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.executor import make_executor
+from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, split_keys
+from husky_driver.motion import Command, STOP
+
+PERIOD_SEC = 0.05
+ENDINGS = ('\x03', '\x1b', '')  # Ctrl-C, Esc, and a terminal that is gone
+
+
+class Teleop(Node):
+    """Publishes what the keys say, and zero when they say nothing; `finished` when it is over."""
+
+    def __init__(self, terminal: int, **arguments: Any) -> None:
+        super().__init__('teleop', **arguments)
+        speed = _declare(self, 'speed', 0.5, MAX_SPEED_M_S)
+        turn = _declare(self, 'turn', 1.0, MAX_TURN_RAD_S)
+        self.finished: Future[None] = Future()
+        self.keyboard = Keyboard(speed_m_s=speed, turn_rad_s=turn)
+        self._terminal = terminal
+        self._last = STOP
+        self._commands = self.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(PERIOD_SEC, self._on_tick, clock=steady)
+
+    def _on_tick(self) -> None:
+        now = time.monotonic()
+        while not self.finished.done() and select.select([self._terminal], [], [], 0.0)[0]:
+            self._read(now)
+        command = STOP if self.finished.done() else self.keyboard.command(now)
+        if command != STOP or self._last != STOP:
+            self._publish(command)
+
+    def _read(self, now: float) -> None:
+        try:
+            text = os.read(self._terminal, 1024).decode(errors='replace')
+        except OSError:  # the terminal went away
+            text = ''
+        for key in split_keys(text) or ['']:
+            if key in ENDINGS:
+                self.end()
+                return
+            self.keyboard.press(key, now)
+        self._show()
+
+    def _show(self) -> None:
+        speed, turn = self.keyboard.speed_m_s, self.keyboard.turn_rad_s
+        sys.stdout.write(f'\r{speed:.2f} m/s  {turn:.2f} rad/s   ')
+        sys.stdout.flush()
+
+    def _publish(self, command: Command) -> None:
+        self._last = command
+        message = Twist()
+        message.linear.x, message.angular.z = command
+        self._commands.publish(message)
+
+    def end(self) -> None:
+        """Stop the robot and finish."""
+        if not self.finished.done():
+            self._publish(STOP)
+            self.finished.set_result(None)
+
+
+def _declare(node: Node, name: str, default: float, most: float) -> float:
+    value = node.declare_parameter(name, default).value
+    if not 0.0 < value <= most:
+        raise ValueError(f'parameter {name}: {value} is out of range; allowed is up to {most:g}')
+    return float(value)
+
+
+@contextmanager
+def raw_terminal(terminal: int) -> Iterator[None]:
+    """Let every key through at once; put the terminal back afterwards."""
+    before = termios.tcgetattr(terminal)
+    try:
+        tty.setcbreak(terminal)
+        yield
+    finally:
+        with suppress(termios.error):  # the terminal may be gone
+            termios.tcsetattr(terminal, termios.TCSADRAIN, before)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    argv = list(sys.argv if args is None else args)
+    parser = Parser(prog='teleop', description=f'{__doc__}', epilog=HELP, allow_abbrev=False)
+    parser.parse_args(remove_ros_args(argv)[1:])
+    if not sys.stdin.isatty():
+        print('teleop: needs a terminal to read keys from; run it in one', file=sys.stderr)
+        return BAD_INPUT
+    try:
+        rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
+        node = Teleop(sys.stdin.fileno())
+    except Exception as error:  # rcl raises many types for what a person can mistype
+        print(f'teleop: {" ".join(str(error).split())}', file=sys.stderr)
+        rclpy.try_shutdown()
+        return BAD_INPUT
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda *_: node.end())
+    print(HELP)
+    executor = make_executor()
+    executor.add_node(node)
+    try:
+        with raw_terminal(sys.stdin.fileno()):
+            while not node.finished.done():
+                executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
+    finally:
+        executor.remove_node(node)
+        node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,150 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from collections.abc import Callable
+import os
+import pty
+import subprocess
+import sys
+import threading
+import time
+from typing import Any
+
+from geometry_msgs.msg import Twist
+from husky_driver.executor import make_executor
+from husky_driver.keys import Keyboard, MOVES, split_keys
+from husky_driver.motion import Command, STOP
+import pytest
+import rclpy
+
+# The lark of the rclpy wheels imports modules that Python is about to drop.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+DOMAIN = 84
+
+
+@pytest.mark.parametrize(
+    ('key', 'command'),
+    [
+        ('i', (0.5, 0.0)),
+        (',', (-0.5, 0.0)),
+        ('j', (0.0, 1.0)),
+        ('l', (0.0, -1.0)),
+        ('u', (0.5, 1.0)),
+        ('m', (-0.5, -1.0)),
+        ('\x1b[A', (0.5, 0.0)),
+        ('k', (0.0, 0.0)),
+        ('?', (0.0, 0.0)),
+    ],
+)
+def test_a_key_means_what_it_means_in_teleop_twist_keyboard(
+    key: str, command: tuple[float, float]
+) -> None:
+    keyboard = Keyboard()
+    keyboard.press(key, 10.0)
+    assert keyboard.command(10.1) == command
+
+
+def test_a_released_key_stops_the_robot() -> None:
+    keyboard = Keyboard()
+    keyboard.press('i', 0.0)
+    assert keyboard.command(0.5) == Command(0.5, 0.0)
+    assert keyboard.command(0.61) == STOP
+
+
+def test_a_held_key_that_is_released_stops_the_robot_sooner() -> None:
+    keyboard = Keyboard()
+    for now in (0.0, 0.5, 0.53, 0.56):
+        keyboard.press('i', now)
+    assert keyboard.command(0.7) == Command(0.5, 0.0)
+    assert keyboard.command(0.77) == STOP
+
+
+def test_speeds_change_by_a_tenth_and_keep_the_limits() -> None:
+    keyboard = Keyboard()
+    keyboard.press('w', 0.0)
+    assert (keyboard.speed_m_s, keyboard.turn_rad_s) == pytest.approx((0.55, 1.0))
+    keyboard.press('c', 0.0)
+    assert keyboard.turn_rad_s == pytest.approx(1 / 1.1)
+    for _ in range(50):
+        keyboard.press('q', 0.0)
+    assert (keyboard.speed_m_s, keyboard.turn_rad_s) == (1.0, 2.0)
+
+
+def test_an_arrow_is_one_key() -> None:
+    assert split_keys('i\x1b[Aj') == ['i', '\x1b[A', 'j']
+    assert all(split_keys(key) == [key] for key in MOVES)
+
+
+@pytest.fixture
+def heard(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Collect the commands on the graph."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(DOMAIN))
+    monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=DOMAIN)
+    node = rclpy.create_node('robot', context=context)
+    commands: list[Command] = []
+    topic = 'husky_velocity_controller/cmd_vel'
+    node.create_subscription(
+        Twist, topic, lambda m: commands.append(Command(m.linear.x, m.angular.z)), 10
+    )
+    executor = make_executor(context)
+    executor.add_node(node)
+    done = threading.Event()
+
+    def spin() -> None:
+        while not done.is_set():
+            executor.spin_once(timeout_sec=0.1)
+
+    thread = threading.Thread(target=spin)
+    thread.start()
+    yield commands
+    done.set()
+    thread.join(timeout=5.0)
+    executor.remove_node(node)
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> None:
+    deadline = time.monotonic() + timeout_sec
+    while not fact():
+        assert time.monotonic() < deadline, f'after {timeout_sec} s still no {what}'
+        time.sleep(0.01)
+
+
+def test_a_key_at_a_terminal_drives_and_a_closed_terminal_stops(heard: list[Command]) -> None:
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'husky_driver.teleop'],
+        stdin=theirs,
+        stdout=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    os.close(theirs)
+    try:
+
+        def driving() -> bool:
+            os.write(ours, b'i')
+            return Command(0.5, 0.0) in heard
+
+        wait_until(driving, timeout_sec=20.0, what='command of 0.5 m/s')
+        os.close(ours)
+        assert process.wait(timeout=10.0) == 0
+        wait_until(lambda: heard[-1] == STOP, timeout_sec=5.0, what='stop')
+    finally:
+        process.kill()
+        process.wait()
+
+
+def test_without_a_terminal_it_says_so_in_one_line() -> None:
+    process = subprocess.run(
+        [sys.executable, '-m', 'husky_driver.teleop'],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=20.0,
+        env=dict(os.environ, PYTHONPATH=':'.join(sys.path)),
+    )
+    assert process.returncode == 2
+    assert process.stderr == 'teleop: needs a terminal to read keys from; run it in one\n'
