@@ -1,0 +1,99 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The RTPS messages that the graph is read with."""
+
+from __future__ import annotations
+
+import contextlib
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import pytest
+from ros2cli import graph, names
+from ros2cli.rtps import host, wire
+
+PREFIX = bytes(range(12))
+READER, WRITER = wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER
+
+
+def _parse(body: bytes) -> list[wire.Submessage]:
+    return list(wire.parse(wire.header(PREFIX) + body, own_prefix=PREFIX))
+
+
+def test_data_is_read_as_it_was_written() -> None:
+    payload = wire.PL_CDR_LE + wire.parameter(5, wire.string('rt/chatter')) + wire.sentinel()
+    (message,) = _parse(wire.data(READER, WRITER, 2**33 + 5, payload))
+    assert message.first == 2**33 + 5
+    assert (message.source, message.writer_id) == (PREFIX, WRITER)
+    assert wire.parameters(message.payload)[5] == [wire.string('rt/chatter') + b'\0']
+
+
+def test_a_heartbeat_tells_the_range() -> None:
+    (message,) = _parse(wire.heartbeat(READER, WRITER, 3, 12, 1))
+    assert (message.kind, message.first, message.last) == (wire.HEARTBEAT, 3, 12)
+
+
+def test_a_farewell_is_seen_as_one() -> None:
+    key = PREFIX + wire.PARTICIPANT
+    (message,) = _parse(wire.dispose(wire.SPDP_READER, wire.SPDP_WRITER, 2, key))
+    assert message.disposed
+
+
+@pytest.mark.parametrize(('missing', 'bits'), [({4}, '80000000'), ({4, 6, 35}, 'a0000001')])
+def test_an_acknowledgement_asks_by_bits_from_the_left(missing: set[int], bits: str) -> None:
+    body = wire.acknack(READER, WRITER, base=4, missing=missing, count=1)
+    # Behind kind, flags, length, ids, base and number of bits stands the bitmap, little endian.
+    word = body[4 + 8 + 8 + 4 :][:4]
+    assert word[::-1].hex() == bits
+
+
+def test_what_is_meant_for_others_is_left_out() -> None:
+    other = bytes(reversed(PREFIX))
+    heartbeat = wire.heartbeat(READER, WRITER, 1, 1, 1)
+    assert _parse(wire.info_destination(other) + heartbeat) == []
+    assert len(_parse(wire.info_destination(PREFIX) + heartbeat)) == 1
+
+
+@settings(max_examples=500, deadline=None)
+@given(st.binary(max_size=80), st.sampled_from([6, 7, 8, 9, 12, 14, 21, 22]), st.integers(0, 255))
+def test_no_bytes_from_the_network_break_the_parser(body: bytes, kind: int, flags: int) -> None:
+    for datagram in (body, bytes((kind, flags)) + body):
+        for message in _parse(datagram):
+            assert len(message.source) <= 12
+            with contextlib.suppress(ValueError):  # It says that this is no parameter list.
+                wire.parameters(message.payload)
+
+
+def test_ports_and_participants_are_those_of_the_standard() -> None:
+    assert host.multicast_port(5) == 7400 + 5 * 250
+    assert list(host.discovery_ports(0)[:3]) == [7410, 7412, 7414]
+
+
+@pytest.mark.parametrize(
+    ('dds', 'ros'),
+    [
+        ('std_msgs::msg::dds_::String_', 'std_msgs/msg/String'),
+        ('a::action::dds_::B_FeedbackMessage_', 'a/action/B_FeedbackMessage'),
+        ('MyOwnType', 'MyOwnType'),
+    ],
+)
+def test_types_are_told_in_the_spelling_of_ros(dds: str, ros: str) -> None:
+    assert names.ros_type(dds) == ros
+
+
+def test_topics_services_and_others_are_told_apart() -> None:
+    assert names.ros_topic('rt/a/b') == ('rt', '/a/b')
+    assert names.ros_topic('rq/flipRequest') == ('rq', '/flip')
+    assert names.ros_topic('rr/flipReply') == ('rr', '/flip')
+    assert names.ros_topic('square') == ('', 'square')
+    assert names.service_type('s::srv::dds_::Flip_Request_') == 's/srv/Flip'
+
+
+def test_an_action_is_known_by_its_feedback() -> None:
+    qos = graph.Qos(True, False, None, None, False, None)
+    feedback = graph.Endpoint(
+        b'1', graph.Role.PUBLISHER, '/f/_action/feedback', 'a/action/F_FeedbackMessage', '', qos
+    )
+    node = graph.Node('server', '/', [feedback])
+    assert node.action_servers() == {'/f': ['a/action/F']}
+    assert graph.Graph([node], [feedback]).actions() == {'/f': ['a/action/F']}

@@ -1,0 +1,150 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""rosidl_runtime_py: messages from and to text, and where their definitions are."""
+
+from __future__ import annotations
+
+import array
+from collections import OrderedDict
+from pathlib import Path
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Point, Polygon, Twist
+import pytest
+import rosidl_runtime_py
+from rosidl_runtime_py import (
+    get_interface_path,
+    get_interfaces,
+    get_message_slot_types,
+    message_to_csv,
+    message_to_ordereddict,
+    message_to_yaml,
+    set_message_fields,
+)
+from rosidl_runtime_py.utilities import get_action, get_interface, get_message, get_service
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Header, String, UInt8MultiArray
+import yaml
+
+
+def test_the_module_exports_what_upstream_does() -> None:
+    assert {
+        'get_action_interfaces', 'get_interface_packages', 'get_interface_path',
+        'get_interfaces', 'get_message_interfaces', 'get_message_slot_types',
+        'get_service_interfaces', 'import_message_from_namespaced_type', 'message_to_csv',
+        'message_to_ordereddict', 'message_to_yaml', 'set_message_fields',
+    } <= set(rosidl_runtime_py.__all__)  # fmt: skip
+
+
+def test_yaml_shows_fields_in_their_order_and_reads_back() -> None:
+    msg = Twist()
+    set_message_fields(msg, {'linear': {'y': 2}, 'angular': {'z': -1.5}})
+    text = message_to_yaml(msg)
+    assert text.startswith('linear:\n  x: 0.0\n  y: 2.0\n')
+    again = Twist()
+    set_message_fields(again, yaml.safe_load(text))
+    assert again == msg
+
+
+def test_long_values_are_cut_or_abbreviated() -> None:
+    msg = UInt8MultiArray(data=[1, 2, 3, 4])
+    assert message_to_ordereddict(msg, truncate_length=2)['data'] == [1, 2, '...']
+    assert message_to_ordereddict(msg, no_arr=True)['data'] == '<sequence type: uint8, length: 4>'
+    imu = message_to_ordereddict(Imu(), no_arr=True)
+    assert imu['orientation_covariance'] == '<array type: double[9]>'
+    assert message_to_yaml(String(data='abcdef'), truncate_length=3) == 'data: abc...\n'
+    assert message_to_yaml(String(data='abc'), no_str=True) == "data: '<string length: <3>>'\n"
+
+
+def test_csv_and_flow_style_are_one_line() -> None:
+    msg = Header(stamp=Time(sec=1, nanosec=2), frame_id='map')
+    assert message_to_csv(msg) == '1,2,map'
+    assert message_to_yaml(msg, flow_style=True) == (
+        '{stamp: {sec: 1, nanosec: 2}, frame_id: map}\n'
+    )
+
+
+def test_dictionaries_keep_the_order_of_the_definition() -> None:
+    assert list(message_to_ordereddict(JointState())) == [
+        'header', 'name', 'position', 'velocity', 'effort',
+    ]  # fmt: skip
+    assert isinstance(get_message_slot_types(Point()), OrderedDict)
+
+
+def test_arrays_of_messages_bytes_and_numbers_are_filled() -> None:
+    status = DiagnosticStatus()
+    set_message_fields(status, {'level': 2, 'values': [{'key': 'a', 'value': 1}]})
+    assert status.level == b'\x02'
+    assert status.values == [KeyValue(key='a', value='1')]
+    joints = JointState()
+    set_message_fields(joints, {'name': ['a', 'b'], 'position': [1, '2.5']})
+    assert joints.position == array.array('d', [1.0, 2.5])
+    polygon = Polygon()
+    set_message_fields(polygon, {'points': [{'x': 1}]})
+    assert polygon.points[0].x == 1.0
+
+
+def test_auto_and_now_give_functions_that_set_the_time() -> None:
+    msg = Imu()
+    (set_stamp,) = set_message_fields(msg, {'header': 'auto'}, expand_header_auto=True)
+    set_stamp(Time(sec=7))
+    assert msg.header.stamp.sec == 7
+    header = Header()
+    (set_stamp,) = set_message_fields(header, {'stamp': 'now'}, expand_time_now=True)
+    set_stamp(Time(sec=8))
+    assert header.stamp.sec == 8
+    with pytest.raises(TypeError, match='expected to be a dictionary'):
+        set_message_fields(Imu(), {'header': 'auto'})
+
+
+@pytest.mark.parametrize(
+    ('values', 'error', 'message'),
+    [
+        ({'lin': {}}, AttributeError, "no attribute 'lin'; its fields are linear, angular"),
+        ({'linear': 1}, TypeError, 'expected to be a dictionary but is a int'),
+        ({'linear': {'x': 'fast'}}, TypeError, r"linear\.x: 'fast' is refused"),
+        ([], TypeError, 'expected to be a dictionary'),
+    ],
+)
+def test_a_value_that_does_not_fit_is_refused(
+    values: Any, error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        set_message_fields(Twist(), values)
+
+
+def test_the_length_of_an_array_is_checked() -> None:
+    with pytest.raises(ValueError, match='2 elements, expected exactly 9'):
+        set_message_fields(Imu(), {'orientation_covariance': [1, 2]})
+    with pytest.raises(ValueError, match=r'data\[1\]: 300 does not fit uint8'):
+        set_message_fields(UInt8MultiArray(), {'data': [1, 300]})
+
+
+def test_interfaces_are_found_by_name() -> None:
+    assert get_message('std_msgs/msg/String') is String
+    assert get_message('std_msgs/String') is String
+    assert get_service('std_srvs/srv/Empty').Request
+    assert get_interface('std_msgs/msg/String') is String
+    with pytest.raises(ValueError, match="Expected 'std_srvs/srv/Empty' to be a message"):
+        get_message('std_srvs/srv/Empty')
+    with pytest.raises(ValueError, match='is no interface'):
+        get_message('String')
+    with pytest.raises(ModuleNotFoundError):
+        get_action('nothing/action/A')
+
+
+def test_definitions_are_found_by_name() -> None:
+    assert Path(get_interface_path('std_msgs/msg/String')).name == 'String.msg'
+    assert Path(get_interface_path('std_srvs/srv/Empty')).name == 'Empty.srv'
+    assert Path(get_interface_path('std_msgs/msg/String.idl')).suffix == '.idl'
+    assert get_interfaces(['std_srvs']) == {
+        'std_srvs': ['srv/Empty', 'srv/SetBool', 'srv/Trigger']
+    }
+    with pytest.raises(LookupError, match="Unknown package 'nothing'"):
+        get_interfaces(['nothing'])
+    with pytest.raises(LookupError, match='Could not find the interface'):
+        get_interface_path('std_msgs/msg/Nothing')
+    with pytest.raises(ValueError, match='Invalid name'):
+        get_interface_path('std_msgs')

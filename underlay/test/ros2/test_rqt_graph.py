@@ -1,0 +1,208 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The picture of the graph, beside real nodes: in files and live on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import json
+from pathlib import Path
+import re
+import signal
+import subprocess
+import sys
+import time
+from typing import Any
+from urllib.request import urlopen
+from xml.etree import ElementTree
+
+import pytest
+
+SVG = '{http://www.w3.org/2000/svg}'
+NODE, TOPIC = f'{SVG}ellipse', f'{SVG}rect'
+
+
+def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+    answer = subprocess.run(
+        ['ros2', 'run', 'rqt_graph', 'rqt_graph', *arguments],
+        capture_output=True,
+        text=True,
+        timeout=30,
+        check=False,
+    )
+    assert 'Traceback' not in answer.stderr, answer.stderr
+    return answer
+
+
+def shapes(svg: str) -> dict[str, str]:
+    """Return the tag of the outline of each shape, by its key."""
+    return {
+        group.attrib['data-key']: next(part.tag for part in group if part.tag in (NODE, TOPIC))
+        for group in ElementTree.fromstring(svg).iter(f'{SVG}g')
+        if 'data-key' in group.attrib
+    }
+
+
+def arrows(svg: str) -> set[tuple[str, str]]:
+    return {
+        (group.attrib['data-start'], group.attrib['data-end'])
+        for group in ElementTree.fromstring(svg).iter(f'{SVG}g')
+        if 'data-start' in group.attrib
+    }
+
+
+TALK = {
+    'node:/talker_1': NODE,
+    'node:/talker_2': NODE,
+    'node:/listener': NODE,
+    'topic:/chatter': TOPIC,
+}
+TALK_ARROWS = {
+    ('node:/talker_1', 'topic:/chatter'),
+    ('node:/talker_2', 'topic:/chatter'),
+    ('topic:/chatter', 'node:/listener'),
+}
+
+
+@pytest.fixture
+def talk(processes: Any) -> Any:
+    for kind, name in (('talker', 'talker_1'), ('talker', 'talker_2'), ('listener', 'listener')):
+        processes.node(kind, name)
+    return processes
+
+
+def test_svg_has_ellipses_for_nodes_boxes_for_topics_and_arrows(talk: Any, tmp_path: Path) -> None:
+    answer = run('--output', 'graph.svg')
+    assert (answer.returncode, answer.stdout) == (0, 'wrote graph.svg\n'), answer.stderr
+    svg = (tmp_path / 'graph.svg').read_text()
+    assert shapes(svg) == TALK
+    assert arrows(svg) == TALK_ARROWS
+
+
+def test_png_is_a_picture_of_the_same(talk: Any, tmp_path: Path) -> None:
+    from matplotlib.image import imread
+
+    assert run('-o', 'graph.png').returncode == 0
+    pixels = imread(tmp_path / 'graph.png')
+    height, width, _ = pixels.shape
+    assert width > 2 * height > 100
+    colours = {tuple(round(255 * value) for value in pixel[:3]) for row in pixels for pixel in row}
+    assert {(0xDB, 0xE9, 0xFB), (0xFD, 0xF1, 0xD3), (0xFF, 0xFF, 0xFF)} <= colours
+
+
+def test_topics_of_one_side_are_drawn_only_in_the_view_of_all(talk: Any, tmp_path: Path) -> None:
+    talk.node('latched', 'latched')
+    assert run('-o', 'active.svg').returncode == 0
+    assert run('-o', 'all.svg', '--view', 'all').returncode == 0
+    active, everything = (tmp_path / name for name in ('active.svg', 'all.svg'))
+    assert 'topic:/latched' not in shapes(active.read_text())
+    assert 'topic:/latched' in shapes(everything.read_text())
+    assert 'topic:/rosout' not in shapes(everything.read_text())
+    assert run('-o', 'debug.svg', '--view', 'all', '--debug').returncode == 0
+    assert 'topic:/rosout' in shapes((tmp_path / 'debug.svg').read_text())
+
+
+def test_a_topic_over_which_nothing_arrives_is_red_and_says_why(
+    processes: Any, tmp_path: Path
+) -> None:
+    processes.node('robot', 'robot')
+    processes.node('stamped_driver', 'driver')
+    assert run('-o', 'graph.svg').returncode == 0
+    svg = (tmp_path / 'graph.svg').read_text()
+    (fault,) = re.findall(r'class="topic faulty".*?<title>(.*?)</title>', svg, re.DOTALL)
+    assert '/driver publishes geometry_msgs/msg/TwistStamped' in fault
+
+
+def test_two_nodes_of_one_name_are_one_red_ellipse(processes: Any, tmp_path: Path) -> None:
+    for _ in range(2):
+        processes.node('plain', 'same')
+    assert run('-o', 'graph.svg').returncode == 0
+    svg = (tmp_path / 'graph.svg').read_text()
+    assert shapes(svg) == {'node:/same': NODE}
+    assert '2 nodes have this name' in svg
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'said'),
+    [
+        (('-o', 'graph.gif'), 'must end in .svg or .png'),
+        (('-o', 'no/graph.svg'), "there is no folder 'no'"),
+        (('--port', 'abc'), 'a port is from 1 to 65535'),
+        (('--view', 'some'), "invalid choice: 'some'"),
+    ],
+)
+@pytest.mark.usefixtures('domain')
+def test_bad_arguments_are_refused_in_words(arguments: tuple[str, ...], said: str) -> None:
+    answer = run(*arguments)
+    assert answer.returncode == 2
+    assert said in answer.stderr
+
+
+@pytest.mark.usefixtures('domain')
+def test_a_domain_without_nodes_has_a_picture_that_says_so(tmp_path: Path) -> None:
+    assert run('-o', 'empty.svg').returncode == 0
+    assert 'No nodes are running' in (tmp_path / 'empty.svg').read_text()
+
+
+@pytest.mark.usefixtures('domain')
+def test_it_is_a_package_of_the_ament_prefix() -> None:
+    def ros2(*words: str) -> str:
+        return subprocess.run(
+            ['ros2', 'pkg', *words], capture_output=True, text=True, check=True
+        ).stdout
+
+    assert 'rqt_graph' in ros2('list').split()
+    assert ros2('executables', 'rqt_graph').split()[-1] == 'rqt_graph'
+    assert Path(ros2('prefix', 'rqt_graph').strip(), 'lib/rqt_graph/rqt_graph').exists()
+    assert ros2('xml', 'rqt_graph', '-t', 'license').split()[-1] == 'Apache-2.0'
+
+
+def events(address: str) -> Iterator[dict[str, Any]]:
+    with urlopen(address + 'events', timeout=20) as answer:
+        for line in answer:
+            if line.startswith(b'data: '):
+                yield json.loads(line.removeprefix(b'data: '))
+
+
+def test_the_page_is_told_of_a_node_that_comes_and_one_that_goes(talk: Any) -> None:
+    page = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
+    (address,) = re.findall(r'http://127\.0\.0\.1:\d+/', page.stdout.readline())
+    assert '<title>rqt_graph</title>' in urlopen(address, timeout=10).read().decode()
+    news = events(address)
+    first = next(news)
+    assert (shapes(first['svg']), arrows(first['svg'])) == (TALK, TALK_ARROWS)
+    assert (first['nodes'], first['topics']) == (3, 1)
+    third = talk.node('talker', 'talker_3')
+    _wait_for_news(news, lambda keys: 'node:/talker_3' in keys)
+    third.send_signal(signal.SIGINT)
+    _wait_for_news(news, lambda keys: 'node:/talker_3' not in keys)
+    assert urlopen(address + 'graph.png', timeout=20).read().startswith(b'\x89PNG')
+    assert set(shapes(urlopen(address + 'graph.svg', timeout=20).read().decode())) == set(TALK)
+
+
+def _wait_for_news(news: Iterator[dict[str, Any]], fact: Any) -> None:
+    start = time.monotonic()
+    for event in news:
+        if fact(shapes(event['svg'])):
+            break
+    assert time.monotonic() - start < 10.0
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.usefixtures('domain')
+def test_a_signal_ends_the_page_within_two_seconds(processes: Any, number: signal.Signals) -> None:
+    page = processes.start(sys.executable, '-m', 'rqt_graph.main', ready='http://')
+    start = time.monotonic()
+    page.send_signal(number)
+    assert page.wait(timeout=10) == 0
+    assert time.monotonic() - start < 2.0
+
+
+@pytest.mark.usefixtures('domain')
+def test_a_taken_port_is_refused_in_one_line(processes: Any) -> None:
+    page = processes.start(sys.executable, '-m', 'rqt_graph.main')
+    assert page.stdout is not None
+    (port,) = re.findall(r':(\d+)/', page.stdout.readline())
+    answer = run('--port', port)
+    assert answer.returncode == 1
+    assert answer.stderr == f'rqt_graph: --port {port} is taken: leave it out to get a free one\n'
