@@ -6,6 +6,7 @@ import json
 import math
 from pathlib import Path
 import signal
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from husky_driver.drive import Drive
@@ -32,7 +33,7 @@ waypoints:
 
 
 def drive(
-    nodes: SpunNodes, course: Path, record: Path, *, timeout_sec: float, **time: object
+    nodes: SpunNodes, course: Path, record: Path, *, timeout_sec: float, **time: Any
 ) -> tuple[int, dict[str, object]]:
     """Drive a course with real nodes; return the driver's exit code and the run's record."""
     simulator = nodes.start(SimulatorNode, record=str(record), **time)
@@ -56,7 +57,7 @@ def drive(
 )
 @pytest.mark.timeout(120)
 def test_the_central_barrier_is_driven_round_without_a_touch(
-    nodes: SpunNodes, tmp_path: Path, time: dict[str, object]
+    nodes: SpunNodes, tmp_path: Path, time: dict[str, Any]
 ) -> None:
     course = COURSES / 'central_barrier.yaml'
     exit_code, record = drive(nodes, course, tmp_path / 'record.json', timeout_sec=90, **time)

@@ -49,7 +49,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'lockstep',
                 default_value='false',
-                description='true: the simulator waits for every command, so a run repeats exactly',
+                description='true: the simulator waits for each command, so that a run repeats',
             ),
             DeclareLaunchArgument(
                 'viewer', default_value='false', description='true: a live view in the browser'
