@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import os
 from pathlib import Path
+import signal
 import sys
 import threading
 import webbrowser
@@ -97,6 +98,8 @@ def _show(args: argparse.Namespace) -> int:
     print(f'rqt_graph: the live graph is at {address} (Ctrl-C ends it)', flush=True)
     if os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'):
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    # Whatever ends it ends it as Ctrl-C does.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     with server:
         server.serve_forever(poll_interval=0.2)
     return 0
