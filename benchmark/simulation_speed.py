@@ -26,7 +26,6 @@ from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
-from rclpy.task import Future
 
 from husky_sim.config import RobotStart
 
@@ -74,20 +73,20 @@ def drive(prefixes: Sequence[str], lockstep: bool) -> None:
     node = rclpy.create_node('benchmark_driver')
     command = Twist()
     command.linear.x, command.angular.z = SPEED_M_S, YAW_RATE_RAD_S
-    for prefix in prefixes:
-        publisher = node.create_publisher(Twist, prefix + CONTROL, 10)
+    publishers = [node.create_publisher(Twist, prefix + CONTROL, 10) for prefix in prefixes]
 
-        def answer(_: object = None, publisher: Any = publisher) -> None:
+    def answer(*_: object) -> None:
+        for publisher in publishers:
             publisher.publish(command)
 
-        if lockstep:
-            node.create_subscription(Odometry, f'{prefix}odometry/filtered', answer, 10)
-        else:
-            node.create_timer(0.01, answer)
+    if lockstep:
+        node.create_subscription(Odometry, f'{prefixes[-1]}odometry/filtered', answer, 10)
+    else:
+        node.create_timer(0.01, answer)
     executor = EventsExecutor()
     executor.add_node(node)
     while rclpy.ok():
-        executor.spin_until_future_complete(Future(), timeout_sec=0.1)
+        executor.spin_once(timeout_sec=0.1)
 
 
 def node_speed(count: int, seconds: float, **parameters: Any) -> float:
@@ -123,10 +122,10 @@ def _measured(node: SimulatorNode, executor: Any, seconds: float) -> float:
     while not all(abs(robot.odometry.speed_m_s) > 0.4 for robot in simulation.robots):
         if time.perf_counter() > deadline:
             raise RuntimeError('the driver did not move the robots within 20 s')
-        executor.spin_until_future_complete(Future(), timeout_sec=0.1)
+        executor.spin_once(timeout_sec=0.1)
     begin, begin_sec = time.perf_counter(), simulation.time_sec
     while time.perf_counter() - begin < seconds:
-        executor.spin_until_future_complete(Future(), timeout_sec=0.1)
+        executor.spin_once(timeout_sec=0.1)
     return float((simulation.time_sec - begin_sec) / (time.perf_counter() - begin))
 
 

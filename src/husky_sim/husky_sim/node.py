@@ -88,6 +88,11 @@ class SimulatorNode(Node):
             f'{self._pace_in_words()}'
         )
 
+    @property
+    def simulation(self) -> Simulation:
+        """Return what the node speaks for."""
+        return self._simulation
+
     def _tick_sec(self) -> float:
         if self._run.real_time_factor > 0.0:
             return max(CONTROL_PERIOD_SEC / self._run.real_time_factor, _SHORTEST_TICK_SEC)
@@ -258,9 +263,10 @@ def spin(node: Node, *, until: 'Future[None]') -> None:
     """Spin with the executor that costs least."""
     executor = EventsExecutor()
     executor.add_node(node)
+    # One event after the other: this executor sees signals only between two spins, and forgets
+    # the timeout of a longer one while a timer is always due.
     while not until.done():
-        # The executor looks at signals only between two spins.
-        executor.spin_until_future_complete(until, timeout_sec=SIGNAL_LATENCY_SEC)
+        executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
 
 
 if __name__ == '__main__':
