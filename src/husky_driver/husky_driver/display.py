@@ -38,6 +38,10 @@ class DriveDisplay:
         self._point = PointStamped()
         self._point.header.frame_id = 'odom'
 
+    def show(self, drive: Drive) -> None:
+        """Go over to another drive."""
+        self._drive, self._legs, self._left = drive, None, -1
+
     def update(self) -> None:
         """Publish what has changed; call it now and then."""
         drive = self._drive

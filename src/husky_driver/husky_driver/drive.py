@@ -36,6 +36,7 @@ class Drive:
         self.limits = limits or DriveLimits()
         self.finished = False
         self.failure = ''  # why it gave up, if it did
+        self.held = False  # true: stands where it is, and goes on when false again
         self.reached = 0  # waypoints, counted in order
         self.legs = plan_route(course)
         self._leg_index = 0
@@ -69,6 +70,11 @@ class Drive:
         return self._tracker
 
     @property
+    def odometry(self) -> Odometry | None:
+        """What it heard last."""
+        return self._now
+
+    @property
     def speed_m_s(self) -> float:
         return 0.0 if self._now is None else self._now.speed_m_s
 
@@ -85,19 +91,19 @@ class Drive:
     def step(self, odometry: Odometry) -> Command | None:
         """Return the command that answers one odometry message; None when the drive is over."""
         before, self._now = self._now, odometry
-        if before is None or odometry.time_sec < before.time_sec:
+        if (before is None or odometry.time_sec < before.time_sec) and not self.failure:
             self._begin(odometry)  # the first, or the first after the simulator was reset
-            before = odometry
         if self.finished:
             return None
         if self.failure:
             return self._come_to_rest(odometry)
         self._count_reached(odometry)
-        wish = next(self._wishes, None)
+        wish = STOP if self.held else next(self._wishes, None)
         if wish is None:
             self.finished = True
             return None
-        period = min(odometry.time_sec - before.time_sec, MAX_PERIOD_SEC)
+        period = 0.0 if before is None else odometry.time_sec - before.time_sec
+        period = min(max(period, 0.0), MAX_PERIOD_SEC)
         self._command = self._within_limits(wish, period)
         if complaint := self._watchdog.complaint(odometry, self._command):
             self.give_up(complaint)
@@ -134,6 +140,8 @@ class Drive:
     # newest odometry in self._now when it goes on.
 
     def _drive(self) -> Generator[Command, None, None]:
+        if not self._odometry().is_standing:  # it was driving something else
+            yield from self._stand()
         for index, leg in enumerate(self.legs):
             self._leg_index = index
             self._tracker = tracker = self._track(leg)

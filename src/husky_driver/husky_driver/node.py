@@ -11,15 +11,22 @@ from typing import Any
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry as OdometryMsg
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_sensor_data
 from rclpy.task import Future
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import SetBool
 
 from husky_driver.display import DriveDisplay
 from husky_driver.drive import Drive
+from husky_driver.lookout import blocked_at_m
 from husky_driver.motion import Odometry, relative_odometry, yaw_of
 from husky_driver.parameters import declare_settings
 from husky_driver.progress import Progress
+from husky_driver.waypoints import load_course
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
@@ -44,6 +51,7 @@ class FollowPath(Node):
         self._stop_deadline_sec = 0.0
         self._hint = ''
         self._origin: Odometry | None = None
+        self._paused = self._blocked = False
         self._command = Twist()
         topic = 'husky_velocity_controller/cmd_vel'
         self._commands = self.create_publisher(Twist, topic, 10)
@@ -61,6 +69,11 @@ class FollowPath(Node):
         self._odometry = self.create_subscription(OdometryMsg, topic, self._on_odometry, 10)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(TICK_SEC, self._on_tick, clock=steady)
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.add_on_set_parameters_callback(self._on_parameters)
+        if self.settings.scan:
+            sensor = qos_profile_sensor_data
+            self.create_subscription(LaserScan, 'front/scan', self._on_scan, sensor)
 
     def stop(self, exit_code: int, why: str) -> None:
         """Break the drive off: stop the robot, then finish with this exit code."""
@@ -91,6 +104,50 @@ class FollowPath(Node):
             self._finish(self._stopping)
         else:
             self._conclude()
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._paused = request.data
+        self._hold()
+        response.success = True
+        response.message = 'paused' if self._paused else 'going on'
+        self._say(f'{response.message}, {self._drive.remaining_m:.2f} m left')
+        return response
+
+    def _on_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Go over to another waypoint file at once, unless there is something wrong with it."""
+        for parameter in parameters:
+            if parameter.name == 'waypoints':
+                try:
+                    course = load_course(str(parameter.value))
+                except ValueError as error:
+                    return SetParametersResult(successful=False, reason=str(error))
+                self._drive = Drive(course)
+                self._display.show(self._drive)
+                self._hold()
+                self._say(f'going over to {parameter.value}')
+        return SetParametersResult(successful=True)
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        now, tracker = self._drive.odometry, self._drive.tracker
+        if now is None or tracker is None or tracker.reverse:
+            return
+        blocked = blocked_at_m(
+            scan.ranges,
+            scan.angle_min,
+            scan.angle_increment,
+            pose=(now.x_m, now.y_m, now.yaw_rad),
+            curve=tracker.curve,
+            s=tracker.s,
+            speed_m_s=abs(now.speed_m_s),
+        )
+        if (blocked is not None) != self._blocked:
+            self._blocked = blocked is not None
+            where = '' if blocked is None else f': something stands {blocked:.2f} m ahead'
+            self._say(f'stopping{where}' if self._blocked else 'the way is free again')
+            self._hold()
+
+    def _hold(self) -> None:
+        self._drive.held = self._paused or self._blocked
 
     def _relative(self, odometry: Odometry) -> Odometry:
         """Let the frame begin where the robot starts, as that of odometry does by itself."""

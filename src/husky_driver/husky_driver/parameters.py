@@ -31,7 +31,9 @@ def declare_settings(node: Node) -> Settings:
 
 
 def _declare(node: Node, name: str, default: Any, metadata: Any) -> Any:
-    descriptor = ParameterDescriptor(description=metadata['description'])
+    descriptor = ParameterDescriptor(
+        description=metadata['description'], read_only=name != 'waypoints'
+    )
     low, high = metadata.get('span', (0.0, 0.0))
     if isinstance(default, float):
         descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
@@ -39,7 +41,8 @@ def _declare(node: Node, name: str, default: Any, metadata: Any) -> Any:
     try:
         value = node.declare_parameter(name, value, descriptor).value
     except InvalidParameterTypeException:
-        kind = 'text' if isinstance(default, str) else 'of numbers with a decimal point'
+        kinds = {str: 'text', bool: 'true or false'}
+        kind = kinds.get(type(default), 'of numbers with a decimal point')
         raise ValueError(f'parameter {name} must be {kind}, as {value!r}') from None
     except InvalidParameterValueException:
         raise ValueError(f'parameter {name}: allowed is {low:g} to {high:g}') from None

@@ -88,7 +88,7 @@ class Tracker:
         self.offset_m = 0.0
         self.heading_error_rad = 0.0
         self._speeds = speeds_m_s
-        self._reverse = reverse
+        self.reverse = reverse
         self._limits = limits or DriveLimits()
         self._gains = gains or TrackerGains()
         self._sample = 0
@@ -100,7 +100,7 @@ class Tracker:
     def locate(self, x: float, y: float, yaw: float) -> None:
         """Take a pose: find the place on the curve, the offset and the heading error."""
         self._sample, self.s, self.offset_m = self.curve.project(self._sample, x, y)
-        heading = self.curve.heading_at(self.s) + (math.pi if self._reverse else 0.0)
+        heading = self.curve.heading_at(self.s) + (math.pi if self.reverse else 0.0)
         self.heading_error_rad = math.remainder(yaw - heading, _TWO_PI)
 
     def command(
@@ -125,7 +125,7 @@ class Tracker:
         limit = self._limits.yaw_rate_rad_s
         yaw_rate = min(max(speed * (bend * ahead - feedback), -limit), limit)
         speed *= max(math.cos(error), 0.0)
-        return (-speed if self._reverse else speed), yaw_rate
+        return (-speed if self.reverse else speed), yaw_rate
 
     def _speed(self) -> float:
         """Return the planned speed; near the end it falls with the distance left."""

@@ -150,3 +150,31 @@ def test_a_reset_of_the_simulator_begins_the_course_again(
     run = drive_to_end(drive)
     assert run.drive.reached == 2
     assert run.track[-1].x_m == pytest.approx(2.0, abs=0.01)
+
+
+def test_a_held_drive_stands_and_then_goes_on(
+    drive_to_end: Callable[..., Any], make_plant: Any
+) -> None:
+    drive = Drive(parse_course('speed: 0.8\nwaypoints: [[0, 0], [3, 0]]'))
+    plant = make_plant()
+    for period in range(400):
+        drive.held = period >= 75
+        command = drive.step(plant.now)
+        assert command is not None
+        plant.advance(command)
+    assert plant.now.is_standing
+    assert 0.8 < plant.now.x_m < 2.0
+    drive.held = False
+    run = drive_to_end(drive, plant)
+    assert run.drive.failure == ''
+    assert run.drive.reached == 2
+    assert run.track[-1].x_m == pytest.approx(3.0, abs=0.01)
+
+
+def test_a_drive_that_begins_in_motion_stops_first(
+    drive_to_end: Callable[..., Any], make_plant: Any
+) -> None:
+    plant = make_plant(now=Odometry(5.0, 0.0, 0.0, 0.0, 0.8, 0.3))
+    run = drive_to_end(Drive(parse_course('waypoints: [[-1, 0], [-2, 0]]')), plant)
+    assert run.drive.reached == 2
+    assert run.commands[0] == (0.0, 0.0)

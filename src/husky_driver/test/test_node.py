@@ -20,9 +20,12 @@ from husky_driver.executor import make_executor
 from husky_driver.motion import Command
 from nav_msgs.msg import Odometry
 import pytest
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from std_srvs.srv import SetBool
 
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -49,15 +52,15 @@ class PlantNode(Node):
         matched = self._odometry.get_subscription_count() and self.commands.get_publisher_count()
         if matched and not self.received and time.monotonic() - self._sent_sec > 0.5:
             self._sent_sec = time.monotonic()
-            self._publish()
+            self.publish()
 
     def _on_command(self, msg: Twist) -> None:
         self.received.append(Command(msg.linear.x, msg.angular.z))
         self.plant.advance(self.received[-1])
         if not self.silent:
-            self._publish()
+            self.publish()
 
-    def _publish(self) -> None:
+    def publish(self) -> None:
         now, msg = self.plant.now, Odometry()
         nanoseconds = round(now.time_sec * 1e9)
         msg.header.stamp.sec, msg.header.stamp.nanosec = divmod(nanoseconds, 10**9)
@@ -205,6 +208,66 @@ def test_a_signal_stops_the_robot_and_then_the_node(
     assert process.returncode == code, output
     assert 'Traceback' not in output
     assert plant_node.plant.now.is_standing
+
+
+def call(node: PlantNode, kind: Any, name: str, request: Any) -> Any:
+    client = node.create_client(kind, name)
+    wait_until(client.service_is_ready, timeout_sec=10, what=f'service {name}')
+    future = client.call_async(request)
+    wait_until(future.done, timeout_sec=10, what=f'answer of {name}')
+    return future.result()
+
+
+def test_a_drive_can_be_paused_and_goes_on(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    process = follow_path('--waypoints', course)
+    wait_until(lambda: len(plant_node.received) > 80, timeout_sec=15, what='80 commands')
+    plant_node.silent = True
+    pause = '/follow_path/pause'
+    assert call(plant_node, SetBool, pause, SetBool.Request(data=True)).message == 'paused'
+    plant_node.silent = False
+    plant_node.publish()
+    wait_until(
+        lambda: plant_node.received[-30:] == [Command(0.0, 0.0)] * 30,
+        timeout_sec=10,
+        what='standing robot',
+    )
+    assert plant_node.plant.now.x_m < 3.0
+    call(plant_node, SetBool, pause, SetBool.Request(data=False))
+    output, _ = process.communicate(timeout=20)
+    assert process.returncode == 0, output
+    assert plant_node.plant.now.x_m == pytest.approx(4.0, abs=0.02)
+
+
+def test_a_new_file_takes_over_and_a_broken_one_is_refused(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    process = follow_path('--waypoints', course)
+    wait_until(lambda: len(plant_node.received) > 50, timeout_sec=15, what='50 commands')
+    plant_node.silent = True
+    other, broken = course.with_name('other.yaml'), course.with_name('broken.yaml')
+    other.write_text('speed: 0.8\nwaypoints: [[1, 1], [2, 2]]\n')
+    broken.write_text('speed: fast\n')
+
+    def set_waypoints(path: Path) -> Any:
+        value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=str(path))
+        request = SetParameters.Request(parameters=[Parameter(name='waypoints', value=value)])
+        name = '/follow_path/set_parameters'
+        (result,) = call(plant_node, SetParameters, name, request).results
+        return result
+
+    refused = set_waypoints(broken)
+    assert not refused.successful
+    assert 'broken.yaml: line 1' in refused.reason
+    assert set_waypoints(other).successful
+    plant_node.silent = False
+    plant_node.publish()
+    output, _ = process.communicate(timeout=20)
+    assert process.returncode == 0, output
+    assert 'done: 2 of 2 waypoints' in output
+    end = plant_node.plant.now
+    assert (end.x_m, end.y_m) == pytest.approx((2.0, 2.0), abs=0.02)
 
 
 def test_a_namespace_and_remaps_apply(
