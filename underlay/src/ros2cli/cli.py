@@ -114,6 +114,8 @@ def _add_level(
     """Add one subparser a module of `package`; import only the module that was chosen."""
     names = verbs.names(package)
     modules = verbs.with_aliases(package)
+    if chosen is not None and verbs.is_left_out(package, chosen):
+        parser.exit(2, f'{cli_name} {chosen} is part of a full ROS 2 and left out here\n')
     if chosen is not None and chosen not in modules:
         parser.error(f"'{chosen}' is no {what} of {cli_name}{nearest.hint(chosen, modules)}")
     subparsers = parser.add_subparsers(

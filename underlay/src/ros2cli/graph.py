@@ -11,7 +11,7 @@ import struct
 
 from ros2cli import names
 from ros2cli.rtps import wire
-from ros2cli.rtps.observer import Participant
+from ros2cli.rtps.participant import Participant
 
 NODE_NAME_UNKNOWN = '_NODE_NAME_UNKNOWN_'
 NODE_NAMESPACE_UNKNOWN = '_NODE_NAMESPACE_UNKNOWN_'

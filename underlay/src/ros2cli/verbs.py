@@ -14,6 +14,21 @@ from types import ModuleType
 _ALIASES = {'ros2cli.command': {'wtf': 'doctor'}}
 
 
+# What a full ROS 2 has besides; each is refused with a line that says so.
+_LEFT_OUT = {
+    'ros2cli.command': (
+        'component', 'control', 'extension_points', 'extensions', 'lifecycle', 'multicast',
+        'plugin', 'security', 'test', 'trace',
+    ),
+    'ros2cli.command.bag': ('burst', 'convert', 'list', 'reindex'),
+    'ros2cli.command.action': ('echo', 'find'),
+}  # fmt: skip
+
+
+def is_left_out(package: str, name: str) -> bool:
+    return name in _LEFT_OUT.get(package, ())
+
+
 def names(package: str) -> list[str]:
     """List the modules of a package, except those whose name begins with an underscore."""
     return sorted(

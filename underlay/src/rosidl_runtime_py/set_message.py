@@ -43,9 +43,20 @@ def set_message_fields(
     :raises TypeError: a value has another type than its field.
     :raises ValueError: a value is out of the range of its field.
     """
-    setters: list[Callable[..., None]] = []
+    filler = _Filler(expand_header_auto=expand_header_auto, expand_time_now=expand_time_now)
+    filler.fill(msg, values, '')
+    return filler.setters
 
-    def fill(message: Any, given: Any, path: str) -> None:
+
+class _Filler:
+    """Converts values to what the fields of messages hold, at any depth."""
+
+    def __init__(self, *, expand_header_auto: bool, expand_time_now: bool) -> None:
+        self.setters: list[Callable[..., None]] = []
+        self._expand_header_auto = expand_header_auto
+        self._expand_time_now = expand_time_now
+
+    def fill(self, message: Any, given: Any, path: str) -> None:
         if not isinstance(given, Mapping):
             raise TypeError(
                 f"Value '{given}' is expected to be a dictionary but is a {type(given).__name__}"
@@ -58,22 +69,26 @@ def set_message_fields(
                     f"'{type(message).__name__}' object has no attribute '{name}'; its fields "
                     f'are {", ".join(slots) or "none"}'
                 )
-            field_path = f'{path}.{name}' if path else str(name)
-            kind = slots[name]
-            if isinstance(kind, definition.NamespacedType):
-                named = (tuple(kind.namespaces), kind.name)
-                if named == _HEADER and value == 'auto' and expand_header_auto:
-                    setters.append(partial(setattr, getattr(message, name), 'stamp'))
-                    continue
-                if named == _TIME and value == 'now' and expand_time_now:
-                    setters.append(partial(setattr, message, name))
-                    continue
-            setattr(message, name, convert(value, kind, field_path))
+            if not self._asks_for_the_time(message, name, value, slots[name]):
+                field_path = f'{path}.{name}' if path else str(name)
+                setattr(message, name, self._convert(value, slots[name], field_path))
 
-    def convert(value: Any, kind: Any, path: str) -> Any:
+    def _asks_for_the_time(self, message: Any, name: str, value: Any, kind: Any) -> bool:
+        if not isinstance(kind, definition.NamespacedType):
+            return False
+        named = (tuple(kind.namespaces), kind.name)
+        if self._expand_header_auto and named == _HEADER and value == 'auto':
+            self.setters.append(partial(setattr, getattr(message, name), 'stamp'))
+            return True
+        if self._expand_time_now and named == _TIME and value == 'now':
+            self.setters.append(partial(setattr, message, name))
+            return True
+        return False
+
+    def _convert(self, value: Any, kind: Any, path: str) -> Any:
         if isinstance(kind, definition.AbstractNestedType):
             items = [
-                convert(item, kind.value_type, f'{path}[{i}]')
+                self._convert(item, kind.value_type, f'{path}[{i}]')
                 for i, item in enumerate(_items(value, kind, path))
             ]
             return _sequence(items, kind)
@@ -82,14 +97,11 @@ def set_message_fields(
             if isinstance(value, message_class):
                 return value
             message = message_class()
-            fill(message, value, path)
+            self.fill(message, value, path)
             return message
         if isinstance(kind, definition.AbstractGenericString):
             return _string(value, kind, path)
         return _scalar(value, kind.typename, path)
-
-    fill(msg, values, '')
-    return setters
 
 
 def _items(value: Any, kind: Any, path: str) -> list[Any]:

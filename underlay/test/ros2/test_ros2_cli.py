@@ -75,6 +75,8 @@ def test_the_help_does_not_import_rclpy_and_is_quick(ros2: Callable[..., Any]) -
         (('topc',), "'topc' is no command of ros2; did you mean 'topic'?"),
         (('topic', 'lst'), "'lst' is no verb of ros2 topic; did you mean 'list'?"),
         (('topic', 'list', '--nonsense'), 'unrecognized arguments: --nonsense'),
+        (('lifecycle',), 'is part of a full ROS 2 and left out here'),
+        (('bag', 'convert'), 'is part of a full ROS 2 and left out here'),
         (('topic', 'echo'), 'the following arguments are required: topic_name'),
     ],
 )

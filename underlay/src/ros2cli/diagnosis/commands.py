@@ -19,7 +19,7 @@ from ros2cli.node import command_node, CommandNode
 
 _TOPIC_END = 'cmd_vel'
 _TIMEOUT_PARAMETERS = ('command_timeout', 'command_timeout_sec', 'cmd_vel_timeout')
-_LISTEN_SEC = 2.0
+_LISTEN_SEC = 1.5
 
 
 def check_command_rate(graph: Graph) -> Iterator[Finding]:
@@ -96,8 +96,8 @@ def _longest_gap(node: CommandNode, graph: Graph, topic: str) -> tuple[float | N
                 qos_profile_sensor_data,
             )
         )
-    node.spin_until(lambda: len(arrivals) > 0, _LISTEN_SEC)
-    node.spin_until(lambda: False, _LISTEN_SEC)
+    if node.spin_until(lambda: len(arrivals) > 0, _LISTEN_SEC):
+        node.spin_until(lambda: False, _LISTEN_SEC)
     for subscription in subscriptions:
         node.node.destroy_subscription(subscription)
     gaps = [b - a for a, b in itertools.pairwise(arrivals)]

@@ -13,10 +13,11 @@ import socket
 from ros2cli.diagnosis.finding import Finding
 from ros2cli.discovery import Settings
 from ros2cli.rtps import host
-from ros2cli.rtps.observer import Observer, Participant
+from ros2cli.rtps.observer import Observer
+from ros2cli.rtps.participant import Participant
 
 _LAST_DOMAIN = 101  # Beyond it lie the ports that Linux gives to anybody.
-_LISTEN_SEC = 1.0
+_LISTEN_SEC = 0.6
 
 
 def check_domains(settings: Settings, *, here: int) -> Iterator[Finding]:

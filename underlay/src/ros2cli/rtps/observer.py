@@ -12,73 +12,15 @@ again after milliseconds. It joins the domain as a participant that has one read
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass, field
 import os
 import socket
 import struct
 import time
 
-from ros2cli.rtps import host, wire
+from ros2cli.rtps import announcements, host, wire
+from ros2cli.rtps.participant import Participant, Samples
 
-GRAPH_TOPIC = 'ros_discovery_info'
-_GRAPH_TYPE = 'rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_'
-_GRAPH_READER = bytes.fromhex('00000104')  # a reader without key, 9.3.1.2
-# Built-in endpoints (9.3.2): participant announcer and detector, detectors of publications and
-# subscriptions, announcer of subscriptions.
-_OWN_ENDPOINTS = 0b111011
 _RETRY_SEC = 0.03
-_LEASE_SEC = 10
-
-
-@dataclass
-class _Samples:
-    """What has come from one reliable writer."""
-
-    first: int = 1
-    last: int | None = None  # unknown until its first heartbeat
-    received: set[int] = field(default_factory=set)
-    acknowledgements: int = 0
-
-    @property
-    def missing(self) -> set[int]:
-        return set(range(self.first, (self.last or 0) + 1)) - self.received
-
-    @property
-    def complete(self) -> bool:
-        return self.last is not None and not self.missing
-
-
-@dataclass
-class Participant:
-    """A participant of the domain and what it announced."""
-
-    prefix: bytes
-    address: str
-    discovery_port: int
-    data_port: int
-    publications: _Samples = field(default_factory=_Samples)
-    subscriptions: _Samples = field(default_factory=_Samples)
-    graph: _Samples = field(default_factory=_Samples)
-    # Parameter lists of its endpoints by GUID, and the last sample of its graph topic.
-    writers: dict[bytes, dict[int, list[bytes]]] = field(default_factory=dict)
-    readers: dict[bytes, dict[int, list[bytes]]] = field(default_factory=dict)
-    graph_sample: bytes | None = None
-    knows_us: bool = False
-
-    def graph_writer(self) -> bytes | None:
-        """Return the GUID of its writer of the graph topic; None: it is no ROS participant."""
-        for guid, values in self.writers.items():
-            if wire.string(GRAPH_TOPIC) in (
-                v[: 4 + len(GRAPH_TOPIC) + 1] for v in values.get(wire.PID_TOPIC_NAME, ())
-            ):
-                return guid
-        return None
-
-    @property
-    def complete(self) -> bool:
-        if not (self.publications.complete and self.subscriptions.complete):
-            return False
-        return self.graph_sample is not None or self.graph_writer() is None
 
 
 class Observer:
@@ -111,9 +53,7 @@ class Observer:
     def close(self) -> None:
         if self._socket.fileno() < 0:
             return
-        farewell = wire.header(self._prefix) + wire.dispose(
-            wire.SPDP_READER, wire.SPDP_WRITER, 2, self._prefix + wire.PARTICIPANT
-        )
+        farewell = announcements.farewell(self._prefix)
         for participant in self.participants.values():
             self._send(farewell, participant.address, participant.discovery_port)
         self._socket.close()
@@ -144,7 +84,9 @@ class Observer:
     # Asking
 
     def _ask_again(self, expected: set[int] | None) -> None:
-        announcement = self._announcement()
+        announcement = announcements.participant(
+            self._prefix, self._addresses(), self._socket.getsockname()[1]
+        )
         answered = {p.discovery_port for p in self.participants.values()}
         ports = host.discovery_ports(self.domain_id) if expected is None else expected
         for port in set(ports) - answered:
@@ -166,7 +108,7 @@ class Observer:
             self._offer_graph_reader(participant)
         writer = participant.graph_writer()
         if writer is not None and participant.graph_sample is None:
-            self._acknowledge(participant, _GRAPH_READER, writer[12:])
+            self._acknowledge(participant, announcements.GRAPH_READER, writer[12:])
 
     def _acknowledge(self, participant: Participant, reader: bytes, writer: bytes) -> None:
         samples = self._samples(participant, writer)
@@ -181,30 +123,6 @@ class Observer:
         port = participant.data_port if graph else participant.discovery_port
         self._send(message, participant.address, port)
 
-    def _announcement(self) -> bytes:
-        def locators(pid: int) -> bytes:
-            port = self._socket.getsockname()[1]
-            return b''.join(
-                wire.parameter(pid, wire.udp_locator(address, port))
-                for address in self._addresses()
-            )
-
-        payload = wire.PL_CDR_LE + b''.join(
-            (
-                wire.parameter(wire.PID_PROTOCOL_VERSION, bytes((2, 3))),
-                wire.parameter(wire.PID_VENDOR_ID, bytes((0, 0))),
-                wire.parameter(wire.PID_PARTICIPANT_GUID, self._prefix + wire.PARTICIPANT),
-                locators(wire.PID_METATRAFFIC_UNICAST_LOCATOR),
-                locators(wire.PID_DEFAULT_UNICAST_LOCATOR),
-                wire.parameter(wire.PID_LEASE_DURATION, struct.pack('<iI', _LEASE_SEC, 0)),
-                wire.parameter(wire.PID_BUILTIN_ENDPOINTS, struct.pack('<I', _OWN_ENDPOINTS)),
-                wire.sentinel(),
-            )
-        )
-        return wire.header(self._prefix) + wire.data(
-            wire.SPDP_READER, wire.SPDP_WRITER, 1, payload
-        )
-
     def _addresses(self) -> list[str]:
         addresses = ['127.0.0.1']
         if self._subnet or self._static_peers:
@@ -218,25 +136,10 @@ class Observer:
         return addresses
 
     def _offer_graph_reader(self, participant: Participant) -> None:
-        reliable = struct.pack('<IiI', 2, 0, 0)
-        transient_local = struct.pack('<I', 1)
-        payload = wire.PL_CDR_LE + b''.join(
-            (
-                wire.parameter(wire.PID_PARTICIPANT_GUID, self._prefix + wire.PARTICIPANT),
-                wire.parameter(wire.PID_ENDPOINT_GUID, self._prefix + _GRAPH_READER),
-                wire.parameter(wire.PID_TOPIC_NAME, wire.string(GRAPH_TOPIC)),
-                wire.parameter(wire.PID_TYPE_NAME, wire.string(_GRAPH_TYPE)),
-                wire.parameter(wire.PID_RELIABILITY, reliable),
-                wire.parameter(wire.PID_DURABILITY, transient_local),
-                wire.sentinel(),
-            )
-        )
-        reader, writer = wire.SUBSCRIPTIONS_READER, wire.SUBSCRIPTIONS_WRITER
         participant.graph.acknowledgements += 1
-        count = participant.graph.acknowledgements
-        message = wire.header(self._prefix) + wire.info_destination(participant.prefix)
-        message += wire.data(reader, writer, 1, payload)
-        message += wire.heartbeat(reader, writer, 1, 1, count)
+        message = announcements.graph_reader(
+            self._prefix, participant.prefix, participant.graph.acknowledgements
+        )
         self._send(message, participant.address, participant.discovery_port)
 
     def _send(self, message: bytes, address: str, port: int) -> None:
@@ -288,7 +191,7 @@ class Observer:
         }
         graph = participant.graph_writer()
         if graph is not None:
-            readers[graph[12:]] = _GRAPH_READER
+            readers[graph[12:]] = announcements.GRAPH_READER
         if message.writer_id in readers:
             self._acknowledge(participant, readers[message.writer_id], message.writer_id)
 
@@ -323,7 +226,7 @@ class Observer:
         elif message.payload and not message.disposed:
             participant.graph_sample = message.payload
 
-    def _samples(self, participant: Participant, writer_id: bytes) -> _Samples:
+    def _samples(self, participant: Participant, writer_id: bytes) -> Samples:
         if writer_id == wire.PUBLICATIONS_WRITER:
             return participant.publications
         if writer_id == wire.SUBSCRIPTIONS_WRITER:

@@ -9,13 +9,10 @@ where their code (or the parameter for it) turns service introspection on.
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 from rclpy.qos import QoSPresetProfiles
-from rosidl_runtime_py import message_to_csv, message_to_yaml
 
-from ros2cli import completion, discovery, interfaces, names
-from ros2cli.arguments import nonnegative_int
+from ros2cli import completion, discovery, interfaces, names, printing
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
 
@@ -32,53 +29,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             'service_type', nargs='?', help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"
         )
     )
-    parser.add_argument(
-        '--csv', action='store_true', help='Output all recursive fields separated by commas'
-    )
-    parser.add_argument(
-        '--full-length',
-        '-f',
-        action='store_true',
-        help='Output all elements of arrays and strings',
-    )
-    parser.add_argument(
-        '--truncate-length',
-        '-l',
-        type=nonnegative_int,
-        default=128,
-        help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
-    )
-    parser.add_argument(
-        '--no-arr', action='store_true', help="Don't print array fields of messages"
-    )
-    parser.add_argument(
-        '--no-str', action='store_true', help="Don't print string fields of messages"
-    )
-    parser.add_argument(
-        '--flow-style', action='store_true', help='Print collections in the block style'
-    )
+    printing.add_arguments(parser)
 
 
 def main(args: argparse.Namespace) -> None:
     name = names.expand(args.service_name)
     service_class = interfaces.service(args.service_type or _type_of(args, name))
-    options = {
-        'truncate_length': None if args.full_length else args.truncate_length,
-        'no_arr': args.no_arr,
-        'no_str': args.no_str,
-    }
-
-    def on_event(msg: Any) -> None:
-        if args.csv:
-            print(message_to_csv(msg, **options))
-        else:
-            print(message_to_yaml(msg, flow_style=args.flow_style, **options), end='---\n')
-
     with command_node(args) as node:
         node.node.create_subscription(
             service_class.Event,
             f'{name}/_service_event',
-            on_event,
+            lambda msg: printing.show(msg, args),
             QoSPresetProfiles.get_from_short_key('services_default'),
         )
         node.spin_until(lambda: False)

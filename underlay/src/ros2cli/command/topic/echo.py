@@ -10,15 +10,12 @@ import sys
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-from rosidl_runtime_py import message_to_csv, message_to_yaml
 
-from ros2cli import completion, discovery, expression, qos, topics
-from ros2cli.arguments import nonnegative_float, nonnegative_int
+from ros2cli import completion, discovery, expression, printing, qos, topics
+from ros2cli.arguments import nonnegative_float
 from ros2cli.diagnosis import silence
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
-
-_TRUNCATE_LENGTH = 128
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,38 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         )
     )
     qos.add_arguments(parser, verb='subscribe')
-    parser.add_argument(
-        '--csv',
-        action='store_true',
-        help='Output all recursive fields separated by commas (e.g. for plotting). If '
-        '--include-message-info is also passed, it is printed as a line of its own before',
-    )
+    printing.add_arguments(parser)
     parser.add_argument(
         '--field', help='Echo a selected field of a message. Use "." to select sub-fields'
-    )
-    parser.add_argument(
-        '--full-length',
-        '-f',
-        action='store_true',
-        help='Output all elements for arrays, bytes, and string with a length > '
-        "'--truncate-length', by default they are truncated after '--truncate-length' elements "
-        "with '...'",
-    )
-    parser.add_argument(
-        '--truncate-length',
-        '-l',
-        type=nonnegative_int,
-        default=_TRUNCATE_LENGTH,
-        help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
-    )
-    parser.add_argument(
-        '--no-arr', action='store_true', help="Don't print array fields of messages"
-    )
-    parser.add_argument(
-        '--no-str', action='store_true', help="Don't print string fields of messages"
-    )
-    parser.add_argument(
-        '--flow-style', action='store_true', help='Print collections in the block style'
     )
     parser.add_argument('--lost-messages', action='store_true', help='DEPRECATED: Does nothing')
     parser.add_argument(
@@ -106,7 +74,7 @@ def main(args: argparse.Namespace) -> None:
             return
         if args.include_message_info:
             print(info)
-        _print(msg, args)
+        printing.show(_field(msg, args.field) if args.field and not args.raw else msg, args)
         shown += 1
 
     with command_node(args) as node:
@@ -139,27 +107,6 @@ def _on_lost(args: argparse.Namespace) -> Callable[[Any], None] | None:
         )
 
     return report
-
-
-def _print(msg: Any, args: argparse.Namespace) -> None:
-    if args.field and not args.raw:
-        msg = _field(msg, args.field)
-    length = None if args.full_length else args.truncate_length
-    options = {'truncate_length': length, 'no_arr': args.no_arr, 'no_str': args.no_str}
-    if args.raw or not hasattr(msg, 'get_fields_and_field_types'):
-        print(_plain(msg, length), end='\n' if args.csv else '\n---\n')
-    elif args.csv:
-        print(message_to_csv(msg, **options))
-    else:
-        print(message_to_yaml(msg, flow_style=args.flow_style, **options), end='---\n')
-
-
-def _plain(value: Any, length: int | None) -> Any:
-    """Cut a field that is no message, as its array or string would be cut inside one."""
-    if length is None or not hasattr(value, '__len__') or len(value) <= length:
-        return value
-    cut = value[:length]
-    return f'{cut}...' if isinstance(value, str) else [*cut, '...']
 
 
 def _field(msg: Any, path: str) -> Any:
