@@ -77,7 +77,7 @@ if (!window.huskyPad) {
     if (stop) stop.classList.add('husky-stop');
   };
   arrange();
-  window.huskyPad = setInterval(arrange, 300);
+  window.huskyPad = setInterval(arrange, 100);
 }
 """
 

@@ -1,0 +1,214 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The live view in a real browser: what is to be seen, and that every control acts."""
+
+from collections.abc import Callable, Iterator
+import json
+from pathlib import Path
+import subprocess
+import sys
+
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from playpen_testing import chromium
+from playpen_testing.browser import Browser
+from playpen_testing.domain import free_domain_id
+from playpen_testing.listener import Listener
+from playpen_testing.page import button, is_blank, number
+from playpen_testing.processes import Processes
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
+import pytest
+from rosgraph_msgs.msg import Clock
+
+ROOT = Path(__file__).resolve().parent.parent
+PICTURES = ROOT / 'docs' / 'images'
+COMMANDS = 'husky_velocity_controller/cmd_vel'
+PHONE = (390, 844)
+
+OpenPage = Callable[..., Browser]
+
+
+@pytest.fixture(scope='module')
+def open_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenPage]:
+    """Open an address in a browser of its own."""
+    program = chromium.find_or_install()
+    browsers: list[Browser] = []
+
+    def start(url: str, width: int = 1000, height: int = 700, *, seldom: bool = True) -> Browser:
+        profile = tmp_path_factory.mktemp('profile')
+        browser = Browser(program, profile, width=width, height=height)
+        browsers.append(browser)
+        if seldom:
+            browser.draw_seldom()
+        browser.visit(url)
+        browser.wait_for(number('time'), what='the panel of the view')
+        browser.wait_for("document.querySelector('.husky-stop')", what='the pad in its place')
+        return browser
+
+    yield start
+    for browser in browsers:
+        browser.close()
+
+
+class Lab:
+    """A simulator, its view, and somebody who listens; as processes, as anybody runs them."""
+
+    def __init__(
+        self, processes: Processes, nodes: SpunNodes, environment: dict[str, str]
+    ) -> None:
+        processes.start('ros2', 'run', 'husky_sim', 'husky_sim', environment=environment)
+        self.view = processes.start(
+            *('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
+            environment=environment,
+        )
+        topics = {'/clock': Clock, COMMANDS: Twist, 'ground_truth/odom': Odometry}
+        self.listener = nodes.start(Listener, topics)
+        self.listener.latest('ground_truth/odom')
+        self.view.wait_for_text('look at http://')
+        self.address = self.view.output.split('look at ')[1].split()[0]
+
+    @property
+    def time_sec(self) -> float:
+        clock = self.listener.heard['/clock'][-1].clock
+        return float(clock.sec + clock.nanosec * 1e-9)
+
+    @property
+    def truth(self) -> Odometry:
+        return self.listener.heard['ground_truth/odom'][-1]
+
+    @property
+    def speed_m_s(self) -> float:
+        return float(self.truth.twist.twist.linear.x)
+
+    def moves(self) -> bool:
+        return self.speed_m_s > 0.2
+
+    def stands(self) -> bool:
+        return abs(self.speed_m_s) < 0.01
+
+
+@pytest.fixture(scope='module')
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    number = free_domain_id()
+    environment = {
+        'ROS_DOMAIN_ID': str(number),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'ROS_LOG_DIR': str(tmp_path_factory.mktemp('ros_log')),
+        'PYTHONUNBUFFERED': '1',
+    }
+    with Processes() as processes, SpunNodes(number) as nodes:
+        yield Lab(processes, nodes, environment)
+
+
+@pytest.fixture(scope='module')
+def page(lab: Lab, open_page: OpenPage) -> Browser:
+    return open_page(lab.address)
+
+
+@pytest.mark.timeout(120)
+def test_the_page_shows_the_playpen_and_the_time_without_an_error(
+    lab: Lab, open_page: OpenPage, tmp_path: Path
+) -> None:
+    page = open_page(lab.address, seldom=False)
+    wait_until(
+        lambda: not is_blank(page.screenshot(tmp_path / 'page.png')),
+        timeout_sec=30.0,
+        what='a scene with obstacles on the page',
+    )
+    shown = page.run(number('time'))
+    page.wait_for(f'{number("time")} !== {json.dumps(shown)}', what='time that goes on')
+    assert page.run("document.body.innerText.includes('true trail')"), 'there is no legend'
+    assert page.errors == []
+    page.close()
+
+
+@pytest.mark.timeout(120)
+def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Browser) -> None:
+    page.click(button('Pause'))
+    page.wait_for(button('Resume'), what='a page that knows of the pause')
+    paused_sec = lab.time_sec
+    page.click(button('Step'))
+    wait_until(
+        lambda: abs(lab.time_sec - paused_sec - 0.02) < 1e-6,
+        timeout_sec=15.0,
+        what=lambda: f'one period after {paused_sec}; it is {lab.time_sec}',
+    )
+    page.click(button('Resume'))
+    wait_until(lambda: lab.time_sec > paused_sec + 0.2, timeout_sec=15.0, what='time that goes on')
+    page.click(button('Reset'))
+    wait_until(lambda: lab.time_sec < paused_sec, timeout_sec=15.0, what='a new beginning')
+    page.click(button('5×'))
+    page.wait_for(f'parseFloat({number("factor")}) > 1.5', what='more than real time')
+    page.click(button('1×'))
+    page.wait_for(f'parseFloat({number("factor")}) < 1.2', what='real time')
+
+
+@pytest.mark.timeout(120)
+def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Browser) -> None:
+    page.key('keyDown', 'ArrowUp')
+    wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
+    page.key('keyUp', 'ArrowUp')
+    wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
+    count = len(lab.listener.heard[COMMANDS])
+    assert lab.listener.heard[COMMANDS][-1].linear.x == 0.0
+    later_sec = lab.time_sec + 0.5
+    wait_until(lambda: lab.time_sec > later_sec, timeout_sec=15.0, what='half a second')
+    assert len(lab.listener.heard[COMMANDS]) == count, 'nobody drives, yet commands go out'
+
+
+@pytest.mark.timeout(120)
+def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Browser) -> None:
+    page.mouse('mousePressed', *page.middle_of(button('◀')))
+    wait_until(
+        lambda: lab.truth.twist.twist.angular.z > 0.3, timeout_sec=10.0, what='a turn to the left'
+    )
+    page.mouse('mouseReleased', *page.middle_of(button('◀')))
+    page.click(button('STOP'))
+    page.wait_for(button('Release the stop'))
+    wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
+
+    def push() -> bool:
+        lab.listener.command(0.5)
+        return lab.moves()
+
+    later_sec = lab.time_sec + 0.5
+    wait_until(lambda: push() or lab.time_sec > later_sec, timeout_sec=15.0, what='half a second')
+    assert lab.stands(), 'a stopped robot was driven'
+    page.click(button('Release the stop'))
+    page.wait_for(button('STOP'))
+    wait_until(push, timeout_sec=10.0, what='a robot that can be driven again')
+
+
+@pytest.mark.timeout(120)
+def test_a_page_that_is_closed_while_a_key_is_held_stops_the_robot(
+    lab: Lab, open_page: OpenPage
+) -> None:
+    page = open_page(lab.address)
+    page.key('keyDown', 'ArrowUp')
+    wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
+    page.close()
+    wait_until(lab.stands, timeout_sec=3.0, what='a robot that stands')
+
+
+@pytest.mark.timeout(120)
+def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab, open_page: OpenPage) -> None:
+    page = open_page(lab.address, *PHONE)
+    x, y = page.middle_of(button('STOP'))
+    assert 0 < x < PHONE[0]
+    assert 0 < y < PHONE[1]
+    page.click_at(x, y)
+    page.wait_for(button('Release the stop'))
+    page.click(button('Release the stop'))
+    page.wait_for(button('STOP'))
+    assert page.errors == []
+
+
+def test_a_simulator_without_a_viewer_loads_none_of_its_code() -> None:
+    script = (
+        'import sys, husky_sim.node; '
+        "print([m for m in sys.modules if m.split('.')[0] in ('viser', 'mjviser', 'trimesh')"
+        " or m.startswith('husky_sim.view')])"
+    )
+    done = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True)
+    assert done.stdout.strip() == '[]', done.stdout + done.stderr
