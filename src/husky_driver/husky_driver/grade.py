@@ -41,6 +41,9 @@ def _parser() -> argparse.ArgumentParser:
         '--controller', metavar='COMMAND', help='grade a node of yours: "ros2 run my_pkg my_node"'
     )
     parser.add_argument(
+        '--lab', metavar='FOLDER', help='grade a whole workspace, step by step of the lab sheet'
+    )
+    parser.add_argument(
         '--answers', metavar='A,B,..', default='', help='what is typed into a controller that asks'
     )
     parser.add_argument(
@@ -68,8 +71,8 @@ def _parser() -> argparse.ArgumentParser:
 def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(args)
-    if sum(map(bool, (options.files, options.record, options.controller))) != 1:
-        parser.error('give waypoint files, or --record FILE, or --controller COMMAND')
+    if sum(map(bool, (options.files, options.record, options.controller, options.lab))) != 1:
+        parser.error('give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER')
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if options.jobs < 0:
@@ -79,6 +82,8 @@ def main(args: Sequence[str] | None = None) -> int:
             return _grade_record(options)
         if options.controller:
             return _grade_controller(options)
+        if options.lab:
+            return _grade_lab(options)
         if len(options.files) == 1:
             return _grade_one(options)
         return _grade_many(options)
@@ -108,7 +113,7 @@ def _grade_controller(options: argparse.Namespace) -> int:
         course,
         folder,
         world=options.world,
-        answers=options.answers.replace(',', '\n') + '\n',
+        answers=_typed(options.answers),
         real_time_factor=options.real_time_factor,
     )
     run = read_run(live.record)
@@ -118,6 +123,32 @@ def _grade_controller(options: argparse.Namespace) -> int:
     write_report(folder, report, run, course)
     text = f'{summary(report)}\n  the run ended: {live.ending}'
     return _show_one(Graded(options.controller, as_json(report), text), options)
+
+
+def _grade_lab(options: argparse.Namespace) -> int:
+    from husky_driver.lab_grading import grade_lab
+    from husky_driver.lab_grading import table as lab_table
+
+    workspace = Path(options.lab)
+    if not workspace.is_dir():
+        raise ValueError(f'{workspace}: no such folder; give your workspace, with src in it')
+    steps = grade_lab(
+        workspace,
+        load_course(options.waypoints or default_course()),
+        Path(options.report),
+        answers=_typed(options.answers),
+        real_time_factor=options.real_time_factor,
+        done=lambda step: print(f'{step.name} ...', file=sys.stderr, flush=True),
+    )
+    if options.json:
+        print((Path(options.report) / 'lab.json').read_text(encoding='utf-8'), end='')
+    else:
+        print(lab_table(steps))
+    return PASSED if all(step.passed for step in steps) else NOT_PASSED
+
+
+def _typed(answers: str) -> str:
+    return answers.replace(',', '\n') + '\n'
 
 
 def _grade_one(options: argparse.Namespace) -> int:

@@ -8,25 +8,21 @@ What is judged is the simulator's record, in simulated time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-import contextlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 import os
 from pathlib import Path
-import random
 import shlex
 import signal
-import socket
-import subprocess
 import sys
 import time
-from types import TracebackType
-from typing import Any, IO
+from typing import Any
 
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 
 from husky_driver.executor import make_executor
+from husky_driver.processes import free_domain, Process, tail_of
 from husky_driver.referee import Referee, START_WITHIN_SEC
 from husky_driver.run_record import load_record
 from husky_driver.watcher import Watcher
@@ -34,11 +30,10 @@ from husky_driver.waypoints import Course
 
 SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first message
 SILENCE_SEC = 10.0  # wall time: a simulator that says nothing for so long has died
-END_WITHIN_SEC = 5.0
 DISCOVERY_SEC = 6.0  # wall time: so long nodes may need to find each other
 HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
+RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 LOOK_SEC = 0.5  # between two looks at the graph
-DOMAINS = range(60, 100)
 
 
 class LiveRunFailed(ValueError):
@@ -54,55 +49,6 @@ class LiveRun:
     notes: list[str] = field(default_factory=list)
 
 
-class Process:
-    """A child with a process group of its own that is ended with everything it started."""
-
-    def __init__(
-        self, command: Sequence[str], environment: Mapping[str, str], log: IO[str], answers: str
-    ) -> None:
-        self._child = subprocess.Popen(
-            command,
-            env=environment,
-            stdin=subprocess.PIPE,
-            stdout=log,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-            text=True,
-        )
-        if self._child.stdin is not None:
-            with contextlib.suppress(BrokenPipeError):  # it does not listen; that is its business
-                self._child.stdin.write(answers)
-                self._child.stdin.close()
-
-    @property
-    def exit_code(self) -> int | None:
-        return self._child.poll()
-
-    def __enter__(self) -> Process:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.end()
-
-    def end(self) -> None:
-        """End the whole group: kindly, firmly, then at once."""
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            try:
-                os.killpg(self._child.pid, number)
-            except ProcessLookupError:
-                break
-            try:
-                self._child.wait(END_WITHIN_SEC if number != signal.SIGTERM else 1.0)
-            except subprocess.TimeoutExpired:
-                continue
-        self._child.wait()
-
-
 def drive_live(
     command: str,
     course: Course,
@@ -111,17 +57,19 @@ def drive_live(
     world: str = '',
     answers: str = '',
     real_time_factor: float = 1.0,
+    environment: Mapping[str, str] | None = None,
 ) -> LiveRun:
     """
     Run the simulator and the command until the run is over.
 
     :param answers: what is typed into the controller, for one that asks.
+    :param environment: of the controller; the grader's own when left out.
     :raises LiveRunFailed: when the simulator or the command cannot be started.
     """
     folder.mkdir(parents=True, exist_ok=True)
     domain = free_domain()
-    environment = dict(os.environ, ROS_DOMAIN_ID=str(domain), PYTHONUNBUFFERED='1')
-    environment.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    graph = {'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
+    graph[RANGE] = os.environ.get(RANGE, 'LOCALHOST')
     record = folder / 'record.json'
     record.unlink(missing_ok=True)
     simulator = [sys.executable, '-m', 'husky_sim.node', '--ros-args', '-p', f'record:={record}']
@@ -135,10 +83,11 @@ def drive_live(
     try:
         with (
             (folder / 'simulator.log').open('w') as log,
-            Process(simulator, environment, log, '') as running,
+            Process(simulator, {**os.environ, **graph}, log, '') as running,
         ):
             _await_simulator(watcher, executor, running, folder)
-            controller = _start(command, environment, folder, answers)
+            theirs = {**(environment or os.environ), **graph}
+            controller = _start(command, theirs, folder, answers)
             patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
             referee = Referee(course, start_within_sec=patience_sec)
             run = _watch(watcher, executor, running, controller, referee, folder)
@@ -158,7 +107,7 @@ def _await_simulator(watcher: Watcher, executor: Any, simulator: Process, folder
     while watcher.latest is None:
         executor.spin_once(timeout_sec=0.1)
         if simulator.exit_code is not None or time.monotonic() > deadline:
-            tail = _tail(folder / 'simulator.log', 1)
+            tail = tail_of(folder / 'simulator.log', 1)
             raise LiveRunFailed(f'the simulator did not start: {tail or "it says nothing"}')
 
 
@@ -199,27 +148,6 @@ def _watch(
     notes = list(watcher.hints)
     if exit_code:
         how = f'exit code {exit_code}' if exit_code > 0 else signal.Signals(-exit_code).name
-        tail = _tail(folder / 'controller.log', 1)
+        tail = tail_of(folder / 'controller.log', 1)
         notes.insert(0, f'it crashed ({how})' + (f': {tail}' if tail else ''))
     return LiveRun({}, ending, notes)
-
-
-def free_domain() -> int:
-    """Return a DDS domain nobody on this machine is in."""
-    candidates = random.Random(os.getpid() + time.monotonic_ns()).sample(DOMAINS, len(DOMAINS))
-    for domain in candidates:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(('', 7400 + 250 * domain + 10))  # OMG DDSI-RTPS 9.6.1.1, participant 0
-            except OSError:
-                continue
-            return domain
-    raise LiveRunFailed(f'no free DDS domain in {DOMAINS.start} to {DOMAINS.stop - 1}')
-
-
-def _tail(path: Path, lines: int) -> str:
-    try:
-        text = path.read_text(encoding='utf-8', errors='replace').strip()
-    except OSError:
-        return ''
-    return '\n'.join(text.splitlines()[-lines:])

@@ -90,7 +90,7 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
 @pytest.mark.parametrize(
     ('arguments', 'expected'),
     [
-        ([], 'give waypoint files, or --record FILE, or --controller COMMAND'),
+        ([], 'give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER'),
         (['--record', 'x.json'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: line 1, column 1: no such file'),
         (['{course}', '--world', 'no.xml'], 'no.xml'),
