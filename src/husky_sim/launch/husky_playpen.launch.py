@@ -30,6 +30,7 @@ def generate_launch_description() -> LaunchDescription:
         name: ParameterValue(LaunchConfiguration(name), value_type=kind)
         for name, _, kind, _ in PARAMETERS
     }
+    given['robots'] = ParameterValue(LaunchConfiguration('robots'), value_type=list[str])
     given['world'] = ParameterValue(LaunchConfiguration('world'), value_type=str)
     given['use_sim_time'] = ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
     page = {
@@ -67,6 +68,11 @@ def generate_launch_description() -> LaunchDescription:
             ),
             DeclareLaunchArgument(
                 'params_file', default_value=defaults, description='More parameters, as YAML'
+            ),
+            DeclareLaunchArgument(
+                'robots',
+                default_value="['']",
+                description="Several robots, as a list of 'NAME X Y YAW'; else one at x, y, yaw",
             ),
             *(
                 DeclareLaunchArgument(name, default_value=default, description=description)
