@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 import re
+import time
 from typing import Any
 
 from ros2cli import discovery, interfaces, names, nearest
@@ -14,6 +15,8 @@ from ros2cli.errors import CommandError
 from ros2cli.graph import Endpoint, Graph, Role
 
 _NAME = re.compile(r'/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*')
+
+_POLL_SEC = 0.2
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,8 @@ def find(
         if wait and name not in graph.topics():
             print(f'WARNING: topic [{name}] does not appear to be published yet')
             while name not in graph.topics():
-                graph = discovery.read_graph(args)
+                time.sleep(_POLL_SEC)
+                graph = discovery.read_graph(args, quiet=True)
         type_name = _only_type(graph, topic, name)
     return Topic(name, interfaces.message(type_name), graph.with_role(Role.PUBLISHER, name))
 

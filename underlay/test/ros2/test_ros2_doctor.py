@@ -188,8 +188,8 @@ def test_echo_says_why_nothing_comes(processes: Any) -> None:
     processes.node('best_effort', 'sensor')
     words = ('topic', 'echo', '/chatter', '--qos-reliability', 'reliable')
     processes.ros2(*words, ready='hint: /chatter: /sensor offers BEST_EFFORT')
-    words = ('topic', 'echo', '/quiet', 'std_msgs/msg/String')
-    processes.ros2(*words, ready='hint: /quiet: nobody publishes it')
+    quiet = ('topic', 'echo', '/quiet', 'std_msgs/msg/String')
+    processes.ros2(*quiet, ready='hint: /quiet: nobody publishes it')
 
 
 def test_pub_says_why_nobody_hears(processes: Any, ros2: Callable[..., Any]) -> None:

@@ -164,7 +164,7 @@ def main(args: argparse.Namespace) -> None:
             while True:
                 node.spin_until(lambda: False, _POLL_SEC)
                 if not args.no_discovery:
-                    recorder.subscribe_to_new_topics(discovery.read_graph())
+                    recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
         except KeyboardInterrupt:
             writer.close()
             log.info(f"Recording stopped: {writer.bag.count} messages in '{folder}'")

@@ -57,7 +57,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='Set a timeout in seconds for waiting for a message',
     )
     parser.add_argument(
-        '--include-message-info', action='store_true', help='Shows the associated message info.'
+        '--include-message-info',
+        '-i',
+        action='store_true',
+        help='Shows the associated message info.',
     )
 
 
