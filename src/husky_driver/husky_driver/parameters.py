@@ -34,6 +34,9 @@ def _declare(node: Node, name: str, default: Any, metadata: Any) -> Any:
     descriptor = ParameterDescriptor(
         description=metadata['description'], read_only=name != 'waypoints'
     )
+    # YAML takes a bare off for false, and so does everybody who types it.
+    may_be_off = 'off' in metadata.get('choice', ())
+    descriptor.dynamic_typing = may_be_off
     low, high = metadata.get('span', (0.0, 0.0))
     if isinstance(default, float):
         descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
@@ -46,4 +49,6 @@ def _declare(node: Node, name: str, default: Any, metadata: Any) -> Any:
         raise ValueError(f'parameter {name} must be {kind}, as {value!r}') from None
     except InvalidParameterValueException:
         raise ValueError(f'parameter {name}: allowed is {low:g} to {high:g}') from None
+    if may_be_off and value is False:
+        return 'off'
     return tuple(value) if isinstance(default, tuple) else value

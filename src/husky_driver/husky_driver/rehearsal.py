@@ -19,7 +19,7 @@ from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world import default_worlds
 
 from husky_driver.drive import Drive
-from husky_driver.motion import Command, Odometry, yaw_of
+from husky_driver.motion import Command, Odometry, relative, yaw_of
 from husky_driver.waypoints import Course
 from husky_sim.config import RobotStart, SimulationConfig
 
@@ -30,16 +30,21 @@ Controller = Callable[[Odometry], Command | None]
 
 
 def drive_course(
-    course: Course, *, world: str = '', start: Pose = (0.0, 0.0, 0.0)
+    course: Course,
+    *,
+    world: str = '',
+    start: Pose = (0.0, 0.0, 0.0),
+    odometry: str = 'filtered',
 ) -> tuple[dict[str, Any], Drive]:
     """
     Drive the course to its end; return the simulator's record and the drive.
 
     :param world: MJCF file; empty: the playpen.
+    :param odometry: which pose to follow: filtered, wheel or ground_truth.
     :raises ValueError: when the world or the start cannot be used.
     """
     drive = Drive(course)
-    return drive_with(drive.step, world=world, start=start), drive
+    return drive_with(drive.step, world=world, start=start, odometry=odometry), drive
 
 
 def drive_with(
@@ -47,6 +52,7 @@ def drive_with(
     *,
     world: str = '',
     start: Pose = (0.0, 0.0, 0.0),
+    odometry: str = 'filtered',
     limit_sec: float = MAX_SIM_SEC,
 ) -> dict[str, Any]:
     """Let a controller answer each odometry until it answers None; return the record."""
@@ -62,7 +68,7 @@ def drive_with(
     (robot,) = simulation.robots
     record = RunRecord(simulation)
     while simulation.time_sec < limit_sec:
-        command = controller(_heard(simulation.time_ns, robot))
+        command = controller(_heard(simulation.time_ns, robot, odometry))
         if command is None:
             break
         robot.controller.command(*command, time_sec=simulation.time_sec)
@@ -71,15 +77,25 @@ def drive_with(
     return record.as_dict()
 
 
-def _heard(time_ns: int, robot: SimulatedRobot) -> Odometry:
-    """Return what the driver hears of odometry/filtered, to the last bit of the message."""
+def _heard(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
+    """Return what the driver hears, to the last bit of the message."""
     seconds, nanoseconds = divmod(time_ns, 1_000_000_000)
-    pose = robot.filtered
+    time_sec = seconds + nanoseconds * 1e-9
+    if odometry == 'ground_truth':
+        return _truth(time_sec, robot)
+    pose = robot.filtered if odometry == 'filtered' else robot.odometry
     return Odometry(
-        seconds + nanoseconds * 1e-9,
+        time_sec,
         pose.x,
         pose.y,
         yaw_of(0.0, 0.0, math.sin(pose.yaw / 2.0), math.cos(pose.yaw / 2.0)),
         pose.speed_m_s,
         pose.yaw_rate_rad_s,
     )
+
+
+def _truth(time_sec: float, robot: SimulatedRobot) -> Odometry:
+    state, start = robot.state, robot.start
+    x, y = relative(state.position[0], state.position[1], (start.x, start.y, start.yaw))
+    yaw = math.remainder(state.yaw - start.yaw, 2.0 * math.pi)
+    return Odometry(time_sec, x, y, yaw, state.velocity[0], state.angular_velocity[2])

@@ -63,6 +63,21 @@ def test_every_course_is_driven_near_its_path_at_its_speed_without_a_touch(
     assert report.path_length_m / report.sim_time_sec >= 0.88 * course.speed_m_s
 
 
+def test_on_ground_truth_the_central_barrier_is_driven_within_three_centimetres(
+    courses: Path,
+) -> None:
+    course = load_course(courses / 'central_barrier.yaml')
+    record, _ = drive_course(course, odometry='ground_truth')
+    assert score(record, course).cross_track_rms_m <= 0.03
+
+
+def test_a_start_elsewhere_takes_the_course_along(courses: Path) -> None:
+    course = load_course(courses / 'straight.yaml')
+    for odometry in ('filtered', 'wheel', 'ground_truth'):
+        record, _ = drive_course(course, start=(-5.0, 2.0, 1.0), odometry=odometry)
+        assert score(record, course).passed
+
+
 def test_the_same_file_gives_the_same_trajectory_to_the_last_bit(
     courses: Path, tmp_path: Path
 ) -> None:
