@@ -23,21 +23,23 @@ body { margin: 0 auto; padding: 1rem; max-width: 60rem; background: var(--page);
 h1 { font-size: 1.4rem; margin: 0 0 .3rem; } h2 { font-size: 1.1rem; margin: 1.4rem 0 .4rem; }
 table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px solid var(--line);
-  vertical-align: top; } td.n { text-align: right; font-variant-numeric: tabular-nums; }
+  vertical-align: top; }
+td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .score { font-size: 2.4rem; font-weight: 700; } .bad { color: var(--bad); }
 .good { color: var(--true); } .soft, figcaption { color: var(--soft); font-size: .9rem; }
 figure { margin: .5rem 0; } svg { width: 100%; height: auto; display: block; }
-svg text { font: 12px system-ui, sans-serif; fill: var(--soft); }
+svg text { font: 14px system-ui, sans-serif; fill: var(--soft); }
 svg polyline { fill: none; stroke-width: 2; stroke-linejoin: round; }
 svg.map polyline { stroke-width: 4; } svg .grid { stroke: var(--line); }
 svg .obstacle { fill: var(--solid); } svg .waypoint { fill: var(--given); }
 svg .start { fill: var(--ink); } svg .mark { fill: var(--bad); }
-svg polyline.band { stroke: var(--given); opacity: .13; stroke-linecap: round; }
+svg polyline.band { stroke: var(--given); opacity: .22; stroke-linecap: round; }
 svg .given { stroke: var(--given); } svg .true { stroke: var(--true); }
 svg .believed { stroke: var(--believed); stroke-dasharray: 10 7; }
 .key span { margin-right: 1rem; white-space: nowrap; } .key i { display: inline-block;
   width: 1.4rem; height: .25rem; margin-right: .35rem; vertical-align: middle; }
-pre { overflow-x: auto; color: var(--soft); font-size: .8rem; }
+pre { white-space: pre-wrap; color: var(--soft); font-size: .8rem; }
+.hash { overflow-wrap: anywhere; }
 """
 
 
@@ -56,7 +58,7 @@ def page(report: Report, run: RunRecord, scene: Scene) -> str:
         f'{_reasons(report)}{_map(scene)}{_parts(report)}{_figures(report)}'
         f'{_collisions(report)}{_plots(report, run)}'
         f'<h2>How the score is made</h2><pre>{escape(FORMULA)}</pre>'
-        f'<p class="soft">trajectory SHA-256 {report.trajectory_sha256}</p></body></html>\n'
+        f'<p class="soft hash">trajectory SHA-256 {report.trajectory_sha256}</p></body></html>\n'
     )
 
 

@@ -10,8 +10,8 @@ from html import escape
 from husky_driver.path import Point
 from husky_driver.scene import corners, Scene
 
-PLOT_WIDTH, PLOT_HEIGHT = 720, 200
-LEFT, RIGHT, TOP, BOTTOM = 48, 8, 10, 26
+PLOT_WIDTH, PLOT_HEIGHT = 480, 170
+LEFT, RIGHT, TOP, BOTTOM = 48, 12, 10, 28
 
 Series = tuple[str, Sequence[float]]  # CSS class and values
 
@@ -72,10 +72,11 @@ def plot_svg(times: Sequence[float], series: Sequence[Series], unit: str) -> str
         f'<line class="grid" x1="{LEFT}" x2="{PLOT_WIDTH - RIGHT}" y1="{y(v):.1f}" '
         f'y2="{y(v):.1f}"/><text x="{LEFT - 6}" y="{y(v) + 4:.1f}" text-anchor="end">'
         f'{v:.2f}</text>'
-        for v in dict.fromkeys((low, 0.0, (top + low) / 2, top))
+        for v in _ticks(low, top)
     ]
     parts += [
-        f'<text x="{x(begin + span * k / 4):.1f}" y="{PLOT_HEIGHT - 8}" text-anchor="middle">'
+        f'<text x="{x(begin + span * k / 4):.1f}" y="{PLOT_HEIGHT - 8}" '
+        f'text-anchor="{"end" if k == 4 else "middle"}">'
         f'{begin + span * k / 4:.1f}</text>'
         for k in range(5)
     ]
@@ -86,3 +87,12 @@ def plot_svg(times: Sequence[float], series: Sequence[Series], unit: str) -> str
         f'<svg class="plot" viewBox="0 0 {PLOT_WIDTH} {PLOT_HEIGHT}" role="img" '
         f'aria-label="{escape(unit)} over time">{"".join(parts)}</svg>'
     )
+
+
+def _ticks(low: float, top: float) -> list[float]:
+    """Return values to label: zero and both ends, unless they would overlap, and the middle."""
+    ticks: list[float] = []
+    for value in (0.0, top, low, (top + low) / 2):
+        if all(abs(value - other) > 0.12 * (top - low) for other in ticks):
+            ticks.append(value)
+    return ticks
