@@ -4,7 +4,6 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-import subprocess
 import sys
 
 import pytest
@@ -16,13 +15,6 @@ from playpen_testing.processes import Processes  # noqa: E402
 from playpen_testing.spinning import SpunNodes  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
-
-
-@pytest.fixture(scope='session', autouse=True)
-def shared_memory_of_killed_processes() -> Iterator[None]:
-    """Remove what the processes that tests kill hard leave in /dev/shm."""
-    yield
-    subprocess.run(['fastdds', 'shm', 'clean'], check=True, capture_output=True)
 
 
 @pytest.fixture

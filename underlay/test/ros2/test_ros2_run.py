@@ -49,7 +49,7 @@ def test_a_signal_reaches_the_program_and_nothing_is_left(
         waits=f'#!{sys.executable}\n'
         'import os, signal, sys\n'
         'for n in (signal.SIGINT, signal.SIGTERM):\n'
-        '    signal.signal(n, lambda n, _: (print("got", n, flush=True), sys.exit(n + 20)))\n'
+        '    signal.signal(n, lambda n, _: sys.exit(n + 20))\n'
         'print(os.getpid(), flush=True)\n'
         'signal.pause()\n',
     )
@@ -61,8 +61,7 @@ def test_a_signal_reaches_the_program_and_nothing_is_left(
     assert process.stdout is not None
     assert int(process.stdout.readline()) == process.pid, 'the program is another process'
     process.send_signal(number)
-    out, _ = process.communicate(timeout=5)
-    assert out == f'got {int(number)}\n'
+    process.communicate(timeout=5)
     assert process.returncode == int(number) + 20
 
 
