@@ -24,7 +24,7 @@ def test_packages_of_every_prefix_are_listed(
     assert lines == sorted(lines)
     assert ros2('pkg', 'prefix', 'demo').out == f'{prefix}\n'
     assert ros2('pkg', 'prefix', '--share', 'demo').out == f'{prefix}/share/demo\n'
-    assert ros2('pkg', 'executables', 'demo').lines == ['show']
+    assert ros2('pkg', 'executables', 'demo').lines == ['demo show']
     assert 'demo show' in ros2('pkg', 'executables').lines
     assert ros2('pkg', 'executables', '--full-path', 'demo').lines == [f'{prefix}/lib/demo/show']
 

@@ -157,7 +157,7 @@ def test_it_is_a_package_of_the_ament_prefix() -> None:
         ).stdout
 
     assert 'rqt_graph' in ros2('list').split()
-    assert ros2('executables', 'rqt_graph').split()[-1] == 'rqt_graph'
+    assert ros2('executables', 'rqt_graph') == 'rqt_graph rqt_graph\n'
     assert Path(ros2('prefix', 'rqt_graph').strip(), 'lib/rqt_graph/rqt_graph').exists()
     assert ros2('xml', 'rqt_graph', '-t', 'license').split()[-1] == 'Apache-2.0'
 

@@ -24,7 +24,5 @@ def main(args: argparse.Namespace) -> None:
         for path in packages.executables(package):
             if args.full_path:
                 print(path)
-            elif args.package_name:
-                print(path.name)
             else:
                 print(f'{package} {path.name}')
