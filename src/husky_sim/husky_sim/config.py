@@ -44,6 +44,20 @@ class DriveConfig:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SensorConfig:
+    """Which sensors measure, how often, and how well."""
+
+    noise: bool = setting(False, "Noise and drift of the original's sensors.")
+    seed: int = setting(0, 'Seed of the noise; the same seed gives the same run.')
+    localization: bool = setting(
+        True, 'Publish odometry/filtered; false where robot_localization does.'
+    )
+    navsat_rate_hz: float = setting(40.0, 'Rate of navsat/fix; 0: off.', 0.0, 50.0)
+    lidar_rate_hz: float = setting(0.0, 'Rate of front/scan; 0: off.', 0.0, 50.0)
+    camera_rate_hz: float = setting(0.0, 'Rate of camera/image_raw; 0: off.', 0.0, 50.0)
+
+
+@dataclass(frozen=True, kw_only=True)
 class RobotStart:
     """A robot's name and where it starts: metres and radians in the frame `world`."""
 
@@ -74,3 +88,4 @@ class SimulationConfig:
     world: str
     robots: tuple[RobotStart, ...] = (RobotStart(),)
     drive: DriveConfig = field(default_factory=DriveConfig)
+    sensors: SensorConfig = field(default_factory=SensorConfig)

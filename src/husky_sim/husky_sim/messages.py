@@ -18,11 +18,16 @@ from sensor_msgs.msg import Imu, JointState
 from husky_sim.contacts import Touch
 from husky_sim.diff_drive import VelocityController, WheelOdometry
 from husky_sim.husky import JOINTS, Quaternion, Vector
-from husky_sim.localization import FusedOdometry
+from husky_sim.imu import VARIANCE as IMU_VARIANCE
+from husky_sim.localization import PlanarFilter
 from husky_sim.simulation import SimulatedRobot
 
 # Diagonals of the velocity controller (husky_control, control.yaml).
 ODOMETRY_VARIANCES = (0.001, 0.001, 0.001, 0.001, 0.001, 0.03)
+
+
+# Where x, y and yaw stand in the 6 x 6 covariances of a message.
+_PLANE = [0, 1, 5, 6, 7, 11, 30, 31, 35]
 
 
 def new_odometry(frame_id: str, variances: tuple[float, ...]) -> Odometry:
@@ -37,9 +42,15 @@ def new_odometry(frame_id: str, variances: tuple[float, ...]) -> Odometry:
 
 
 def new_imu() -> Imu:
-    """Make an IMU message; its variances are filled in where noise is switched on."""
+    """Make an IMU message with the variances of its noise, whether that is on or not."""
     message = Imu()
     message.header.frame_id = 'base_link'
+    for covariance in (
+        message.orientation_covariance,
+        message.angular_velocity_covariance,
+        message.linear_acceleration_covariance,
+    ):
+        covariance[::4] = IMU_VARIANCE
     return message
 
 
@@ -50,7 +61,7 @@ def new_joint_state() -> JointState:
     return message
 
 
-def fill_planar(message: Odometry, estimate: WheelOdometry | FusedOdometry) -> None:
+def fill_planar(message: Odometry, estimate: WheelOdometry | PlanarFilter) -> None:
     """Fill in an estimate that lives in the plane."""
     message.pose.pose.position.x = estimate.x
     message.pose.pose.position.y = estimate.y
@@ -58,6 +69,14 @@ def fill_planar(message: Odometry, estimate: WheelOdometry | FusedOdometry) -> N
     message.pose.pose.orientation.w = math.cos(estimate.yaw / 2.0)
     message.twist.twist.linear.x = estimate.speed_m_s
     message.twist.twist.angular.z = estimate.yaw_rate_rad_s
+
+
+def fill_covariance(message: Odometry, estimate: PlanarFilter) -> None:
+    """Fill in how sure the filter is: of x, y, yaw, and of their speeds in base_link."""
+    pose, twist = message.pose.covariance, message.twist.covariance
+    covariance = estimate.covariance
+    pose[_PLANE] = covariance[:3, :3].ravel()
+    twist[_PLANE] = covariance[3:6, 3:6].ravel()
 
 
 def fill_truth(message: Odometry, robot: SimulatedRobot) -> None:
@@ -71,9 +90,9 @@ def fill_truth(message: Odometry, robot: SimulatedRobot) -> None:
 
 def fill_imu(message: Imu, robot: SimulatedRobot) -> None:
     """Fill in what the IMU measures."""
-    _set_quaternion(message.orientation, robot.state.orientation)
-    _set_xyz(message.angular_velocity, robot.state.angular_velocity)
-    _set_xyz(message.linear_acceleration, robot.acceleration_m_s2)
+    _set_quaternion(message.orientation, robot.imu.orientation)
+    _set_xyz(message.angular_velocity, robot.imu.angular_velocity)
+    _set_xyz(message.linear_acceleration, robot.imu.acceleration)
 
 
 def fill_joint_state(message: JointState, robot: SimulatedRobot) -> None:

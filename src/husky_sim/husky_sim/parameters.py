@@ -11,11 +11,17 @@ from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, Paramete
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 
-from husky_sim.config import DriveConfig, RobotStart, RunConfig, SimulationConfig
+from husky_sim.config import (
+    DriveConfig,
+    RobotStart,
+    RunConfig,
+    SensorConfig,
+    SimulationConfig,
+)
 from husky_sim.errors import SettingError
 from husky_sim.world import default_worlds
 
-Config = TypeVar('Config', DriveConfig, RunConfig, RobotStart)
+Config = TypeVar('Config', DriveConfig, RunConfig, RobotStart, SensorConfig)
 
 CHANGEABLE = 'real_time_factor'
 """The one setting that may change while the simulation runs."""
@@ -48,12 +54,13 @@ def read_simulation(node: Node, world: str) -> SimulationConfig:
     """
     start = _read(node, RobotStart)
     drive = _read(node, DriveConfig)
+    sensors = _read(node, SensorConfig)
     descriptor = ParameterDescriptor(
         description=_ROBOTS, read_only=True, type=ParameterType.PARAMETER_STRING_ARRAY
     )
     lines = node.declare_parameter('robots', [''], descriptor).value
     robots = tuple(_robot(line) for line in lines if line.strip())
-    return SimulationConfig(world=world, robots=robots or (start,), drive=drive)
+    return SimulationConfig(world=world, robots=robots or (start,), drive=drive, sensors=sensors)
 
 
 def read_factor(given: Any) -> float:
@@ -111,7 +118,8 @@ def _checked(name: str, given: Any, default: Any, low: float, high: float) -> An
         if number and low <= given <= high:
             return float(given)
         raise SettingError(f'{name}={given!r}: a number from {low:g} to {high:g} is allowed')
-    if isinstance(given, type(default)):
+    if type(given) is type(default):
         return given
-    kind = 'true or false' if isinstance(default, bool) else 'a text'
+    kinds = {bool: 'true or false', int: 'a whole number', str: 'a text'}
+    kind = kinds[type(default)]
     raise SettingError(f'{name}={given!r}: {kind} is allowed')

@@ -92,6 +92,7 @@ class RobotTopics:
         """Publish what a driver steers by: first of all, so that it works while we go on."""
         self._filtered.header.stamp = stamp
         messages.fill_planar(self._filtered, self.robot.filtered)
+        messages.fill_covariance(self._filtered, self.robot.filtered)
         self.filtered_publisher.publish(self._filtered)
 
     def publish_rest(self, stamp: Time) -> None:

@@ -12,8 +12,9 @@ import mujoco
 from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
 from husky_sim.contacts import Touch, TouchDetector
 from husky_sim.diff_drive import VelocityController, WheelOdometry
-from husky_sim.husky import Husky, Vector
-from husky_sim.localization import FusedOdometry
+from husky_sim.husky import Husky
+from husky_sim.imu import Imu, new_noise
+from husky_sim.localization import PlanarFilter
 from husky_sim.world import load_world, World
 
 PERIOD_NS = round(CONTROL_PERIOD_SEC * 1e9)
@@ -23,24 +24,31 @@ class SimulatedRobot:
     """A Husky with its controller and its estimates, as of the end of the last control period."""
 
     def __init__(
-        self, start: RobotStart, world: World, data: mujoco.MjData, config: SimulationConfig
+        self,
+        start: RobotStart,
+        world: World,
+        data: mujoco.MjData,
+        config: SimulationConfig,
+        *,
+        seed: list[int],
     ) -> None:
         self.name = start.name
         self.start = start
         self.husky = Husky(start.name, world.model, data)
         self.controller = VelocityController(config.drive)
         self.odometry = WheelOdometry(config.drive)
-        self.filtered = FusedOdometry()
+        self.filtered = PlanarFilter(CONTROL_PERIOD_SEC)
+        self._imu = Imu(self.husky, new_noise(seed) if config.sensors.noise else None)
         self.reset()
 
     def reset(self) -> None:
         """Forget the run; the physics must have been reset before."""
         self.controller.reset()
         self.odometry.reset()
-        self.filtered.reset()
+        self._imu.reset()
         self.timeout_bites = False
-        self._world_velocity: Vector = (0.0, 0.0, 0.0)
-        self.observe()
+        self._measure()
+        self.filtered.reset(self.imu.yaw)
 
     def act(self, time_sec: float) -> None:
         """Turn the last command into wheel speeds for the coming period."""
@@ -51,22 +59,20 @@ class SimulatedRobot:
 
     def observe(self) -> None:
         """Read the physics at the end of a period, and update the estimates."""
-        husky = self.husky
-        self.state = husky.state()
-        self.wheels = husky.wheels()
-        velocity = husky.world_velocity()
-        self.acceleration_m_s2 = husky.specific_force(
-            self._world_velocity, velocity, CONTROL_PERIOD_SEC
+        self._measure()
+        self.filtered.update(
+            wheel_speed_m_s=self.odometry.speed_m_s,
+            wheel_yaw_rate_rad_s=self.odometry.yaw_rate_rad_s,
+            imu_yaw=self.imu.yaw,
+            imu_yaw_rate_rad_s=self.imu.angular_velocity[2],
         )
-        self._world_velocity = velocity
+
+    def _measure(self) -> None:
+        self.state = self.husky.state()
+        self.wheels = self.husky.wheels()
+        self.imu = self._imu.measure(self.state, CONTROL_PERIOD_SEC)
         self.odometry.update(
             self.wheels.left_rad, self.wheels.right_rad, period_sec=CONTROL_PERIOD_SEC
-        )
-        self.filtered.update(
-            distance_m=self.odometry.distance_m,
-            speed_m_s=self.odometry.speed_m_s,
-            imu_yaw=self.state.yaw,
-            imu_yaw_rate_rad_s=self.state.angular_velocity[2],
         )
 
 
@@ -87,7 +93,10 @@ class Simulation:
         self.periods = 0
         self._detector = TouchDetector(self.world, self.data)
         self.robots = [
-            SimulatedRobot(start, self.world, self.data, config) for start in config.robots
+            SimulatedRobot(
+                start, self.world, self.data, config, seed=[config.sensors.seed, number]
+            )
+            for number, start in enumerate(config.robots)
         ]
 
     @property

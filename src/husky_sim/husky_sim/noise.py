@@ -1,0 +1,43 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Noise of sensors: white noise and a slow drift, from a seed.
+
+The drift is a Gauss-Markov process, as that of the Gazebo plugins which the original uses: it
+keeps its deviation, and forgets its value within an hour.
+"""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+_DRIFT_FREQUENCY_HZ = 1.0 / 3600.0
+
+
+class Noise:
+    """
+    Independent noise on some values.
+
+    :param deviation: of the white noise, and of the drift.
+    :param seed: numbers that together make this noise differ from every other.
+    """
+
+    def __init__(self, values: int, *, deviation: float, drift: float, seed: list[int]) -> None:
+        self._values = values
+        self._deviation = deviation
+        self._drift_deviation = drift
+        self._seed = seed
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin the same sequence again."""
+        self._random = np.random.Generator(np.random.PCG64(self._seed))
+        self._drift = self._drift_deviation * self._random.standard_normal(self._values)
+
+    def sample(self, period_sec: float) -> npt.NDArray[np.float64]:
+        """Return the errors of a sample, a period after the one before."""
+        kept = math.exp(-period_sec * _DRIFT_FREQUENCY_HZ)
+        fresh = self._drift_deviation * math.sqrt(1.0 - kept * kept)
+        self._drift = kept * self._drift + fresh * self._random.standard_normal(self._values)
+        return self._drift + self._deviation * self._random.standard_normal(self._values)
