@@ -17,9 +17,9 @@ from husky_driver.scene import corners, Scene
 
 def draw(scene: Scene, path: Path) -> None:
     """Write the map to a file; its ending tells the format."""
-    figure = Figure(figsize=(7.0, 7.0), dpi=110, layout='tight')
+    figure = Figure(figsize=(7.0, 7.0), dpi=110)
     FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    axes = figure.add_axes((0.12, 0.08, 0.86, 0.87))
     for outline in scene.obstacles:
         axes.add_patch(Polygon(corners(outline), closed=True, color='#8a8f98', lw=0))
     for x, y in scene.waypoints:
