@@ -178,7 +178,7 @@ def test_a_peer_behind_a_network_interface_is_found(domain: int, ros2: Callable[
         assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET' in line
     finally:
         if node is not None:
-            node.terminate()
+            node.kill()
             node.communicate()
         subprocess.run([ip, 'link', 'del', f'{name}a'], capture_output=True)
         subprocess.run([ip, 'netns', 'del', name], capture_output=True)
