@@ -2,115 +2,37 @@
 # SPDX-License-Identifier: Apache-2.0
 """The live view in a real browser: what is to be seen, and that every control acts."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 import json
 from pathlib import Path
 import subprocess
 import sys
 
-from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
-from playpen_testing import chromium
 from playpen_testing.browser import Browser
-from playpen_testing.domain import free_domain_id
-from playpen_testing.listener import Listener
 from playpen_testing.page import button, is_blank, number
-from playpen_testing.processes import Processes
-from playpen_testing.spinning import SpunNodes
+from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
-from rosgraph_msgs.msg import Clock
 
-ROOT = Path(__file__).resolve().parent.parent
-PICTURES = ROOT / 'docs' / 'images'
-COMMANDS = 'husky_velocity_controller/cmd_vel'
 PHONE = (390, 844)
-
-OpenPage = Callable[..., Browser]
-
-
-@pytest.fixture(scope='module')
-def open_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[OpenPage]:
-    """Open an address in a browser of its own."""
-    program = chromium.find_or_install()
-    browsers: list[Browser] = []
-
-    def start(url: str, width: int = 1000, height: int = 700, *, seldom: bool = True) -> Browser:
-        profile = tmp_path_factory.mktemp('profile')
-        browser = Browser(program, profile, width=width, height=height)
-        browsers.append(browser)
-        if seldom:
-            browser.draw_seldom()
-        browser.visit(url)
-        browser.wait_for(number('time'), what='the panel of the view')
-        browser.wait_for("document.querySelector('.husky-stop')", what='the pad in its place')
-        return browser
-
-    yield start
-    for browser in browsers:
-        browser.close()
-
-
-class Lab:
-    """A simulator, its view, and somebody who listens; as processes, as anybody runs them."""
-
-    def __init__(
-        self, processes: Processes, nodes: SpunNodes, environment: dict[str, str]
-    ) -> None:
-        processes.start('ros2', 'run', 'husky_sim', 'husky_sim', environment=environment)
-        self.view = processes.start(
-            *('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
-            environment=environment,
-        )
-        topics = {'/clock': Clock, COMMANDS: Twist, 'ground_truth/odom': Odometry}
-        self.listener = nodes.start(Listener, topics)
-        self.listener.latest('ground_truth/odom')
-        self.view.wait_for_text('look at http://')
-        self.address = self.view.output.split('look at ')[1].split()[0]
-
-    @property
-    def time_sec(self) -> float:
-        clock = self.listener.heard['/clock'][-1].clock
-        return float(clock.sec + clock.nanosec * 1e-9)
-
-    @property
-    def truth(self) -> Odometry:
-        return self.listener.heard['ground_truth/odom'][-1]
-
-    @property
-    def speed_m_s(self) -> float:
-        return float(self.truth.twist.twist.linear.x)
-
-    def moves(self) -> bool:
-        return self.speed_m_s > 0.2
-
-    def stands(self) -> bool:
-        return abs(self.speed_m_s) < 0.01
 
 
 @pytest.fixture(scope='module')
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    number = free_domain_id()
-    environment = {
-        'ROS_DOMAIN_ID': str(number),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'ROS_LOG_DIR': str(tmp_path_factory.mktemp('ros_log')),
-        'PYTHONUNBUFFERED': '1',
-    }
-    with Processes() as processes, SpunNodes(number) as nodes:
-        yield Lab(processes, nodes, environment)
+    with view_lab(tmp_path_factory.mktemp('view')) as started:
+        yield started
 
 
 @pytest.fixture(scope='module')
-def page(lab: Lab, open_page: OpenPage) -> Browser:
-    return open_page(lab.address)
+def page(lab: Lab) -> Browser:
+    return lab.open()
 
 
 @pytest.mark.timeout(120)
 def test_the_page_shows_the_playpen_and_the_time_without_an_error(
-    lab: Lab, open_page: OpenPage, tmp_path: Path
+    lab: Lab, tmp_path: Path
 ) -> None:
-    page = open_page(lab.address, seldom=False)
+    page = lab.open(drawn=True)
     wait_until(
         lambda: not is_blank(page.screenshot(tmp_path / 'page.png')),
         timeout_sec=30.0,
@@ -181,10 +103,8 @@ def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Br
 
 
 @pytest.mark.timeout(120)
-def test_a_page_that_is_closed_while_a_key_is_held_stops_the_robot(
-    lab: Lab, open_page: OpenPage
-) -> None:
-    page = open_page(lab.address)
+def test_a_page_that_is_closed_while_a_key_is_held_stops_the_robot(lab: Lab) -> None:
+    page = lab.open()
     page.key('keyDown', 'ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
     page.close()
@@ -192,8 +112,8 @@ def test_a_page_that_is_closed_while_a_key_is_held_stops_the_robot(
 
 
 @pytest.mark.timeout(120)
-def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab, open_page: OpenPage) -> None:
-    page = open_page(lab.address, *PHONE)
+def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab) -> None:
+    page = lab.open(*PHONE)
     x, y = page.middle_of(button('STOP'))
     assert 0 < x < PHONE[0]
     assert 0 < y < PHONE[1]

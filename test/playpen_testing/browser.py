@@ -29,6 +29,8 @@ FLAGS = (
     *('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'),
     *('--disable-extensions', '--mute-audio', '--remote-debugging-port=0'),
 )
+# What viser's own code makes Chromium say about itself, without harm.
+HARMLESS = ('Unable to preventDefault inside passive event listener',)
 START_SEC = 30.0
 ANSWER_SEC = 30.0
 
@@ -90,12 +92,14 @@ class Browser:
     def _notice(self, message: dict[str, Any]) -> None:
         """Keep what a person would see as an error in the console."""
         method, params = message['method'], message.get('params', {})
-        if method == 'Runtime.exceptionThrown':
-            self.errors.append(json.dumps(params['exceptionDetails'])[:500])
-        elif method == 'Runtime.consoleAPICalled' and params['type'] in ('error', 'assert'):
-            self.errors.append(json.dumps(params['args'])[:500])
-        elif method == 'Log.entryAdded' and params['entry']['level'] == 'error':
-            self.errors.append(json.dumps(params['entry'])[:500])
+        if (
+            method == 'Runtime.exceptionThrown'
+            or (method == 'Runtime.consoleAPICalled' and params['type'] in ('error', 'assert'))
+            or (method == 'Log.entryAdded' and params['entry']['level'] == 'error')
+        ):
+            text = json.dumps(params)[:500]
+            if not any(words in text for words in HARMLESS):
+                self.errors.append(text)
 
     def call(self, method: str, **params: Any) -> dict[str, Any]:
         """
@@ -133,18 +137,18 @@ class Browser:
             mobile=width < 600,
         )
 
-    def draw_seldom(self) -> None:
+    def draw_nothing(self) -> None:
         """
-        Let the pages to come draw four times a second only.
+        Let the pages to come do everything but draw their 3D scene.
 
         Without a graphics processor drawing takes all that the machine has, and what is tested
-        is something else.
+        may be something else.
         """
         self.call(
             'Page.addScriptToEvaluateOnNewDocument',
-            source='window.requestAnimationFrame = '
-            '(draw) => setTimeout(() => draw(performance.now()), 250);'
-            'window.cancelAnimationFrame = clearTimeout;',
+            source="for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced',"
+            " 'drawArraysInstanced', 'drawRangeElements', 'clear', 'blitFramebuffer'])"
+            ' WebGL2RenderingContext.prototype[name] = () => {};',
         )
 
     def visit(self, url: str) -> None:
@@ -203,6 +207,23 @@ class Browser:
     def click(self, element: str) -> None:
         """Click an element that a JavaScript expression gives, as a person does."""
         self.click_at(*self.middle_of(element))
+
+    def drag(self, begin: tuple[float, float], end: tuple[float, float]) -> None:
+        """Press the mouse at one place, move to another and release it there."""
+        self.call('Input.dispatchMouseEvent', type='mouseMoved', x=begin[0], y=begin[1])
+        self.mouse('mousePressed', *begin)
+        for part in (0.1, 0.4, 0.7, 1.0, 1.0):
+            x, y = (b + part * (e - b) for b, e in zip(begin, end, strict=True))
+            self.call(
+                'Input.dispatchMouseEvent', type='mouseMoved', x=x, y=y, button='left', buttons=1
+            )
+        self.mouse('mouseReleased', *end)
+
+    def type_into(self, element: str, text: str) -> None:
+        """Replace what an input holds."""
+        self.click(element)
+        self.run(f'({element}).select() || true')
+        self.call('Input.insertText', text=text)
 
     def key(self, kind: str, key: str) -> None:
         """Press or release a key: keyDown, keyUp."""

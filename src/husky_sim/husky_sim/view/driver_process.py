@@ -8,6 +8,7 @@ from pathlib import Path
 import signal
 import subprocess
 
+DRIVER = 'follow_path'
 END_SEC = 1.0
 
 
@@ -27,7 +28,7 @@ class DriverProcess:
         self.end()
         self._process = subprocess.Popen(
             [
-                *('ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', str(file)),
+                *('ros2', 'run', 'husky_driver', DRIVER, '--waypoints', str(file)),
                 *('--ros-args', '-p', 'use_sim_time:=true', '-r', f'__ns:=/{namespace}'),
             ],
             stdin=subprocess.DEVNULL,

@@ -21,7 +21,7 @@ from std_msgs.msg import Float64MultiArray
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import QOS, RATE_HZ, read_scene, Scene
 from husky_sim.view.course import is_available, waypoint_folder
-from husky_sim.view.driver_process import DriverProcess
+from husky_sim.view.driver_process import DRIVER, DriverProcess
 from husky_sim.view.editor import Editor
 from husky_sim.view.pace import Pace
 from husky_sim.view.panel import Controls, Numbers, Panel
@@ -191,14 +191,14 @@ class ViewNode(Node):
 
     def _on_drive_file(self, file: Path) -> None:
         """Drive a saved file from the start."""
-        link = self._links[self._driven]
-        if not self._driver.is_running and link.has_other_driver:
-            self._on_refused('Not driven', 'somebody else drives this robot: end that first')
-            return
-        self._driver.end()
         robot = self._picture.world.robots[self._driven].name
         parts = [self.get_namespace().strip('/'), robot if len(self._links) > 1 else '']
         namespace = '/'.join(part for part in parts if part)
+        driving = (DRIVER, f'/{namespace}') in self.get_node_names_and_namespaces()
+        if driving and not self._driver.is_running:
+            self._on_refused('Not driven', f'{DRIVER} drives this robot already: end it first')
+            return
+        self._driver.end()
         self._simulator.reset(then=lambda: self._driver.start(file, namespace))
 
     def destroy_node(self) -> None:

@@ -25,7 +25,6 @@ class RobotLink:
     """Brings what a robot and its driver tell into the picture, and commands out."""
 
     def __init__(self, node: Node, picture: Picture, place: int, namespace: str) -> None:
-        self._node = node
         self._picture = picture
         self._place = place
         self._robot: RobotPicture = picture.robots[place]
@@ -47,11 +46,6 @@ class RobotLink:
                 (LaserScan, 'front/scan', self._on_scan, NEWEST),
             )
         ]
-
-    @property
-    def has_other_driver(self) -> bool:
-        """Tell whether somebody else publishes commands to this robot."""
-        return self._node.count_publishers(self._commands.topic_name) > 1
 
     def drive(self, speed_m_s: float, yaw_rate_rad_s: float) -> None:
         """Send a velocity command, as any teleop does."""

@@ -1,0 +1,97 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The waypoint editor in a real browser: what is clicked is saved, and driven."""
+
+from collections.abc import Iterator, Sequence
+import math
+
+from husky_driver.waypoints import load_course
+from playpen_testing.browser import Browser
+from playpen_testing.page import button, labelled_input
+from playpen_testing.view_lab import Lab, view_lab
+from playpen_testing.waiting import wait_until
+import pytest
+
+from husky_driver import check
+
+SIZE = (1000, 700)
+NAME = 'clicked'
+# In the world, which is the frame odom here: clear of every obstacle.
+Place = tuple[float, float]
+PLACES: tuple[Place, ...] = ((0.0, 0.0), (-2.0, 0.5), (-4.0, 0.0))
+
+
+@pytest.fixture(scope='module')
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    with view_lab(tmp_path_factory.mktemp('editor')) as started:
+        yield started
+
+
+@pytest.fixture(scope='module')
+def page(lab: Lab) -> Browser:
+    """Open the editor and look from above."""
+    page = lab.open(*SIZE)
+    page.click(button('Top'))
+    page.click(
+        "[...document.querySelectorAll('*')].find((e) => e.textContent.trim() === 'Waypoints')"
+    )
+    page.click(labelled_input('Edit: click on the ground'))
+    page.wait_for("document.querySelector('[data-verdict]')", what='the editor')
+    return page
+
+
+def on_screen(x: float, y: float) -> Place:
+    """Return where the preset Top shows a place of the ground."""
+    fov, extent_m, center_z_m, ground_m = math.radians(50.0), 12.0, 0.5, 0.07
+    height_m = 1.15 * extent_m / math.tan(fov / 2.0) + center_z_m - ground_m
+    pixels = SIZE[1] / 2.0 / math.tan(fov / 2.0) / height_m
+    return SIZE[0] / 2.0 + pixels * x, SIZE[1] / 2.0 - pixels * y
+
+
+def saved(lab: Lab) -> list[Place]:
+    course = load_course(lab.folder / f'{NAME}.yaml')
+    return [(point.x_m, point.y_m) for point in course.waypoints]
+
+
+def distances(ones: Sequence[Place], others: Sequence[Place]) -> float:
+    """Return the greatest distance between two lists of places."""
+    return max(math.dist(one, other) for one, other in zip(ones, others, strict=True))
+
+
+@pytest.mark.timeout(180)
+def test_what_is_clicked_and_dragged_is_saved_and_passes_the_check(
+    lab: Lab, page: Browser, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for count, place in enumerate(PLACES, start=1):
+        page.click_at(*on_screen(*place))
+        verdict = 'two waypoints' if count == 1 else f'{count} waypoints'
+        page.wait_for(
+            f'document.querySelector("[data-verdict]").textContent.includes("{verdict}")'
+        )
+    page.type_into(labelled_input('Save as'), NAME)
+    page.click(button('Save'))
+    file = lab.folder / f'{NAME}.yaml'
+    wait_until(file.is_file, timeout_sec=20.0, what=f'{file.name}')
+    assert distances(saved(lab), PLACES) < 0.12
+    page.drag(on_screen(*PLACES[2]), on_screen(-4.0, -2.0))
+    page.click(button('Save'))
+    wait_until(
+        lambda: math.dist(saved(lab)[2], (-4.0, -2.0)) < 0.25,
+        timeout_sec=20.0,
+        what=lambda: f'the third waypoint near (-4, -2): {saved(lab)}',
+    )
+    assert distances(saved(lab)[:2], PLACES[:2]) < 0.12, 'others moved as well'
+    assert check.main([str(file)]) == 0, capsys.readouterr().err
+    assert page.errors == []
+
+
+@pytest.mark.timeout(180)
+def test_what_is_saved_is_what_is_driven(lab: Lab, page: Browser) -> None:
+    page.click(button('Save and drive it'))
+    goal = saved(lab)[-1]
+
+    def arrived() -> bool:
+        place = lab.truth.pose.pose.position
+        return math.dist((place.x, place.y), goal) < 0.3
+
+    wait_until(arrived, timeout_sec=90.0, what=lambda: lab.view.output)
