@@ -1,0 +1,140 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The view as a process: its address, its end, and that it cannot hold up the physics."""
+
+import signal
+import socket
+import time
+import urllib.request
+
+from playpen_testing.listener import Listener
+from playpen_testing.processes import Processes
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
+import pytest
+from rosgraph_msgs.msg import Clock
+
+VIEW = ('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p')
+
+
+def stamp_sec(clock: Clock) -> float:
+    return float(clock.clock.sec + clock.clock.nanosec * 1e-9)
+
+
+@pytest.mark.timeout(60)
+def test_a_launch_with_viewer_serves_the_page_on_the_loopback_alone(processes: Processes) -> None:
+    launch = processes.start(
+        *('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py'),
+        *('viewer:=true', 'viewer_port:=18380'),
+    )
+    launch.wait_for_text('look at http://localhost:')
+    port = int(launch.output.split('look at http://localhost:')[1].split()[0])
+    with urllib.request.urlopen(f'http://127.0.0.1:{port}/', timeout=10.0) as page:
+        assert '<html' in page.read().decode()
+    others = [str(row[4][0]) for row in socket.getaddrinfo(socket.gethostname(), port)]
+    for host in (address for address in others if not address.startswith(('127.', '::1'))):
+        with pytest.raises(OSError, match='refused'):
+            socket.create_connection((host, port), timeout=2.0)
+    begun = time.monotonic()
+    launch.signal(signal.SIGINT)
+    assert launch.wait(timeout_sec=10.0) == 0
+    assert time.monotonic() - begun < 4.0
+    assert 'Traceback' not in launch.output
+
+
+@pytest.mark.timeout(60)
+def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_seconds(
+    processes: Processes,
+) -> None:
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    with socket.socket() as taken:
+        taken.bind(('127.0.0.1', 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        view = processes.start(*VIEW, f'viewer_port:={port}')
+        view.wait_for_text('look at http://localhost:')
+        assert f'localhost:{port}\n' not in view.output
+        assert 'viser' not in view.output, 'one line tells the address, and no other'
+        begun = time.monotonic()
+        view.signal(signal.SIGINT)
+        view.wait(timeout_sec=10.0)
+        assert time.monotonic() - begun < 2.0
+        assert 'Traceback' not in view.output
+
+
+@pytest.mark.timeout(60)
+def test_a_host_that_is_not_ours_is_refused_in_one_line(processes: Processes) -> None:
+    view = processes.start(*VIEW, 'viewer_host:=192.0.2.1')
+    assert view.wait() == 2
+    said = [line for line in view.lines if line.startswith('view: ')]
+    assert len(said) == 1
+    assert "viewer_host='192.0.2.1'" in said[0]
+    assert 'Traceback' not in view.output
+
+
+@pytest.mark.timeout(60)
+def test_a_view_without_a_simulator_says_what_it_waits_for(processes: Processes) -> None:
+    view = processes.start(*VIEW, 'viewer_port:=18480')
+    view.wait_for_text('husky_sim does not answer yet: is the simulator running?')
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    view.wait_for_text('look at http://localhost:')
+
+
+@pytest.mark.timeout(60)
+def test_a_view_that_hangs_does_not_hold_up_the_physics(
+    processes: Processes, nodes: SpunNodes
+) -> None:
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    view = processes.start(*VIEW, 'viewer_port:=18580')
+    view.wait_for_text('look at http://localhost:')
+    listener = nodes.start(Listener, {'/clock': Clock})
+    view.signal(signal.SIGSTOP)
+    try:
+        begun_sec, wall_sec = stamp_sec(listener.latest('/clock')), time.monotonic()
+        wait_until(
+            lambda: stamp_sec(listener.latest('/clock')) > begun_sec + 3.0,
+            timeout_sec=10.0,
+            what='three simulated seconds',
+        )
+        assert time.monotonic() - wall_sec == pytest.approx(3.0, abs=0.5)
+    finally:
+        view.signal(signal.SIGCONT)
+
+
+@pytest.mark.timeout(60)
+def test_ten_tabs_that_read_nothing_do_not_hold_up_the_physics(
+    processes: Processes, nodes: SpunNodes
+) -> None:
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    view = processes.start(*VIEW, 'viewer_port:=18680')
+    view.wait_for_text('look at http://localhost:')
+    port = int(view.output.split('localhost:')[1].split()[0])
+    tabs = [stalled_tab(port) for _ in range(10)]
+    try:
+        listener = nodes.start(Listener, {'/clock': Clock})
+        begun_sec, wall_sec = stamp_sec(listener.latest('/clock')), time.monotonic()
+        wait_until(
+            lambda: stamp_sec(listener.latest('/clock')) > begun_sec + 3.0,
+            timeout_sec=10.0,
+            what='three simulated seconds',
+        )
+        assert time.monotonic() - wall_sec == pytest.approx(3.0, abs=0.5)
+    finally:
+        for tab in tabs:
+            tab.close()
+
+
+def stalled_tab(port: int) -> socket.socket:
+    """Open the page's websocket, and never read from it."""
+    import viser
+
+    tab = socket.create_connection(('127.0.0.1', port))
+    tab.sendall(
+        (
+            'GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
+            'Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n'
+            f'Sec-WebSocket-Protocol: viser-v{viser.__version__}\r\n\r\n'
+        ).encode()
+    )
+    assert b'101 Switching' in tab.recv(200), 'no websocket'
+    return tab
