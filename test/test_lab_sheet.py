@@ -29,9 +29,14 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def terminals(home: Path, processes: Processes, monkeypatch: pytest.MonkeyPatch) -> 'Terminals':
+def terminals(
+    home: Path, processes: Processes, monkeypatch: pytest.MonkeyPatch
+) -> Iterator['Terminals']:
     monkeypatch.chdir(home)
-    return Terminals(processes)
+    desk = Terminals(processes)
+    yield desk
+    for terminal in desk:
+        terminal.close()
 
 
 class Terminals:

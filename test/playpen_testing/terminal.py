@@ -49,6 +49,12 @@ class Terminal:
         self._shell.signal(signal.SIGINT)
         self.wait_until_done(timeout_sec=timeout_sec)
 
+    def close(self) -> None:
+        """End what runs in it, then the shell; may be called twice."""
+        if self._shell.returncode is None:
+            self._shell.signal(signal.SIGINT)
+            self._shell.write('exit\n')
+
     def wait_until_done(self, *, timeout_sec: float) -> None:
         wait_until(
             lambda: not self.busy,
