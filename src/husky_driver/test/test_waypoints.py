@@ -11,10 +11,9 @@ from husky_driver.waypoints import Course, load_course, parse_course
 from husky_driver.yaml_tree import FileRefused, Problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
+import jsonschema
 import pytest
 import yaml
-
-jsonschema = pytest.importorskip('jsonschema')
 
 
 def problems(text: str) -> list[str]:
