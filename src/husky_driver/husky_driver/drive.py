@@ -13,6 +13,7 @@ import math
 
 from husky_driver.motion import Command, Odometry, STOP
 from husky_driver.route import lead_in, Leg, plan_route
+from husky_driver.slip import SlipCorrection, SlipModel
 from husky_driver.tracker import DriveLimits, plan_speeds, Tracker
 from husky_driver.watchdog import Watchdog
 from husky_driver.waypoints import Course, Waypoint
@@ -31,8 +32,16 @@ _TWO_PI = 2 * math.pi
 class Drive:
     """Follows a course; give it every odometry message once, in order."""
 
-    def __init__(self, course: Course, limits: DriveLimits | None = None) -> None:
+    def __init__(
+        self, course: Course, limits: DriveLimits | None = None, *, slip: SlipModel | None = None
+    ) -> None:
+        """
+        Prepare; the course begins at the first odometry.
+
+        :param slip: what this odometry misses; by default that of the simulated Husky's wheels.
+        """
         self.course = course
+        self._slip = SlipCorrection(slip or SlipModel())
         self.limits = limits or DriveLimits()
         self.finished = False
         self.failure = ''  # why it gave up, if it did
@@ -90,7 +99,10 @@ class Drive:
 
     def step(self, odometry: Odometry) -> Command | None:
         """Return the command that answers one odometry message; None when the drive is over."""
-        before, self._now = self._now, odometry
+        before = self._now
+        if before is not None and odometry.time_sec < before.time_sec:
+            self._slip.restart()  # the simulator was reset
+        odometry = self._now = self._slip.corrected(odometry)
         if (before is None or odometry.time_sec < before.time_sec) and not self.failure:
             self._begin(odometry)  # the first, or the first after the simulator was reset
         if self.finished:

@@ -77,14 +77,14 @@ def _checked(node: FollowPath, course: Course) -> Drive:
         try:
             from husky_driver.clearance import survey
         except ImportError:  # on a real robot there is no simulator that knows the obstacles
-            return Drive(course)
+            return node.new_drive(course)
         x, y, yaw = settings.start
         near = survey(course, world=settings.world, start=(x, y, yaw)).near
         for place in near:
             log.warning(f'{course.file}: {place}')
         if near and settings.check == 'refuse':
             raise ValueError(f'{course.file}: not driven, it passes too near to obstacles')
-    return Drive(course)
+    return node.new_drive(course)
 
 
 def _ask() -> Drive:

@@ -26,7 +26,8 @@ from husky_driver.lookout import blocked_at_m
 from husky_driver.motion import Odometry, relative_odometry, yaw_of
 from husky_driver.parameters import declare_settings
 from husky_driver.progress import Progress
-from husky_driver.waypoints import load_course
+from husky_driver.slip import NO_SLIP
+from husky_driver.waypoints import Course, load_course
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
@@ -55,6 +56,11 @@ class FollowPath(Node):
         self._command = Twist()
         topic = 'husky_velocity_controller/cmd_vel'
         self._commands = self.create_publisher(Twist, topic, 10)
+
+    def new_drive(self, course: Course) -> Drive:
+        """Return a drive of the course as the settings want it."""
+        slips = self.settings.slip and self.settings.odometry != 'ground_truth'
+        return Drive(course, slip=None if slips else NO_SLIP)
 
     def start(self, drive: Drive) -> None:
         """Begin to listen to odometry and to drive."""
@@ -121,7 +127,7 @@ class FollowPath(Node):
                     course = load_course(str(parameter.value))
                 except ValueError as error:
                     return SetParametersResult(successful=False, reason=str(error))
-                self._drive = Drive(course)
+                self._drive = self.new_drive(course)
                 self._display.show(self._drive)
                 self._hold()
                 self._say(f'going over to {parameter.value}')

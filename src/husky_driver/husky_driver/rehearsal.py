@@ -21,6 +21,7 @@ from husky_sim.world import default_worlds
 
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry, relative, yaw_of
+from husky_driver.slip import NO_SLIP
 from husky_driver.waypoints import Course
 from husky_sim.config import RobotStart, SimulationConfig
 
@@ -44,7 +45,7 @@ def drive_course(
     :param odometry: which pose to follow: filtered, wheel or ground_truth.
     :raises ValueError: when the world or the start cannot be used.
     """
-    drive = Drive(course)
+    drive = Drive(course, slip=NO_SLIP if odometry == 'ground_truth' else None)
     return drive_with(drive.step, world=world, start=start, odometry=odometry), drive
 
 

@@ -8,8 +8,15 @@ from typing import Any
 
 from husky_driver.drive import DistanceDrive, Drive
 from husky_driver.motion import Odometry
-from husky_driver.waypoints import load_course, parse_course
+from husky_driver.slip import NO_SLIP
+from husky_driver.waypoints import Course, load_course, parse_course
 import pytest
+
+
+def drive_of(course: Course) -> Drive:
+    """Return a drive for the plant of these tests, which does not slide."""
+    return Drive(course, slip=NO_SLIP)
+
 
 HUSKIES = [
     {},
@@ -23,7 +30,7 @@ def test_the_course_is_followed_within_two_centimetres_at_88_percent_of_the_spee
     courses: Path, drive_to_end: Callable[..., Any], make_plant: Any, husky: dict[str, float]
 ) -> None:
     course = load_course(courses / 'central_barrier.yaml')
-    run = drive_to_end(Drive(course), make_plant(**husky))
+    run = drive_to_end(drive_of(course), make_plant(**husky))
     curve, i, worst = run.drive.legs[0].curve, 0, 0.0
     for odometry in run.track:
         i, _, offset = curve.project(i, odometry.x_m, odometry.y_m)
@@ -37,7 +44,7 @@ def test_the_course_is_followed_within_two_centimetres_at_88_percent_of_the_spee
 def test_it_ends_standing_on_the_last_waypoint(
     courses: Path, drive_to_end: Callable[..., Any]
 ) -> None:
-    run = drive_to_end(Drive(load_course(courses / 'straight.yaml')))
+    run = drive_to_end(drive_of(load_course(courses / 'straight.yaml')))
     last, end = run.drive.course.stops[-1], run.track[-1]
     assert math.hypot(end.x_m - last.x_m, end.y_m - last.y_m) < 0.01
     assert end.is_standing
@@ -47,7 +54,7 @@ def test_it_ends_standing_on_the_last_waypoint(
 def test_commands_keep_the_limits_of_the_velocity_controller(
     courses: Path, drive_to_end: Callable[..., Any]
 ) -> None:
-    commands = drive_to_end(Drive(load_course(courses / 'central_barrier.yaml'))).commands
+    commands = drive_to_end(drive_of(load_course(courses / 'central_barrier.yaml'))).commands
     for before, after in pairwise(commands):
         assert abs(after.speed_m_s) <= 1.0
         assert abs(after.yaw_rate_rad_s) <= 2.0
@@ -59,7 +66,7 @@ def test_the_same_odometry_gives_the_same_commands_to_the_last_bit(
     courses: Path, drive_to_end: Callable[..., Any]
 ) -> None:
     course = load_course(courses / 'central_barrier.yaml')
-    first, second = (drive_to_end(Drive(course)).commands for _ in range(2))
+    first, second = (drive_to_end(drive_of(course)).commands for _ in range(2))
     assert first == second
 
 
@@ -67,7 +74,7 @@ def test_a_far_start_is_led_in_to_the_first_waypoint(
     drive_to_end: Callable[..., Any],
 ) -> None:
     course = parse_course('waypoints: [[2.0, 1.0], [4.0, 1.0]]')
-    run = drive_to_end(Drive(course))
+    run = drive_to_end(drive_of(course))
     assert run.drive.reached == 2
     assert min(math.hypot(o.x_m - 2.0, o.y_m - 1.0) for o in run.track) < 0.02
 
@@ -79,7 +86,7 @@ def test_speeds_yaw_dwell_and_reverse_of_waypoints_are_obeyed(
         'speed: 0.8\nwaypoints:\n  - [0, 0]\n  - {x: 3, y: 0, speed: 0.3}\n'
         '  - {x: 6, y: 0, yaw: 1.57, dwell: 2.0}\n  - {x: 6, y: -2, reverse: true}\n'
     )
-    run = drive_to_end(Drive(course))
+    run = drive_to_end(drive_of(course))
     slow = [o.speed_m_s for o in run.track if 1.0 < o.x_m < 2.8]
     assert max(slow) < 0.32
     fast = [o.speed_m_s for o in run.track if 4.0 < o.x_m < 5.0]
@@ -96,7 +103,7 @@ def test_speeds_yaw_dwell_and_reverse_of_waypoints_are_obeyed(
 
 def test_sharp_corners_are_turned_on_the_spot(drive_to_end: Callable[..., Any]) -> None:
     course = parse_course('corners: sharp\nwaypoints: [[0, 0], [2, 0], [2, 2]]')
-    run = drive_to_end(Drive(course))
+    run = drive_to_end(drive_of(course))
     for odometry in run.track:
         assert min(abs(odometry.y_m), abs(odometry.x_m - 2.0)) < 0.02
 
@@ -115,7 +122,7 @@ def test_an_asked_distance_is_driven_from_wherever_the_robot_stands(
 
 
 def test_a_robot_that_does_not_move_is_given_up_with_a_message() -> None:
-    drive = Drive(parse_course('waypoints: [[0, 0], [2, 0]]'))
+    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
     periods = 0
     while drive.step(Odometry(periods * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0)) is not None:
         periods += 1
@@ -126,7 +133,7 @@ def test_a_robot_that_does_not_move_is_given_up_with_a_message() -> None:
 def test_a_waypoint_passed_too_far_away_counts_as_missed(
     drive_to_end: Callable[..., Any], make_plant: Any
 ) -> None:
-    drive = Drive(parse_course('tolerance: 0.05\nwaypoints: [[0, 0], [2, 0], [4, 0]]'))
+    drive = drive_of(parse_course('tolerance: 0.05\nwaypoints: [[0, 0], [2, 0], [4, 0]]'))
     plant = make_plant()
     while plant.now.x_m < 1.9:
         command = drive.step(plant.now)
@@ -140,7 +147,7 @@ def test_a_waypoint_passed_too_far_away_counts_as_missed(
 def test_a_reset_of_the_simulator_begins_the_course_again(
     drive_to_end: Callable[..., Any], make_plant: Any
 ) -> None:
-    drive = Drive(parse_course('waypoints: [[0, 0], [2, 0]]'))
+    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
     plant = make_plant()
     for _ in range(100):
         command = drive.step(plant.now)
@@ -155,7 +162,7 @@ def test_a_reset_of_the_simulator_begins_the_course_again(
 def test_a_held_drive_stands_and_then_goes_on(
     drive_to_end: Callable[..., Any], make_plant: Any
 ) -> None:
-    drive = Drive(parse_course('speed: 0.8\nwaypoints: [[0, 0], [3, 0]]'))
+    drive = drive_of(parse_course('speed: 0.8\nwaypoints: [[0, 0], [3, 0]]'))
     plant = make_plant()
     for period in range(400):
         drive.held = period >= 75
@@ -175,6 +182,6 @@ def test_a_drive_that_begins_in_motion_stops_first(
     drive_to_end: Callable[..., Any], make_plant: Any
 ) -> None:
     plant = make_plant(now=Odometry(5.0, 0.0, 0.0, 0.0, 0.8, 0.3))
-    run = drive_to_end(Drive(parse_course('waypoints: [[-1, 0], [-2, 0]]')), plant)
+    run = drive_to_end(drive_of(parse_course('waypoints: [[-1, 0], [-2, 0]]')), plant)
     assert run.drive.reached == 2
     assert run.commands[0] == (0.0, 0.0)

@@ -35,8 +35,8 @@ def test_the_central_barrier_is_passed_within_the_lab_s_own_limits(
     assert report['completed']
     assert report['waypoints_reached'] == report['waypoints_total'] == 13
     assert report['collisions'] == []
-    assert report['cross_track_rms_m'] <= 0.05
-    assert report['cross_track_max_m'] <= 0.15
+    assert report['cross_track_rms_m'] <= 0.03
+    assert report['cross_track_max_m'] <= 0.08
     assert report['path_length_m'] / report['sim_time_sec'] >= 0.88 * 0.8
     assert report['score'] == pytest.approx(100.0)
     printed = capsys.readouterr().out
@@ -58,8 +58,8 @@ def test_every_course_is_driven_near_its_path_at_its_speed_without_a_touch(
     report = score(record, course)
     assert report.passed, report.reasons
     assert drive.reached == drive.total == report.waypoints_reached
-    assert report.cross_track_rms_m <= 0.08
-    assert report.cross_track_max_m <= 0.25
+    assert report.cross_track_rms_m <= 0.04
+    assert report.cross_track_max_m <= 0.15
     assert report.path_length_m / report.sim_time_sec >= 0.88 * course.speed_m_s
 
 

@@ -30,6 +30,7 @@ from std_srvs.srv import SetBool
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
+NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
 FIRST_DOMAIN = 71
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 
@@ -114,7 +115,7 @@ def follow_path(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
         environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
         environment['PYTHONPATH'] = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
         process = subprocess.Popen(
-            [sys.executable, '-m', 'husky_driver.follow_path', *map(str, arguments)],
+            [sys.executable, '-m', 'husky_driver.follow_path', *map(str, arguments), *NO_SLIP],
             env=environment,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
