@@ -26,6 +26,7 @@ from husky_driver.lookout import blocked_at_m
 from husky_driver.motion import Odometry, relative_odometry, yaw_of
 from husky_driver.parameters import declare_settings
 from husky_driver.progress import Progress
+from husky_driver.settings import ODOMETRY_TOPICS
 from husky_driver.slip import NO_SLIP
 from husky_driver.waypoints import Course, load_course
 
@@ -73,6 +74,11 @@ class FollowPath(Node):
         self._begun_sec = self._heard_sec = time.monotonic()
         topic = self.settings.odometry_topic
         self._odometry = self.create_subscription(OdometryMsg, topic, self._on_odometry, 10)
+        if self.settings.odometry != 'filtered':
+            # A simulator in lockstep waits until somebody reads this one.
+            self.create_subscription(
+                OdometryMsg, ODOMETRY_TOPICS['filtered'], lambda _: None, 10, raw=True
+            )
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(TICK_SEC, self._on_tick, clock=steady)
         self.create_service(SetBool, '~/pause', self._on_pause)

@@ -1,0 +1,22 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from husky_driver.settings import refuse_unknown, Settings
+import pytest
+
+
+def test_each_choice_has_its_topic() -> None:
+    assert Settings().odometry_topic == 'odometry/filtered'
+    assert Settings(odometry='wheel').odometry_topic == 'husky_velocity_controller/odom'
+
+
+def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:
+    with pytest.raises(ValueError, match="check: 'loudly' is not allowed; allowed: warn, refuse"):
+        Settings(check='loudly')
+    with pytest.raises(ValueError, match=r'start: 2 numbers; write \[x, y, yaw\]'):
+        Settings(start=(0.0, 1.0))
+
+
+def test_an_unknown_parameter_is_refused_with_the_nearest_right_spelling() -> None:
+    refuse_unknown(['waypoints', 'use_sim_time', 'qos_overrides./x.depth'])
+    with pytest.raises(ValueError, match='wayponts does not exist; did you mean waypoints'):
+        refuse_unknown(['wayponts'])
