@@ -9,7 +9,6 @@ odometry of the one before.
 """
 
 from dataclasses import replace
-import signal
 import sys
 import time
 from typing import Any
@@ -19,15 +18,15 @@ from rcl_interfaces.msg import SetParametersResult
 import rclpy
 from rclpy.clock import Clock as RosClock
 from rclpy.clock import ClockType
-from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.diagnostics import DiagnosticsTopic, PaceWatch
+from husky_sim.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.pacing import Pacer
 from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
@@ -35,12 +34,10 @@ from husky_sim.record import RunRecord
 from husky_sim.robot_topics import QOS, RobotTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
+from husky_sim.spinning import future_of_signal, spin
 
 REPEAT_SEC = 0.5
 """How often lockstep repeats its first odometry message, until the first command comes."""
-
-SIGNAL_LATENCY_SEC = 0.2
-"""How long a signal may go unnoticed."""
 
 _LOCKSTEP_POLL_SEC = 0.01
 _SHORTEST_TICK_SEC = 0.001
@@ -58,7 +55,7 @@ class SimulatorNode(Node):
         """
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
-        config = read_simulation(self, self._run.world)
+        config = read_simulation(self, self._run)
         self._simulation = Simulation(config)
         self._record = RunRecord(self._simulation) if self._run.record else None
         factor = self._run.real_time_factor
@@ -69,7 +66,9 @@ class SimulatorNode(Node):
         self._sent_at_sec = 0.0
         many = len(config.robots) > 1
         self._topics = [
-            RobotTopics(self, robot, f'{robot.name}/' if many else '', self._on_command)
+            RobotTopics(
+                self, self._simulation, robot, f'{robot.name}/' if many else '', self._on_command
+            )
             for robot in self._simulation.robots
         ]
         self._by_name = {topics.robot.name: topics for topics in self._topics}
@@ -81,6 +80,9 @@ class SimulatorNode(Node):
         self.create_service(Trigger, '~/step', self._on_step)
         self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+        self._diagnostics = DiagnosticsTopic(self)
+        self._watch = PaceWatch(self._simulation)
+        self.create_timer(DIAGNOSTICS_PERIOD_SEC, self._on_diagnose, clock=self._steady)
         self.add_on_set_parameters_callback(self._on_set_parameters)
         self.get_logger().info(
             f'{self._run.world}: {len(self._simulation.world.obstacles)} obstacles, '
@@ -186,6 +188,14 @@ class SimulatorNode(Node):
         for touch in self._simulation.touches:
             self._by_name[touch.robot].publish_collision(touch)
 
+    def _on_diagnose(self) -> None:
+        status = self._watch.look(
+            self._pacer,
+            self._run.real_time_factor,
+            waits=self._paused or self._run.lockstep,
+        )
+        self._diagnostics.publish(status, self._simulation.time_ns)
+
     def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
         self._simulation.reset()
         if self._record is not None:
@@ -221,6 +231,8 @@ class SimulatorNode(Node):
         record, self._record = self._record, None
         if record is not None:
             record.write(self._run.record)
+        for topics in self._topics:
+            topics.close()
         super().destroy_node()
 
 
@@ -240,33 +252,6 @@ def main(args: list[str] | None = None) -> int:
             node.destroy_node()
         rclpy.try_shutdown()
     return 0
-
-
-def future_of_signal() -> 'Future[None]':
-    """
-    Return a future that SIGINT or SIGTERM completes.
-
-    A signal lets the callback that runs finish, so that a run ends with a whole control period.
-    """
-    interrupted: Future[None] = Future()
-
-    def on_signal(*_: object) -> None:
-        if not interrupted.done():
-            interrupted.set_result(None)
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, on_signal)
-    return interrupted
-
-
-def spin(node: Node, *, until: 'Future[None]') -> None:
-    """Spin with the executor that costs least."""
-    executor = EventsExecutor()
-    executor.add_node(node)
-    # One event after the other: this executor sees signals only between two spins, and forgets
-    # the timeout of a longer one while a timer is always due.
-    while not until.done():
-        executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
 
 
 if __name__ == '__main__':

@@ -46,7 +46,7 @@ def read_run(node: Node) -> RunConfig:
     )
 
 
-def read_simulation(node: Node, world: str) -> SimulationConfig:
+def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
     """
     Declare and read what a run is a function of.
 
@@ -55,12 +55,16 @@ def read_simulation(node: Node, world: str) -> SimulationConfig:
     start = _read(node, RobotStart)
     drive = _read(node, DriveConfig)
     sensors = _read(node, SensorConfig)
+    if run.lockstep and not sensors.localization:
+        raise SettingError('lockstep=True needs odometry/filtered; set localization to true')
     descriptor = ParameterDescriptor(
         description=_ROBOTS, read_only=True, type=ParameterType.PARAMETER_STRING_ARRAY
     )
     lines = node.declare_parameter('robots', [''], descriptor).value
     robots = tuple(_robot(line) for line in lines if line.strip())
-    return SimulationConfig(world=world, robots=robots or (start,), drive=drive, sensors=sensors)
+    return SimulationConfig(
+        world=run.world, robots=robots or (start,), drive=drive, sensors=sensors
+    )
 
 
 def read_factor(given: Any) -> float:

@@ -3,6 +3,7 @@
 """The topics of one robot."""
 
 from collections.abc import Callable
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -15,7 +16,8 @@ from std_msgs.msg import Bool
 
 from husky_sim import messages
 from husky_sim.contacts import Touch
-from husky_sim.simulation import SimulatedRobot
+from husky_sim.sensor_topics import SensorTopics
+from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.transforms import TransformTopics
 
 # Reliable and volatile: a reader that is slow for a moment loses nothing.
@@ -31,7 +33,12 @@ class RobotTopics:
     """
 
     def __init__(
-        self, node: Node, robot: SimulatedRobot, namespace: str, on_command: Callable[[], None]
+        self,
+        node: Node,
+        simulation: Simulation,
+        robot: SimulatedRobot,
+        namespace: str,
+        on_command: Callable[[], None],
     ) -> None:
         self.robot = robot
         self.commanded = False
@@ -45,9 +52,11 @@ class RobotTopics:
         self._joints = messages.new_joint_state()
         self._command_out = Twist()
         controller = f'{namespace}husky_velocity_controller'
-        self.filtered_publisher = node.create_publisher(
-            Odometry, f'{namespace}odometry/filtered', QOS
-        )
+        self.filtered_publisher: Any = None
+        if simulation.config.sensors.localization:
+            self.filtered_publisher = node.create_publisher(
+                Odometry, f'{namespace}odometry/filtered', QOS
+            )
         self._wheel_publisher = node.create_publisher(Odometry, f'{controller}/odom', QOS)
         self._command_publisher = node.create_publisher(Twist, f'{controller}/cmd_vel_out', QOS)
         self._truth_publisher = node.create_publisher(
@@ -58,7 +67,10 @@ class RobotTopics:
         self._collision_publisher = node.create_publisher(
             DiagnosticStatus, f'{namespace}collisions', QOS
         )
-        self._transforms = TransformTopics(node, namespace)
+        self._sensors = SensorTopics(node, simulation, robot, namespace, QOS)
+        self._transforms = TransformTopics(
+            node, namespace, localization=self.filtered_publisher is not None
+        )
         self.command_subscription = node.create_subscription(
             Twist, f'{controller}/cmd_vel', self._on_cmd_vel, QOS
         )
@@ -91,6 +103,8 @@ class RobotTopics:
     def publish_filtered(self, stamp: Time) -> None:
         """Publish what a driver steers by: first of all, so that it works while we go on."""
         self._filtered.header.stamp = stamp
+        if self.filtered_publisher is None:
+            return
         messages.fill_planar(self._filtered, self.robot.filtered)
         messages.fill_covariance(self._filtered, self.robot.filtered)
         self.filtered_publisher.publish(self._filtered)
@@ -110,6 +124,7 @@ class RobotTopics:
         self._joint_publisher.publish(self._joints)
         messages.fill_truth(self._truth, robot)
         self._truth_publisher.publish(self._truth)
+        self._sensors.publish(stamp)
         self._transforms.publish(self._filtered, robot)
 
     def publish_collision(self, touch: Touch) -> None:
@@ -122,3 +137,7 @@ class RobotTopics:
             self.filtered_publisher.get_subscription_count() > 0
             and self.command_subscription.get_publisher_count() > 0
         )
+
+    def close(self) -> None:
+        """Let go of what the node does not own; may be called twice."""
+        self._sensors.close()

@@ -15,6 +15,7 @@ from husky_sim.diff_drive import VelocityController, WheelOdometry
 from husky_sim.husky import Husky
 from husky_sim.imu import Imu, new_noise
 from husky_sim.localization import PlanarFilter
+from husky_sim.sensors import Sensors
 from husky_sim.world import load_world, World
 
 PERIOD_NS = round(CONTROL_PERIOD_SEC * 1e9)
@@ -38,7 +39,8 @@ class SimulatedRobot:
         self.controller = VelocityController(config.drive)
         self.odometry = WheelOdometry(config.drive)
         self.filtered = PlanarFilter(CONTROL_PERIOD_SEC)
-        self._imu = Imu(self.husky, new_noise(seed) if config.sensors.noise else None)
+        self._imu = Imu(self.husky, new_noise([*seed, 0]) if config.sensors.noise else None)
+        self.sensors = Sensors(start.name, world.model, data, config.sensors, seed=seed)
         self.reset()
 
     def reset(self) -> None:
@@ -46,6 +48,7 @@ class SimulatedRobot:
         self.controller.reset()
         self.odometry.reset()
         self._imu.reset()
+        self.sensors.reset()
         self.timeout_bites = False
         self._measure()
         self.filtered.reset(self.imu.yaw)
@@ -57,9 +60,10 @@ class SimulatedRobot:
         )
         self.husky.drive(*self.controller.wheel_speeds_rad_s())
 
-    def observe(self) -> None:
+    def observe(self, periods: int) -> None:
         """Read the physics at the end of a period, and update the estimates."""
         self._measure()
+        self.sensors.measure(self.state, periods)
         self.filtered.update(
             wheel_speed_m_s=self.odometry.speed_m_s,
             wheel_yaw_rate_rad_s=self.odometry.yaw_rate_rad_s,
@@ -130,7 +134,7 @@ class Simulation:
             self._detector.look(begin_sec + step * timestep_sec)
         self.periods += 1
         for robot in self.robots:
-            robot.observe()
+            robot.observe(self.periods)
         self.touches = self._detector.reports(self.time_sec)
 
     def unreported_touches(self) -> list[Touch]:

@@ -3,8 +3,9 @@
 """
 /tf and /tf_static, where tf2_msgs is installed; without it, nothing.
 
-odom -> base_link is what odometry/filtered says, as in the original, where the filter owns it.
-Ground truth is never on tf (REP-105: one authority for every edge).
+odom -> base_link is what odometry/filtered says, as in the original, where the filter owns it;
+with another filter it is that one's. Ground truth is never on tf (REP-105: one authority for
+every edge).
 """
 
 import math
@@ -34,7 +35,7 @@ _FIXED = {
 class TransformTopics:
     """Publishes the transforms of one robot."""
 
-    def __init__(self, node: Node, namespace: str) -> None:
+    def __init__(self, node: Node, namespace: str, *, localization: bool) -> None:
         self._publisher: Any = None
         if TFMessage is None:
             return
@@ -44,11 +45,14 @@ class TransformTopics:
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._static = node.create_publisher(TFMessage, f'{topic}_static', latched)
         self._static.publish(
-            TFMessage(transforms=[_moved('base_link', *item) for item in _FIXED.items()])
+            TFMessage(
+                transforms=[*(_moved('base_link', *item) for item in _FIXED.items()), _camera()]
+            )
         )
         self._base = _moved('odom', 'base_link', (0.0, 0.0, 0.0))
         self._wheels = [_wheel(name) for name in WHEELS]
-        self._message = TFMessage(transforms=[self._base, *self._wheels])
+        moving = [self._base, *self._wheels] if localization else self._wheels
+        self._message = TFMessage(transforms=moving)
 
     def publish(self, filtered: Odometry, robot: SimulatedRobot) -> None:
         """Publish where base_link and the wheels are."""
@@ -64,6 +68,14 @@ class TransformTopics:
             wheel.transform.rotation.y = math.sin(angle_rad / 2.0)
             wheel.transform.rotation.w = math.cos(angle_rad / 2.0)
         self._publisher.publish(self._message)
+
+
+def _camera() -> TransformStamped:
+    """Return the optical frame: z forward, x to the right (REP-103)."""
+    transform = _moved('base_link', 'camera', (0.45, 0.0, 0.29))
+    rotation = transform.transform.rotation
+    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+    return transform
 
 
 def _wheel(name: str) -> TransformStamped:

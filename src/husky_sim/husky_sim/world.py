@@ -24,6 +24,7 @@ from husky_sim.errors import StartPoseError, WorldError
 from husky_sim.outline import Outline, outline_of
 
 GROUND_NAMES = ('ground', 'floor', 'asphalt', 'ramp')
+LONGEST_TIMESTEP_SEC = 0.002
 HUSKY_FILE = 'husky.xml'
 
 # Places, from base_link, under which there must be ground: the middle and the four wheels.
@@ -122,6 +123,11 @@ def _steps_per_period(path: str, timestep_sec: float) -> int:
         raise WorldError(
             f'world={path!r}: timestep={timestep_sec:g}: the control period of '
             f'{CONTROL_PERIOD_SEC:g} s must be a whole number of timesteps; use 0.002'
+        )
+    if timestep_sec > LONGEST_TIMESTEP_SEC:
+        raise WorldError(
+            f'world={path!r}: timestep={timestep_sec:g}: the servos of the wheels need '
+            f'{LONGEST_TIMESTEP_SEC:g} s or less'
         )
     return steps
 

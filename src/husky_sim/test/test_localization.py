@@ -5,11 +5,12 @@
 from collections.abc import Callable
 import math
 
-from husky_sim.config import RobotStart, SensorConfig, SimulationConfig
 from husky_sim.localization import PlanarFilter
 from husky_sim.simulation import Simulation
 import numpy as np
 import pytest
+
+from husky_sim.config import RobotStart, SensorConfig, SimulationConfig
 
 Drive = Callable[..., None]
 PERIOD_SEC = 0.02

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Collisions: a red flash at the place, and then a small mark with the obstacle's name."""
+"""Collisions: a red flash at the place, and then a pin with the obstacle's name."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +13,9 @@ FLASH_SEC = 2.5
 """Of wall time."""
 
 MOST_MARKS = 50
+PIN_M = 1.2
+"""So high above the place stands what is seen of it, or walls and the robot would hide it."""
+
 _FLASH_SCALE = 4.0
 
 
@@ -46,20 +49,30 @@ class CollisionMarks:
             return
         self._made += 1
         name = f'/collisions/{self._made}'
-        ball = self._server.scene.add_icosphere(
-            name,
-            radius=0.07,
+        scene, (x, y, z) = self._server.scene, collision.position
+        pole = scene.add_cylinder(
+            f'{name}/pole',
+            radius=0.02,
+            height=PIN_M,
             color=palette.COLLISION,
-            position=collision.position,
-            scale=_FLASH_SCALE,
-            opacity=0.6,
+            position=(x, y, z + PIN_M / 2.0),
             cast_shadow=False,
         )
-        x, y, z = collision.position
-        label = self._server.scene.add_label(
-            f'{name}_label', f'⚠ {collision}', position=(x, y, z + 0.5), anchor='bottom-center'
+        ball = scene.add_icosphere(
+            f'{name}/ball',
+            radius=0.08,
+            color=palette.COLLISION,
+            position=(x, y, z + PIN_M),
+            scale=_FLASH_SCALE,
+            cast_shadow=False,
         )
-        self._nodes += [ball, label]
+        label = scene.add_label(
+            f'{name}/label',
+            f'⚠ {collision}',
+            position=(x, y, z + PIN_M + 0.4),
+            anchor='bottom-center',
+        )
+        self._nodes += [pole, ball, label]
         self._flashing.append((now_sec, ball, label, collision.obstacle))
 
     def update(self, now_sec: float) -> None:

@@ -113,6 +113,22 @@ def _point(waypoint: Any) -> Point:
     return Point(round(waypoint.x_m, 2), round(waypoint.y_m, 2), more)
 
 
+def path_of(file: Path) -> tuple[Array, Array]:
+    """
+    Return the driver's path through a waypoint file and its waypoints (n, 2), in the frame odom.
+
+    :raises CourseRefused: if the driver would not take it.
+    """
+    try:
+        text = file.read_text(encoding='utf-8')
+    except OSError as error:
+        raise CourseRefused(f'{file}: {error.strerror}') from error
+    course = _parsed(text, file.name)
+    legs = importlib.import_module('husky_driver.route').plan_route(course)
+    line = np.concatenate([_poses(leg) for leg in legs])[:, :2]
+    return line, np.array([(waypoint.x_m, waypoint.y_m) for waypoint in course.waypoints])
+
+
 def save(draft: Draft, folder: Path, name: str) -> Path:
     """
     Write a draft as NAME.yaml, whole or not at all.

@@ -32,6 +32,7 @@ _STYLE = """
 .husky-pad > * { margin: 0 !important; padding: 0 !important; touch-action: none; }
 .husky-pad button { height: 2.6em !important; touch-action: none; user-select: none;
   -webkit-user-select: none; }
+@media (max-width: 600px) { .husky-legend { display: none; } }
 .husky-stop button, button.husky-stop { height: 3.2em !important; font-size: 1.15em; }
 """
 

@@ -45,4 +45,4 @@ def legend_html() -> str:
         f'{name}</span>'
         for color, name in LEGEND
     )
-    return f'<div style="padding:0 1em .6em;font-size:.8em;line-height:1.5">{rows}</div>'
+    return f'<div class="husky-legend" style="padding:0 1em .6em;font-size:.8em;line-height:1.5">{rows}</div>'

@@ -4,6 +4,7 @@
 
 import argparse
 from collections.abc import Sequence
+from pathlib import Path
 import signal
 import sys
 from threading import Event
@@ -15,6 +16,7 @@ import viser
 
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import TRACK
+from husky_sim.view.course import CourseRefused, is_available, path_of
 from husky_sim.view.picture import Picture
 from husky_sim.view.planar import to_world
 from husky_sim.view.playback import Playback
@@ -24,6 +26,7 @@ from husky_sim.view.server import address_of, AddressError, close_server, open_s
 from husky_sim.view.work import Work
 from husky_sim.world import load_world
 
+WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
 BAD_INPUT = 2
 
@@ -50,6 +53,18 @@ class Replay:
         self._shown = 0  # the entry shown last
         self._told = 0  # collisions shown
         self._panel_due_sec = 0.0
+
+    def show_course(self, file: Path) -> None:
+        """
+        Show the path that was to be driven.
+
+        :raises CourseRefused: if it cannot be read, or there is no driver to ask.
+        """
+        if not is_available():
+            raise CourseRefused(f'{file}: husky_driver is not installed, and it reads waypoints')
+        line, waypoints = path_of(file)
+        self._picture.robots[0].set_path(line)
+        self._picture.robots[0].set_waypoints(waypoints)
 
     def frame(self, wall_sec: float, *, now_sec: float) -> None:
         """Let so much wall time pass; now is of a steady clock."""
@@ -116,6 +131,9 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('record', help="the record of a run, or the folder of its report's")
     parser.add_argument('--host', default='127.0.0.1', help='address to serve the page at')
     parser.add_argument('--port', type=int, default=8080, help='port; the next free one if taken')
+    parser.add_argument(
+        '--waypoints', help=f"the course that was to be driven (the report's {WAYPOINTS_FILE})"
+    )
     options = parser.parse_args(None if args is None else list(args)[1:])
     ended = Event()
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -128,9 +146,12 @@ def main(args: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     try:
         replay = Replay(server, run)
+        beside = Path(run.file).with_name(WAYPOINTS_FILE)
+        if options.waypoints or beside.is_file():
+            replay.show_course(Path(options.waypoints or beside))
         print(f'replay of {run.file}: look at {address_of(server)} (Ctrl-C ends)', flush=True)
         _play(replay, ended)
-    except SimulatorError as error:
+    except (SimulatorError, CourseRefused) as error:
         print(f'replay: {error}', file=sys.stderr)
         return BAD_INPUT
     finally:

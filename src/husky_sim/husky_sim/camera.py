@@ -1,0 +1,97 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The camera on the top plate, drawn off the screen with EGL or OSMesa.
+
+Everything of OpenGL belongs to the thread that draws first.
+"""
+
+from importlib import import_module
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from husky_sim.errors import SettingError
+
+WIDTH, HEIGHT = 640, 480
+FRAME = 'camera'
+_PLATFORMS = ('mujoco.egl', 'mujoco.osmesa')
+_SEEN_GROUPS = (0, 1, 2)  # group 3 holds the collision shapes of the robots
+
+
+class Camera:
+    """Draws what one robot sees."""
+
+    def __init__(self, name: str, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """
+        Make sure that drawing is possible.
+
+        :raises SettingError: if there is neither EGL nor OSMesa.
+        """
+        self._model = model
+        self._data = data
+        self._view = mujoco.MjvCamera()
+        self._view.type = mujoco.mjtCamera.mjCAMERA_FIXED
+        self._view.fixedcamid = model.camera(f'{name}/camera').id
+        self._viewport = mujoco.MjrRect(0, 0, WIDTH, HEIGHT)
+        self._pixels = np.zeros((HEIGHT, WIDTH, 3), dtype=np.uint8)
+        self._drawing: tuple[Any, ...] | None = None
+        _new_context().free()
+
+    @property
+    def focal_length_px(self) -> float:
+        """Return the focal length, for camera_info."""
+        half = math.radians(float(self._model.cam_fovy[self._view.fixedcamid])) / 2.0
+        return HEIGHT / 2.0 / math.tan(half)
+
+    def picture(self) -> npt.NDArray[np.uint8]:
+        """Draw, and return rows from the top of red, green and blue."""
+        if self._drawing is None:
+            self._drawing = self._begin()
+        context, scene, options, renderer = self._drawing
+        context.make_current()
+        mujoco.mjv_updateScene(
+            self._model,
+            self._data,
+            options,
+            None,
+            self._view,
+            mujoco.mjtCatBit.mjCAT_ALL,
+            scene,
+        )
+        mujoco.mjr_render(self._viewport, scene, renderer)
+        mujoco.mjr_readPixels(self._pixels, None, self._viewport, renderer)
+        return self._pixels[::-1]
+
+    def _begin(self) -> tuple[Any, ...]:
+        context = _new_context()
+        context.make_current()
+        scene = mujoco.MjvScene(self._model, maxgeom=5000)
+        options = mujoco.MjvOption()
+        options.geomgroup[:] = [group in _SEEN_GROUPS for group in range(6)]
+        renderer = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, renderer)
+        return context, scene, options, renderer
+
+    def close(self) -> None:
+        """Let go of the drawing surface; may be called twice."""
+        if self._drawing is not None:
+            self._drawing[3].free()
+            self._drawing[0].free()
+            self._drawing = None
+
+
+def _new_context() -> Any:
+    problems = []
+    for platform in _PLATFORMS:
+        try:
+            return import_module(platform).GLContext(WIDTH, HEIGHT)
+        except Exception as error:  # whatever a driver, or its absence, comes up with
+            problems.append(f'{platform}: {" ".join(str(error).split())}')
+    raise SettingError(
+        f'camera_rate_hz: no picture can be drawn here ({"; ".join(problems)}); install EGL '
+        '(libegl1 and libgl1-mesa-dri) or set camera_rate_hz to 0'
+    )

@@ -1,0 +1,39 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Serving the node until a signal comes."""
+
+import signal
+
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+
+SIGNAL_LATENCY_SEC = 0.2
+"""How long a signal may go unnoticed."""
+
+
+def future_of_signal() -> 'Future[None]':
+    """
+    Return a future that SIGINT or SIGTERM completes.
+
+    A signal lets the callback that runs finish, so that a run ends with a whole control period.
+    """
+    interrupted: Future[None] = Future()
+
+    def on_signal(*_: object) -> None:
+        if not interrupted.done():
+            interrupted.set_result(None)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, on_signal)
+    return interrupted
+
+
+def spin(node: Node, *, until: 'Future[None]') -> None:
+    """Spin with the executor that costs least."""
+    executor = EventsExecutor()
+    executor.add_node(node)
+    # One event after the other: this executor sees signals only between two spins, and forgets
+    # the timeout of a longer one while a timer is always due.
+    while not until.done():
+        executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)

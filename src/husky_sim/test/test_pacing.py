@@ -1,0 +1,57 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulated time against a wall clock that the tests turn by hand."""
+
+from husky_sim.pacing import Pacer
+import pytest
+
+
+def test_one_period_is_due_in_every_period() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    assert [pacer.due(10.0 + 0.02 * i + 1e-6) for i in range(100)] == [1] * 100
+    assert pacer.overruns == 0
+
+
+def test_nothing_is_due_too_early() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    assert pacer.due(5.0) == 1
+    assert pacer.due(5.01) == 0
+    assert pacer.due(5.021) == 1
+
+
+@pytest.mark.parametrize('factor', [0.25, 1.0, 3.0, 50.0])
+def test_over_a_minute_the_pace_is_the_factor(factor: float) -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=factor)
+    periods = sum(pacer.due(i * 0.005) for i in range(12001))
+    assert periods * 0.02 / 60.0 == pytest.approx(factor, rel=0.002)
+
+
+def test_a_short_delay_is_made_up_for() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    pacer.due(0.0)
+    assert pacer.due(0.085) == 4
+    assert pacer.overruns == 0
+
+
+def test_a_long_stall_is_not_and_is_counted() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    pacer.due(0.0)
+    assert pacer.due(10.0) == 1
+    assert pacer.overruns == 1
+    assert pacer.lost_sec == pytest.approx(9.98)
+    assert pacer.due(10.021) == 1
+
+
+def test_time_spent_in_a_pause_is_not_made_up_for() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    pacer.due(0.0)
+    pacer.restart()
+    assert pacer.due(0.09) == 1
+    assert pacer.overruns == 0
+
+
+def test_at_most_as_many_as_asked_for() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    pacer.due(0.0)
+    assert pacer.due(0.085, most=1) == 1
+    assert pacer.due(0.086) == 3

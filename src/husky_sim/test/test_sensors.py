@@ -1,0 +1,179 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Each sensor against the physics it measures."""
+
+from collections.abc import Callable
+import math
+from pathlib import Path
+
+from husky_sim.camera import Camera
+from husky_sim.errors import SettingError
+from husky_sim.sensors import Rate
+from husky_sim.simulation import Simulation
+import numpy as np
+import pytest
+
+from husky_sim import lidar, navsat
+from husky_sim.config import RobotStart, SensorConfig, SimulationConfig
+
+OnAsphalt = Callable[..., Simulation]
+Drive = Callable[..., None]
+WORLDS = Path(__file__).resolve().parents[3] / 'worlds'
+
+
+def simulate(world: str = 'empty.xml', *, yaw: float = 0.0, **sensors: object) -> Simulation:
+    return Simulation(
+        SimulationConfig(
+            world=str(WORLDS / world),
+            robots=(RobotStart(yaw=yaw),),
+            sensors=SensorConfig(**sensors),  # type: ignore[arg-type]
+        )
+    )
+
+
+@pytest.mark.parametrize('rate_hz', [50.0, 40.0, 10.0, 1.0, 30.0])
+def test_a_sensor_measures_as_often_as_its_rate_says(rate_hz: float) -> None:
+    rate = Rate(rate_hz)
+    due = [periods for periods in range(1, 501) if rate.is_due(periods)]
+    assert len(due) == pytest.approx(rate_hz * 10.0, abs=1)
+    gaps = np.diff(due) * 0.02
+    assert gaps.max() - gaps.min() <= 0.0201
+
+
+def test_a_rate_of_zero_is_off() -> None:
+    assert not any(Rate(0.0).is_due(periods) for periods in range(1, 501))
+
+
+def test_the_imu_at_rest_feels_gravity_and_nothing_else(drive: Drive) -> None:
+    simulation = simulate()
+    drive(simulation, 0.0, 0.0, seconds=1.0)
+    imu = simulation.robots[0].imu
+    assert imu.acceleration == pytest.approx((0.0, 0.0, 9.8), abs=1e-3)
+    assert imu.angular_velocity == pytest.approx((0.0, 0.0, 0.0), abs=1e-4)
+
+
+def test_the_imu_feels_the_robot_speed_up_and_the_circle_it_drives(drive: Drive) -> None:
+    simulation = simulate()
+    drive(simulation, 1.0, 0.0, seconds=0.2)
+    assert simulation.robots[0].imu.acceleration[0] == pytest.approx(3.0, rel=0.15)
+    drive(simulation, 1.0, 0.5, seconds=3.0)
+    robot = simulation.robots[0]
+    rate = robot.state.angular_velocity[2]
+    assert robot.imu.acceleration[1] == pytest.approx(robot.state.velocity[0] * rate, rel=0.1)
+    assert robot.imu.angular_velocity[2] == rate
+
+
+def test_the_imu_gives_the_true_orientation(drive: Drive) -> None:
+    simulation = simulate(yaw=1.0)
+    drive(simulation, 0.0, 1.0, seconds=1.0)
+    robot = simulation.robots[0]
+    assert robot.imu.orientation == robot.state.orientation
+    assert robot.imu.yaw == robot.state.yaw
+
+
+def test_noise_has_the_deviation_of_the_original(drive: Drive) -> None:
+    simulation = simulate(noise=True, seed=3)
+    values = []
+    for _ in range(1000):
+        drive(simulation, 0.0, 0.0, seconds=0.02)
+        imu = simulation.robots[0].imu
+        values.append((*imu.angular_velocity, imu.acceleration[0], imu.yaw))
+    assert np.std(values, axis=0) == pytest.approx([0.005] * 5, rel=0.1)
+
+
+def test_the_same_seed_gives_the_same_noise_and_another_does_not(drive: Drive) -> None:
+    def rates(seed: int) -> list[float]:
+        simulation = simulate(noise=True, seed=seed)
+        found = []
+        for _ in range(20):
+            drive(simulation, 0.3, 0.1, seconds=0.02)
+            found.append(simulation.robots[0].imu.angular_velocity[2])
+        simulation.reset()
+        for value in found:
+            drive(simulation, 0.3, 0.1, seconds=0.02)
+            assert simulation.robots[0].imu.angular_velocity[2] == value, 'after a reset'
+        return found
+
+    assert rates(1) == rates(1)
+    assert rates(1) != rates(2)
+
+
+BOX = '<body name="box" pos="3 0 0.5"><geom type="box" size="0.5 20 1"/></body>'
+
+
+def test_the_scanner_measures_the_distance_to_a_wall_in_every_direction(
+    make_world: Callable[..., str], drive: Drive
+) -> None:
+    simulation = Simulation(
+        SimulationConfig(world=make_world(BOX), sensors=SensorConfig(lidar_rate_hz=10.0))
+    )
+    drive(simulation, 0.0, 0.0, seconds=0.1)
+    scan = simulation.robots[0].sensors.scan
+    assert scan is not None
+    angles = -lidar.HALF_ANGLE_RAD + lidar.ANGLE_INCREMENT_RAD * np.arange(lidar.BEAMS)
+    distance = 2.5 - lidar.PLACE[0]
+    ahead = np.abs(angles) < 1.3
+    assert scan[ahead] == pytest.approx(distance / np.cos(angles[ahead]), abs=0.005)
+    assert np.isinf(scan[np.abs(angles) > 1.6]).all()
+    assert angles[-1] == pytest.approx(2.35619)
+
+
+def test_the_scanner_turns_with_the_robot_and_does_not_see_it(drive: Drive) -> None:
+    simulation = simulate('playpen.xml', yaw=math.pi / 4.0, lidar_rate_hz=50.0)
+    drive(simulation, 0.0, 0.0, seconds=0.02)
+    scan = simulation.robots[0].sensors.scan
+    assert scan is not None
+    # Across the barrier's face, 1.576 m from the origin to its upright.
+    assert scan[lidar.BEAMS // 2] == pytest.approx(1.576 - lidar.PLACE[0], abs=0.05)
+    assert scan.min() > 1.0
+
+
+def test_scans_come_at_their_rate_and_not_by_default(drive: Drive) -> None:
+    simulation = simulate(lidar_rate_hz=10.0)
+    count = 0
+    for _ in range(100):
+        drive(simulation, 0.0, 0.0, seconds=0.02)
+        count += simulation.robots[0].sensors.scan is not None
+    assert count == 20
+    silent = simulate()
+    drive(silent, 0.0, 0.0, seconds=0.2)
+    assert silent.robots[0].sensors.scan is None
+
+
+def test_the_fix_moves_north_and_east_as_the_robot_does() -> None:
+    receiver = navsat.NavSat(None)
+    start = receiver.locate((0.0, 0.0, 0.0), 0.025)
+    assert start == (49.9, 8.9, 0.0)
+    moved = receiver.locate((100.0, 100.0, 2.0), 0.025)
+    # A degree of latitude is 111.2 km there, one of longitude 71.8 km.
+    assert (moved.latitude_deg - 49.9) * 111238.0 == pytest.approx(100.0, rel=1e-3)
+    assert (moved.longitude_deg - 8.9) * 71842.0 == pytest.approx(100.0, rel=1e-3)
+    assert moved.altitude_m == 2.0
+
+
+def test_the_fix_follows_the_true_position(drive: Drive) -> None:
+    simulation = simulate()
+    drive(simulation, 1.0, 0.0, seconds=2.0)
+    robot = simulation.robots[0]
+    assert robot.sensors.fix is not None
+    east_m = math.radians(robot.sensors.fix.longitude_deg - 8.9) * 6378137.0
+    assert east_m * math.cos(math.radians(49.9)) == pytest.approx(
+        robot.state.position[0], rel=0.005
+    )
+
+
+def test_the_camera_sees_sky_over_asphalt_or_says_in_one_line_why_not() -> None:
+    simulation = simulate('playpen.xml', yaw=math.pi / 2.0)
+    simulation.advance()
+    try:
+        camera = Camera('husky', simulation.model, simulation.data)
+    except SettingError as error:
+        assert '\n' not in str(error)
+        assert 'set camera_rate_hz to 0' in str(error)
+        return
+    picture = camera.picture()
+    camera.close()
+    camera.close()
+    assert picture.shape == (480, 640, 3)
+    above, below = picture[5].mean(), picture[-20].mean()
+    assert above > below + 50.0

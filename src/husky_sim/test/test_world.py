@@ -1,0 +1,165 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Worlds by students: what loads, and how what does not is refused."""
+
+from collections.abc import Callable
+import math
+from pathlib import Path
+
+from husky_sim.errors import StartPoseError, WorldError
+from husky_sim.world import load_world
+import mujoco
+import pytest
+
+from husky_sim.config import RobotStart
+
+FLOOR = '<geom name="floor" type="plane" size="5 5 1"/>'
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Callable[[str], str]:
+    def to_file(text: str) -> str:
+        path = tmp_path / 'world.xml'
+        path.write_text(text, encoding='utf-8')
+        return str(path)
+
+    return to_file
+
+
+def mjcf(body: str = FLOOR, *, before: str = '') -> str:
+    return f'<mujoco>\n  {before}\n  <worldbody>\n    {body}\n  </worldbody>\n</mujoco>\n'
+
+
+def test_a_plain_floor_is_a_world(write: Callable[[str], str]) -> None:
+    world = load_world(write(mjcf()), [RobotStart()])
+    assert world.names == ('husky',)
+    assert world.obstacles == ()
+    assert world.steps_per_period == 10
+
+
+def test_obstacles_are_named_after_the_outermost_body(write: Callable[[str], str]) -> None:
+    body = FLOOR + (
+        '<body name="house" pos="3 0 0"><geom type="box" size="1 1 1"/>'
+        '<body name="chimney" pos="0 0 1"><geom size="0.2"/></body></body>'
+        '<geom name="stone" pos="-3 0 0" size="0.3"/><geom pos="0 3 0" size="0.3"/>'
+    )
+    world = load_world(write(mjcf(body)), [RobotStart()])
+    assert [outline.name for outline in world.obstacles][:2] == ['stone', 'geom 2']
+    assert world.obstacles[2].name == 'house'
+    assert world.obstacles[2].size == pytest.approx((2.0, 2.0))
+
+
+def test_what_is_only_seen_is_no_obstacle(write: Callable[[str], str]) -> None:
+    paint = '<geom name="paint" type="box" size="1 1 0.001" contype="0" conaffinity="0"/>'
+    assert load_world(write(mjcf(FLOOR + paint)), [RobotStart()]).obstacles == ()
+
+
+def test_a_world_keeps_its_own_gravity_and_actuators(write: Callable[[str], str]) -> None:
+    before = '<option gravity="0 0 -1.62" timestep="0.001"/>'
+    arm = (
+        '<body name="gate" pos="3 0 1"><joint name="hinge" axis="0 0 1"/>'
+        '<geom type="box" size="0.5 0.05 0.5"/></body>'
+    )
+    text = mjcf(FLOOR + arm, before=before)
+    text = text.replace('</mujoco>', '<actuator><motor joint="hinge"/></actuator></mujoco>')
+    world = load_world(write(text), [RobotStart()])
+    assert world.model.opt.gravity[2] == -1.62
+    assert world.model.nu == 5
+    assert world.steps_per_period == 20
+
+
+def test_a_robot_stands_on_a_height_field_and_on_a_platform(write: Callable[[str], str]) -> None:
+    platform = '<geom name="floor_2" type="box" size="1 1 0.25" pos="3 0 0.25"/>'
+    world = load_world(write(mjcf(FLOOR + platform)), [RobotStart(x=3.0)])
+    data = mujoco.MjData(world.model)
+    mujoco.mj_forward(world.model, data)
+    height = data.body('husky/base_link').xpos[2]
+    assert height == pytest.approx(0.5 + 0.13, abs=0.01)
+
+
+def test_a_keyframe_of_the_world_does_not_hinder(write: Callable[[str], str]) -> None:
+    ball = '<body name="ball" pos="2 0 0.2"><freejoint/><geom size="0.2"/></body>'
+    text = mjcf(FLOOR + ball)
+    text = text.replace(
+        '</mujoco>', '<keyframe><key name="k" qpos="2 1 0.2 1 0 0 0"/></keyframe></mujoco>'
+    )
+    world = load_world(write(text), [RobotStart()])
+    assert world.names == ('husky', 'ball')
+
+
+@pytest.mark.parametrize(
+    ('text', 'reason'),
+    [
+        ('<mujoco><worldbody>', r'XML parse error'),
+        (mjcf('<geom typ="box" size="1 1 1"/>'), r"unrecognized attribute: 'typ'.*line 4"),
+        (mjcf('<gem/>'), r"unrecognized element.*'gem', line 4"),
+        (mjcf('<geom type="box"/>'), r'size 0 must be positive in geom.*line 4'),
+        (mjcf('<geom type="mesh" mesh="none"/>'), r"mesh 'none' not found"),
+        (mjcf('<geom size="0.1"/>'), r'nothing to drive on; add a plane'),
+        (mjcf(before='<option timestep="0.003"/>'), r'whole number of timesteps'),
+        (mjcf(before='<option timestep="0.005"/>'), r'0.002 s or less'),
+        (mjcf('<body name="husky/base_link"/>' + FLOOR), r"repeated name 'husky/base_link'"),
+    ],
+)
+def test_a_broken_world_is_refused_with_its_file_and_the_reason_in_one_line(
+    write: Callable[[str], str], text: str, reason: str
+) -> None:
+    path = write(text)
+    with pytest.raises(WorldError, match=reason) as refused:
+        load_world(path, [RobotStart()])
+    assert path in str(refused.value)
+    assert '\n' not in str(refused.value)
+
+
+def test_a_file_that_is_not_there_or_not_xml_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(WorldError, match='no such file'):
+        load_world(str(tmp_path / 'none.xml'), [RobotStart()])
+    (tmp_path / 'world.txt').write_text('<mujoco/>', encoding='utf-8')
+    with pytest.raises(WorldError, match=r'not an \.xml file'):
+        load_world(str(tmp_path / 'world.txt'), [RobotStart()])
+
+
+@pytest.mark.parametrize(
+    ('starts', 'reason'),
+    [
+        ([RobotStart(x=2.455)], 'would start inside jersey_barrier_15'),
+        ([RobotStart(x=-3.0, y=4.0)], 'would start inside fire_hydrant_0'),
+        ([RobotStart(x=7.0, y=-2.5)], 'would start inside Construction Barrel'),
+        ([RobotStart(x=100.0)], 'there is no ground under it'),
+        ([RobotStart(), RobotStart(x=5.0)], 'every robot needs a name of its own'),
+        ([RobotStart(name='a'), RobotStart(name='b', x=0.4)], 'a at .* would start inside b'),
+    ],
+)
+def test_a_start_pose_that_cannot_be_is_refused(
+    worlds: Path, starts: list[RobotStart], reason: str
+) -> None:
+    with pytest.raises(StartPoseError, match=reason):
+        load_world(str(worlds / 'playpen.xml'), starts)
+
+
+@pytest.mark.parametrize('name', ['playpen.xml', 'empty.xml', 'husky.xml'])
+def test_the_worlds_load_in_plain_mujoco_without_a_warning(worlds: Path, name: str) -> None:
+    model = mujoco.MjModel.from_xml_path(str(worlds / name))
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=500)
+    assert not any(data.warning.number)
+
+
+def test_the_husky_weighs_and_measures_what_the_original_does(worlds: Path) -> None:
+    model = mujoco.MjModel.from_xml_path(str(worlds / 'husky.xml'))
+    assert model.body_subtreemass[model.body('base_link').id] == pytest.approx(56.582)
+    assert model.body('base_link').mass[0] == 46.034
+    for wheel, x, y in (
+        ('front_left', 0.256, 0.2854),
+        ('front_right', 0.256, -0.2854),
+        ('rear_left', -0.256, 0.2854),
+        ('rear_right', -0.256, -0.2854),
+    ):
+        link = model.body(f'{wheel}_wheel_link')
+        assert link.pos.tolist() == [x, y, 0.03282]
+        assert link.mass[0] == 2.637
+    front = model.geom('front_bumper')
+    assert 2.0 * (front.pos[0] + front.size[0]) == pytest.approx(0.9874)
+    wheel = model.geom('front_left_wheel')
+    assert 2.0 * (0.2854 + wheel.size[1]) == pytest.approx(0.6851)
+    assert math.isclose(wheel.size[0], 0.1651, abs_tol=0.003)
