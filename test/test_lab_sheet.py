@@ -121,6 +121,17 @@ def _save_picture(terminal: Terminal, workspace: Path) -> None:
         (workspace / 'graph.png').write_bytes(urlopen(page[1] + 'graph.png', timeout=20).read())
 
 
+def test_a_terminal_that_only_sources_a_workspace_knows_ros_and_the_lab(
+    home: Path, processes: Processes
+) -> None:
+    workspace = DOCS.parent / 'install' / 'setup.bash'
+    plain = ['env', '-i', f'HOME={home}', 'PATH=/usr/bin:/bin', 'bash', '--noprofile', '--norc']
+    command = f'source {workspace} && ros2 pkg prefix topic_demo && ros2 --help'
+    process = processes.start(*plain, '-c', f'{command}')
+    assert process.wait() == 0, process.output
+    assert str(workspace.parent / 'topic_demo') in process.lines
+
+
 def test_the_sheet_names_what_replaces_each_command_of_ros_1() -> None:
     table = SHEET.read_text().split('## From ROS 1 to ROS 2')[1]
     replaced = [row.split('|')[1] for row in table.splitlines() if row.startswith('| ')]

@@ -1,0 +1,3 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+. "${COLCON_CURRENT_PREFIX:=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)}/local_setup.sh"
