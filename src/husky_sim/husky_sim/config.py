@@ -43,6 +43,17 @@ class DriveConfig:
     )
 
 
+GRIP = {'ideal': 1.5, 'asphalt': 1.0, 'gravel': 0.3}
+"""What the friction of the tyres, which husky.xml has for asphalt, is multiplied with."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GroundConfig:
+    """What the robots drive on."""
+
+    slip: str = setting('asphalt', 'How the tyres grip: ideal, asphalt or gravel.')
+
+
 @dataclass(frozen=True, kw_only=True)
 class SensorConfig:
     """Which sensors measure, how often, and how well."""
@@ -88,4 +99,5 @@ class SimulationConfig:
     world: str
     robots: tuple[RobotStart, ...] = (RobotStart(),)
     drive: DriveConfig = field(default_factory=DriveConfig)
+    ground: GroundConfig = field(default_factory=GroundConfig)
     sensors: SensorConfig = field(default_factory=SensorConfig)

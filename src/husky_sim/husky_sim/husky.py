@@ -132,6 +132,12 @@ class Husky:
         )
 
 
+def set_grip(model: mujoco.MjModel, name: str, factor: float) -> None:
+    """Multiply the sliding friction of a robot's tyres."""
+    for wheel in WHEELS:
+        model.geom(f'{name}/{wheel}_wheel').friction[0] *= factor
+
+
 def _block(values: np.ndarray, indices: list[int]) -> np.ndarray:
     """Return a view on consecutive entries."""
     if indices != list(range(indices[0], indices[0] + len(indices))):

@@ -17,7 +17,7 @@ from sensor_msgs.msg import Imu, JointState
 
 from husky_sim.contacts import Touch
 from husky_sim.diff_drive import VelocityController, WheelOdometry
-from husky_sim.husky import JOINTS, Quaternion, Vector
+from husky_sim.husky import JOINTS, Quaternion, RobotState, Vector
 from husky_sim.imu import VARIANCE as IMU_VARIANCE
 from husky_sim.localization import PlanarFilter
 from husky_sim.simulation import SimulatedRobot
@@ -28,17 +28,6 @@ ODOMETRY_VARIANCES = (0.001, 0.001, 0.001, 0.001, 0.001, 0.03)
 
 # Where x, y and yaw stand in the 6 x 6 covariances of a message.
 _PLANE = [0, 1, 5, 6, 7, 11, 30, 31, 35]
-
-
-def new_odometry(frame_id: str, variances: tuple[float, ...]) -> Odometry:
-    """Make an odometry message of base_link with a diagonal covariance."""
-    message = Odometry()
-    message.header.frame_id = frame_id
-    message.child_frame_id = 'base_link'
-    for place, variance in enumerate(variances):
-        message.pose.covariance[7 * place] = variance
-        message.twist.covariance[7 * place] = variance
-    return message
 
 
 def new_imu() -> Imu:
@@ -61,31 +50,41 @@ def new_joint_state() -> JointState:
     return message
 
 
-def fill_planar(message: Odometry, estimate: WheelOdometry | PlanarFilter) -> None:
-    """Fill in an estimate that lives in the plane."""
-    message.pose.pose.position.x = estimate.x
-    message.pose.pose.position.y = estimate.y
-    message.pose.pose.orientation.z = math.sin(estimate.yaw / 2.0)
-    message.pose.pose.orientation.w = math.cos(estimate.yaw / 2.0)
-    message.twist.twist.linear.x = estimate.speed_m_s
-    message.twist.twist.angular.z = estimate.yaw_rate_rad_s
+class OdometryMessage:
+    """An odometry message of base_link, with its parts at hand."""
 
+    def __init__(self, frame_id: str, variances: tuple[float, ...]) -> None:
+        self.message = Odometry()
+        self.message.header.frame_id = frame_id
+        self.message.child_frame_id = 'base_link'
+        for place, variance in enumerate(variances):
+            self.message.pose.covariance[7 * place] = variance
+            self.message.twist.covariance[7 * place] = variance
+        self._position = self.message.pose.pose.position
+        self._orientation = self.message.pose.pose.orientation
+        self._linear = self.message.twist.twist.linear
+        self._angular = self.message.twist.twist.angular
 
-def fill_covariance(message: Odometry, estimate: PlanarFilter) -> None:
-    """Fill in how sure the filter is: of x, y, yaw, and of their speeds in base_link."""
-    pose, twist = message.pose.covariance, message.twist.covariance
-    covariance = estimate.covariance
-    pose[_PLANE] = covariance[:3, :3].ravel()
-    twist[_PLANE] = covariance[3:6, 3:6].ravel()
+    def fill_planar(self, estimate: WheelOdometry | PlanarFilter) -> None:
+        """Fill in an estimate that lives in the plane."""
+        self._position.x, self._position.y = estimate.x, estimate.y
+        self._orientation.z = math.sin(estimate.yaw / 2.0)
+        self._orientation.w = math.cos(estimate.yaw / 2.0)
+        self._linear.x = estimate.speed_m_s
+        self._angular.z = estimate.yaw_rate_rad_s
 
+    def fill_covariance(self, estimate: PlanarFilter) -> None:
+        """Fill in how sure the filter is: of x, y, yaw, and of their speeds in base_link."""
+        covariance = estimate.covariance
+        self.message.pose.covariance[_PLANE] = covariance[:3, :3].ravel()
+        self.message.twist.covariance[_PLANE] = covariance[3:6, 3:6].ravel()
 
-def fill_truth(message: Odometry, robot: SimulatedRobot) -> None:
-    """Fill in the true pose and twist."""
-    state = robot.state
-    _set_xyz(message.pose.pose.position, state.position)
-    _set_quaternion(message.pose.pose.orientation, state.orientation)
-    _set_xyz(message.twist.twist.linear, state.velocity)
-    _set_xyz(message.twist.twist.angular, state.angular_velocity)
+    def fill_truth(self, state: RobotState) -> None:
+        """Fill in the true pose and twist."""
+        _set_xyz(self._position, state.position)
+        _set_quaternion(self._orientation, state.orientation)
+        _set_xyz(self._linear, state.velocity)
+        _set_xyz(self._angular, state.angular_velocity)
 
 
 def fill_imu(message: Imu, robot: SimulatedRobot) -> None:

@@ -13,6 +13,8 @@ from rclpy.node import Node
 
 from husky_sim.config import (
     DriveConfig,
+    GRIP,
+    GroundConfig,
     RobotStart,
     RunConfig,
     SensorConfig,
@@ -21,7 +23,7 @@ from husky_sim.config import (
 from husky_sim.errors import SettingError
 from husky_sim.world import default_worlds
 
-Config = TypeVar('Config', DriveConfig, RunConfig, RobotStart, SensorConfig)
+Config = TypeVar('Config', DriveConfig, GroundConfig, RunConfig, RobotStart, SensorConfig)
 
 CHANGEABLE = 'real_time_factor'
 """The one setting that may change while the simulation runs."""
@@ -55,6 +57,9 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
     start = _read(node, RobotStart)
     drive = _read(node, DriveConfig)
     sensors = _read(node, SensorConfig)
+    ground = _read(node, GroundConfig)
+    if ground.slip not in GRIP:
+        raise SettingError(f'slip={ground.slip!r}: one of {", ".join(GRIP)} is allowed')
     if run.lockstep and not sensors.localization:
         raise SettingError('lockstep=True needs odometry/filtered; set localization to true')
     descriptor = ParameterDescriptor(
@@ -63,7 +68,7 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
     lines = node.declare_parameter('robots', [''], descriptor).value
     robots = tuple(_robot(line) for line in lines if line.strip())
     return SimulationConfig(
-        world=run.world, robots=robots or (start,), drive=drive, sensors=sensors
+        world=run.world, robots=robots or (start,), drive=drive, ground=ground, sensors=sensors
     )
 
 

@@ -45,9 +45,9 @@ class RobotTopics:
         self._on_command = on_command
         self._logger = node.get_logger()
         variances = messages.ODOMETRY_VARIANCES
-        self._wheel = messages.new_odometry('odom', variances)
-        self._filtered = messages.new_odometry('odom', variances)
-        self._truth = messages.new_odometry('world', (0.0,) * 6)
+        self._wheel = messages.OdometryMessage('odom', variances)
+        self._filtered = messages.OdometryMessage('odom', variances)
+        self._truth = messages.OdometryMessage('world', (0.0,) * 6)
         self._imu = messages.new_imu()
         self._joints = messages.new_joint_state()
         self._command_out = Twist()
@@ -102,30 +102,31 @@ class RobotTopics:
 
     def publish_filtered(self, stamp: Time) -> None:
         """Publish what a driver steers by: first of all, so that it works while we go on."""
-        self._filtered.header.stamp = stamp
+        self._filtered.message.header.stamp = stamp
         if self.filtered_publisher is None:
             return
-        messages.fill_planar(self._filtered, self.robot.filtered)
-        messages.fill_covariance(self._filtered, self.robot.filtered)
-        self.filtered_publisher.publish(self._filtered)
+        self._filtered.fill_planar(self.robot.filtered)
+        self._filtered.fill_covariance(self.robot.filtered)
+        self.filtered_publisher.publish(self._filtered.message)
 
     def publish_rest(self, stamp: Time) -> None:
         """Publish everything else of a control period."""
         robot = self.robot
-        for message in (self._wheel, self._truth, self._imu, self._joints):
+        wheel, truth = self._wheel.message, self._truth.message
+        for message in (wheel, truth, self._imu, self._joints):
             message.header.stamp = stamp
-        messages.fill_planar(self._wheel, robot.odometry)
-        self._wheel_publisher.publish(self._wheel)
+        self._wheel.fill_planar(robot.odometry)
+        self._wheel_publisher.publish(wheel)
         messages.fill_command(self._command_out, robot.controller)
         self._command_publisher.publish(self._command_out)
         messages.fill_imu(self._imu, robot)
         self._imu_publisher.publish(self._imu)
         messages.fill_joint_state(self._joints, robot)
         self._joint_publisher.publish(self._joints)
-        messages.fill_truth(self._truth, robot)
-        self._truth_publisher.publish(self._truth)
+        self._truth.fill_truth(robot.state)
+        self._truth_publisher.publish(truth)
         self._sensors.publish(stamp)
-        self._transforms.publish(self._filtered, robot)
+        self._transforms.publish(self._filtered.message, robot)
 
     def publish_collision(self, touch: Touch) -> None:
         """Publish one collision."""

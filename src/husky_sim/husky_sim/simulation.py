@@ -9,10 +9,10 @@ and the commands, bit for bit.
 
 import mujoco
 
-from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
+from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, RobotStart, SimulationConfig
 from husky_sim.contacts import Touch, TouchDetector
 from husky_sim.diff_drive import VelocityController, WheelOdometry
-from husky_sim.husky import Husky
+from husky_sim.husky import Husky, set_grip
 from husky_sim.imu import Imu, new_noise
 from husky_sim.localization import PlanarFilter
 from husky_sim.sensors import Sensors
@@ -92,6 +92,8 @@ class Simulation:
         self.config = config
         self.world = load_world(config.world, config.robots)
         self.model = self.world.model
+        for start in config.robots:
+            set_grip(self.model, start.name, GRIP[config.ground.slip])
         self.data = mujoco.MjData(self.model)
         self.touches: list[Touch] = []
         self.periods = 0
