@@ -1,0 +1,125 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Print how the simulated Husky drives, as the tables of docs/simulator.md.
+
+Run it with:  ./lab exec python benchmark/driving_figures.py
+"""
+
+import math
+
+from husky_sim.simulation import SimulatedRobot, Simulation
+from husky_sim.world import default_worlds
+
+from husky_sim.config import (
+    CONTROL_PERIOD_SEC,
+    GRIP,
+    GroundConfig,
+    RobotStart,
+    SimulationConfig,
+)
+
+SPEEDS = (0.0, 0.25, 0.5, 0.75, 1.0)
+YAW_RATES = (0.2, 0.5, 1.0, 1.5)
+
+
+def on(slip: str, *, x: float = 0.0) -> tuple[Simulation, SimulatedRobot]:
+    """Put one robot on level ground."""
+    config = SimulationConfig(
+        world=str(default_worlds() / 'empty.xml'),
+        robots=(RobotStart(x=x),),
+        ground=GroundConfig(slip=slip),
+    )
+    simulation = Simulation(config)
+    return simulation, simulation.robots[0]
+
+
+def drive(simulation: Simulation, speed: float, yaw_rate: float, seconds: float) -> None:
+    """Command the robot for a while."""
+    for _ in range(round(seconds / CONTROL_PERIOD_SEC)):
+        simulation.robots[0].controller.command(speed, yaw_rate, time_sec=simulation.time_sec)
+        simulation.advance()
+
+
+def plan(robot: SimulatedRobot) -> tuple[float, float]:
+    """Return where the robot is."""
+    return robot.state.position[0], robot.state.position[1]
+
+
+def effective_track_m(slip: str, speed: float, yaw_rate: float) -> float:
+    """Return the track with which the wheel speeds give the true yaw rate."""
+    simulation, robot = on(slip)
+    drive(simulation, speed, yaw_rate, 1.0)
+    turned, periods = 0.0, 150
+    for _ in range(periods):
+        before = robot.state.yaw
+        drive(simulation, speed, yaw_rate, CONTROL_PERIOD_SEC)
+        turned += math.remainder(robot.state.yaw - before, math.tau)
+    measured = turned / (periods * CONTROL_PERIOD_SEC)
+    return robot.controller.config.wheel_separation_m * yaw_rate / measured
+
+
+def three_turns_mm(slip: str, yaw_rate: float) -> float:
+    """Return how far three turns on the spot move the centre."""
+    simulation, robot = on(slip)
+    furthest = 0.0
+    for _ in range(math.ceil(3.0 * math.tau / yaw_rate)):
+        drive(simulation, 0.0, yaw_rate, 1.0)
+        furthest = max(furthest, math.hypot(*plan(robot)))
+    return 1000.0 * furthest
+
+
+def stop(slip: str) -> tuple[float, float]:
+    """Return the time and the way from 1 m/s to a stop."""
+    simulation, robot = on(slip, x=-10.0)
+    drive(simulation, 1.0, 0.0, 3.0)
+    start, begin_sec = plan(robot), simulation.time_sec
+    while robot.state.velocity[0] > 0.01:
+        drive(simulation, 0.0, 0.0, CONTROL_PERIOD_SEC)
+    taken_sec = simulation.time_sec - begin_sec
+    drive(simulation, 0.0, 0.0, 1.0)
+    return taken_sec, math.dist(plan(robot), start)
+
+
+def drift_m(slip: str) -> tuple[float, float, float]:
+    """Return a minute's way, and the errors of wheel and of filtered odometry at its end."""
+    simulation, robot = on(slip)
+    way, last = 0.0, plan(robot)
+    for leg in range(60):
+        for _ in range(50):
+            drive(
+                simulation,
+                0.8 * abs(math.sin(leg / 7)),
+                0.9 * math.sin(leg / 5),
+                CONTROL_PERIOD_SEC,
+            )
+            way, last = way + math.dist(plan(robot), last), plan(robot)
+    wheels = math.dist((robot.odometry.x, robot.odometry.y), plan(robot))
+    fused = math.dist((robot.filtered.x, robot.filtered.y), plan(robot))
+    return way, wheels, fused
+
+
+def main() -> None:
+    """Print the tables."""
+    print('Effective track on asphalt, m:\n')
+    print('| speed m/s | ' + ' | '.join(f'{rate:g} rad/s' for rate in YAW_RATES) + ' |')
+    print('|---|' + '---|' * len(YAW_RATES))
+    for speed in SPEEDS:
+        row = [f'{effective_track_m("asphalt", speed, rate):.3f}' for rate in YAW_RATES]
+        print(f'| {speed:g} | ' + ' | '.join(row) + ' |')
+    print(
+        '\n| slip | friction | track on the spot, m | three turns move it by, mm '
+        '| stop from 1 m/s | a minute, m | wheel odometry off by, m | filtered off by, m |'
+    )
+    print('|---|---|---|---|---|---|---|---|')
+    for slip, grip in GRIP.items():
+        track = effective_track_m(slip, 0.0, 0.5)
+        (taken_sec, braked_m), (way, wheels, fused) = stop(slip), drift_m(slip)
+        print(
+            f'| `{slip}` | {grip:g} | {track:.3f} | {three_turns_mm(slip, 0.5):.1f} | '
+            f'{taken_sec:.2f} s, {braked_m:.3f} m | {way:.1f} | {wheels:.2f} | {fused:.2f} |'
+        )
+
+
+if __name__ == '__main__':
+    main()
