@@ -4,12 +4,11 @@
 
 from collections.abc import Iterator
 import json
-from pathlib import Path
 import subprocess
 import sys
 
 from playpen_testing.browser import Browser
-from playpen_testing.page import button, is_blank, number
+from playpen_testing.page import button, number
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
@@ -29,20 +28,11 @@ def page(lab: Lab) -> Browser:
 
 
 @pytest.mark.timeout(120)
-def test_the_page_shows_the_playpen_and_the_time_without_an_error(
-    lab: Lab, tmp_path: Path
-) -> None:
-    page = lab.open(drawn=True)
-    wait_until(
-        lambda: not is_blank(page.screenshot(tmp_path / 'page.png')),
-        timeout_sec=30.0,
-        what='a scene with obstacles on the page',
-    )
+def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page: Browser) -> None:
     shown = page.run(number('time'))
     page.wait_for(f'{number("time")} !== {json.dumps(shown)}', what='time that goes on')
     assert page.run("document.body.innerText.includes('true trail')"), 'there is no legend'
     assert page.errors == []
-    page.close()
 
 
 @pytest.mark.timeout(120)
@@ -72,11 +62,17 @@ def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Browser) -> None:
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
     page.key('keyUp', 'ArrowUp')
     wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
-    count = len(lab.listener.heard[COMMANDS])
-    assert lab.listener.heard[COMMANDS][-1].linear.x == 0.0
-    later_sec = lab.time_sec + 0.5
-    wait_until(lambda: lab.time_sec > later_sec, timeout_sec=15.0, what='half a second')
-    assert len(lab.listener.heard[COMMANDS]) == count, 'nobody drives, yet commands go out'
+    heard = lab.listener.heard[COMMANDS]
+    assert heard[-1].linear.x == 0.0
+    silent_since = [len(heard), lab.time_sec]
+
+    def silent() -> bool:
+        if len(heard) != silent_since[0]:  # the last zeros may still be on their way
+            silent_since[:] = [len(heard), lab.time_sec]
+        return lab.time_sec > silent_since[1] + 0.5
+
+    wait_until(silent, timeout_sec=15.0, what='half a second without a command: nobody drives')
+    assert heard[-1].linear.x == 0.0
 
 
 @pytest.mark.timeout(120)

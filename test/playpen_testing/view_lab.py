@@ -15,7 +15,7 @@ from playpen_testing.browser import Browser
 from playpen_testing.domain import free_domain_id
 from playpen_testing.listener import Listener
 from playpen_testing.page import number
-from playpen_testing.processes import Processes
+from playpen_testing.processes import Process, Processes
 from playpen_testing.spinning import SpunNodes
 
 COMMANDS = 'husky_velocity_controller/cmd_vel'
@@ -61,6 +61,8 @@ class Lab:
     ) -> None:
         self.browsers = browsers
         self.folder = folder
+        self._processes = processes
+        self._environment = environment
         processes.start('ros2', 'run', 'husky_sim', 'husky_sim', environment=environment)
         self.view = processes.start(
             *('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
@@ -72,6 +74,13 @@ class Lab:
         self.listener.latest('ground_truth/odom')
         self.view.wait_for_text('look at http://')
         self.address = self.view.output.split('look at ')[1].split()[0]
+
+    def drive(self, course: Path) -> Process:
+        """Let follow_path drive a course."""
+        return self._processes.start(
+            *('ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', str(course)),
+            environment=self._environment,
+        )
 
     @property
     def time_sec(self) -> float:

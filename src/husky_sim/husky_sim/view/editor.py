@@ -193,9 +193,15 @@ class Editor:
         except course.CourseRefused as error:
             self._tell('Not saved', str(error), True)
             return None
-        self._file.options = (NEW, *course.files_in(self._folder))
+        self.look_for_files()
         self._tell('Saved', str(file), False)
         return file
+
+    def look_for_files(self) -> None:
+        """Offer the files that are there now; call it now and then."""
+        offered = (NEW, *course.files_in(self._folder))
+        if offered != tuple(self._file.options):
+            self._file.options = offered
 
     def _save_and_drive(self) -> None:
         file = self._save()

@@ -36,6 +36,7 @@ from husky_sim.world import load_world
 TITLE = 'Husky playpen'
 NUMBERS_HZ = 5.0
 _ASK_AGAIN_SEC = 0.05
+_LOOK_FOR_FILES_SEC = 2.0
 _HINT_AFTER_SEC = 5.0
 
 _PARAMETERS = {
@@ -128,6 +129,9 @@ class ViewNode(Node):
                 ground_m=self._picture.scene.ground_m,
                 drive=self._on_drive_file,
                 tell=self._panel.tell,
+            )
+            self._files = self.create_timer(
+                _LOOK_FOR_FILES_SEC, self._editor.look_for_files, clock=self._steady
             )
         self.get_logger().info(f'look at {self.address}')
 

@@ -17,7 +17,7 @@ COLLISION: Rgb = (255, 0, 0)
 # Of the editor.
 EDITED: Rgb = (255, 255, 255)
 SELECTED: Rgb = (255, 160, 0)
-CLEAR: Rgb = (0, 200, 120)
+CLEAR: Rgb = (20, 180, 40)
 SCARCE: Rgb = (255, 190, 0)
 BLOCKED: Rgb = (255, 60, 40)
 
@@ -45,4 +45,5 @@ def legend_html() -> str:
         f'{name}</span>'
         for color, name in LEGEND
     )
-    return f'<div class="husky-legend" style="padding:0 1em .6em;font-size:.8em;line-height:1.5">{rows}</div>'
+    style = 'padding:0 1em .6em;font-size:.8em;line-height:1.5'
+    return f'<div class="husky-legend" style="{style}">{rows}</div>'

@@ -1,0 +1,168 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What is drawn, looked at pixel by pixel.
+
+PLAYPEN_PICTURES=docs keeps the pictures there, for the README.
+"""
+
+from collections.abc import Iterator
+import io
+import os
+from pathlib import Path
+import shutil
+
+from husky_sim.record import RunRecord
+from husky_sim.simulation import Simulation
+from husky_sim.view import palette
+from husky_sim.world import default_worlds
+from matplotlib.colors import rgb_to_hsv
+import numpy as np
+from PIL import Image
+from playpen_testing.page import button, labelled_input, number
+from playpen_testing.processes import Processes
+from playpen_testing.view_lab import Browsers, Lab, view_lab
+from playpen_testing.waiting import wait_until
+import pytest
+
+from husky_sim.config import SimulationConfig
+
+ROOT = Path(__file__).resolve().parent.parent
+COURSE = ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'
+DESK, PHONE = (1200, 750), (390, 844)
+
+
+@pytest.fixture(scope='module')
+def pictures(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    wanted = os.environ.get('PLAYPEN_PICTURES')
+    folder = ROOT / wanted if wanted else tmp_path_factory.mktemp('pictures')
+    yield folder
+    for file in folder.glob('view_*.png'):
+        Image.open(file).convert('RGB').quantize(128).save(file, optimize=True)
+
+
+@pytest.fixture(scope='module')
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    with view_lab(tmp_path_factory.mktemp('pictures_lab')) as started:
+        shutil.copy(COURSE, started.folder)
+        yield started
+
+
+def count(png: bytes, color: palette.Rgb) -> int:
+    """Return how many pixels of the scene have about this hue; light makes colours paler."""
+    pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB'))
+    hsv = rgb_to_hsv(pixels[:, : DESK[0] - 340] / 255.0)
+    hue = rgb_to_hsv(np.array(color) / 255.0)[0]
+    away = np.abs((hsv[..., 0] - hue + 0.5) % 1.0 - 0.5)
+    return int(((away < 0.04) & (hsv[..., 1] > 0.3)).sum())
+
+
+def red(png: bytes) -> int:
+    """Return how many pixels are of the pure red that only a collision has."""
+    pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
+    scene = pixels[:, : DESK[0] - 340]
+    return int((np.abs(scene - (220, 0, 0)).max(axis=2) < 45).sum())
+
+
+@pytest.mark.timeout(180)
+def test_a_drive_shows_its_path_and_its_trails_in_the_colours_of_the_legend(
+    lab: Lab, pictures: Path
+) -> None:
+    driver = lab.drive(COURSE)
+    wait_until(
+        lambda: lab.truth.pose.pose.position.x > 5.0,
+        timeout_sec=60.0,
+        what=lambda: f'a robot east of the barrier\n{driver.output}',
+    )
+    page = lab.open(*DESK, drawn=True)
+    page.run(f'{button("Pause")}.click() || true')
+    page.wait_for(button('Resume'), timeout_sec=60.0)
+    shown = {'path': palette.PATH, 'true trail': palette.TRUE_TRAIL}
+
+    def missing() -> list[str]:
+        png = page.screenshot(pictures / 'view_live.png')
+        return [what for what, color in shown.items() if count(png, color) < 25]
+
+    wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
+    assert page.errors == []
+    assert int(page.run(number('left'))) < 13
+    assert abs(float(page.run(number('cross')).split()[0])) < 0.3
+    page.close()
+    driver.close()
+
+
+@pytest.mark.timeout(180)
+def test_the_editor_shows_where_a_course_passes_too_near(lab: Lab, pictures: Path) -> None:
+    through = lab.folder / 'through.yaml'
+    through.write_text('waypoints:\n  - [0, 0]\n  - [-3, 2]\n  - [0, 4]\n  - [4.2, -3.2]\n')
+    page = lab.open(*DESK, drawn=True)
+    page.run(f'{button("Top")}.click() || true')
+    page.run(
+        "[...document.querySelectorAll('*')].find((e) => e.textContent.trim() === 'Waypoints')"
+        '.click() || true'
+    )
+    page.click(labelled_input('Open'))
+    png = page.screenshot(pictures / 'view_editor.png')
+    before = {
+        'enough room': count(png, palette.CLEAR),
+        'no room': count(png, palette.BLOCKED),  # hydrants are red as well
+    }
+    page.click(
+        "[...document.querySelectorAll('[role=option]')]"
+        ".find((e) => e.textContent.trim() === 'through')"
+    )
+    page.wait_for('document.querySelector("[data-verdict]")', timeout_sec=60.0)
+    colors = {'enough room': palette.CLEAR, 'no room': palette.BLOCKED}
+
+    def missing() -> list[str]:
+        png = page.screenshot(pictures / 'view_editor.png')
+        return [what for what, color in colors.items() if count(png, color) < before[what] + 60]
+
+    wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
+    page.close()
+
+
+@pytest.mark.timeout(180)
+def test_a_phone_shows_the_playpen_above_the_controls(lab: Lab, pictures: Path) -> None:
+    page = lab.open(*PHONE, drawn=True)
+    page.run(f'{button("Top")}.click() || true')
+
+    asphalt = np.array([130, 130, 130])
+
+    def is_seen() -> bool:
+        png = page.screenshot(pictures / 'view_phone.png')
+        pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
+        return int((np.abs(pixels - asphalt).max(axis=2) < 20).sum()) > 5000
+
+    wait_until(is_seen, timeout_sec=60.0, what='asphalt beside the panel')
+    page.close()
+
+
+@pytest.mark.timeout(180)
+def test_a_replay_shows_the_collision_in_red(
+    tmp_path: Path, pictures: Path, processes: Processes
+) -> None:
+    simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
+    record = RunRecord(simulation)
+    for step in range(400):
+        turn = 0.25 if step > 40 else 0.0
+        simulation.robots[0].controller.command(0.6, turn, time_sec=simulation.time_sec)
+        simulation.advance()
+        record.append()
+    record.write(str(tmp_path / 'record.json'))
+    shutil.copy(COURSE, tmp_path / 'waypoints.yaml')
+    replay = processes.start('ros2', 'run', 'husky_sim', 'replay', str(tmp_path))
+    replay.wait_for_text('look at http://')
+    browsers = Browsers(tmp_path)
+    try:
+        page = browsers.open(replay.output.split('look at ')[1].split()[0], *DESK, drawn=True)
+        page.click(
+            "[...document.querySelectorAll('button')].find((b) => b.textContent.includes(' s '))"
+        )
+        wait_until(
+            lambda: red(page.screenshot(pictures / 'view_replay.png')) > 30,
+            timeout_sec=60.0,
+            what='the red mark of a collision',
+        )
+    finally:
+        browsers.close()
