@@ -136,6 +136,7 @@ def main() -> None:
     seconds = parser.parse_args().seconds
     rows: list[tuple[str, int, Callable[[], float]]] = [
         ('free running', 1, lambda: node_speed(1, seconds)),
+        ('with lidar at 10 Hz', 1, lambda: node_speed(1, seconds, lidar_rate_hz=10.0)),
         ('lockstep with a driver', 1, lambda: node_speed(1, seconds, lockstep=True)),
         ('free running', 3, lambda: node_speed(3, seconds)),
         ('free running', 10, lambda: node_speed(10, seconds)),

@@ -9,6 +9,7 @@ odometry of the one before.
 """
 
 from dataclasses import replace
+import gc
 import sys
 import time
 from typing import Any
@@ -195,6 +196,8 @@ class SimulatorNode(Node):
             waits=self._paused or self._run.lockstep,
         )
         self._diagnostics.publish(status, self._simulation.time_ns)
+        for topics in self._topics:
+            topics.warn_of_other_types(self)
 
     def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
         self._simulation.reset()
@@ -243,6 +246,7 @@ def main(args: list[str] | None = None) -> int:
     node: SimulatorNode | None = None
     try:
         node = SimulatorNode()
+        gc.freeze()  # what is there now stays: no long search through it in the middle of a run
         spin(node, until=interrupted)
     except SimulatorError as error:
         print(f'husky_sim: {error}', file=sys.stderr)

@@ -11,6 +11,9 @@ import math
 
 CATCH_UP_SEC = 0.1
 
+EARLY = 0.25
+"""How much too early a timer may be, as a part of a period, and still count as on time."""
+
 
 class Pacer:
     """Says how many control periods are due. Times are of a steady wall clock, in seconds."""
@@ -31,13 +34,13 @@ class Pacer:
         if self._next_sec is None:
             self._next_sec = now_sec
         late_sec = now_sec - self._next_sec
-        if late_sec < 0.0:
+        if late_sec < -EARLY * self._wall_period_sec:
             return 0
         if late_sec > CATCH_UP_SEC + self._wall_period_sec:
             self.overruns += 1
             self.lost_sec += late_sec
             self._next_sec = now_sec
             late_sec = 0.0
-        periods = min(most, 1 + math.floor(late_sec / self._wall_period_sec))
+        periods = min(most, 1 + math.floor(max(late_sec, 0.0) / self._wall_period_sec))
         self._next_sec += periods * self._wall_period_sec
         return periods

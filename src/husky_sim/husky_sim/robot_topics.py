@@ -23,6 +23,8 @@ from husky_sim.transforms import TransformTopics
 # Reliable and volatile: a reader that is slow for a moment loses nothing.
 QOS = QoSProfile(depth=10)
 
+_COMMAND_TYPE = 'geometry_msgs/msg/Twist'
+
 
 class RobotTopics:
     """
@@ -79,6 +81,7 @@ class RobotTopics:
             Bool, f'{namespace}e_stop', self._on_e_stop, QOS
         )
         self._stopped = False
+        self._other_types: set[str] = set()
         self.now_sec = 0.0
 
     def _on_e_stop(self, message: Bool) -> None:
@@ -99,6 +102,23 @@ class RobotTopics:
             self._logger.error(f'{self.robot.name}: {error}', throttle_duration_sec=1.0)
         self.commanded = True
         self._on_command()
+
+    def warn_of_other_types(self, node: Node) -> None:
+        """
+        Say so, once, when somebody commands with another message type.
+
+        DDS does not connect the two, so without a word nothing would move. Most often it is a
+        TwistStamped, which Jazzy's own controllers take.
+        """
+        topic = self.command_subscription.topic_name
+        for publisher in node.get_publishers_info_by_topic(topic):
+            kind = publisher.topic_type
+            if kind != _COMMAND_TYPE and kind not in self._other_types:
+                self._other_types.add(kind)
+                self._logger.error(
+                    f'{publisher.node_name} publishes {kind} on {topic}, which nobody hears; '
+                    f'publish {_COMMAND_TYPE}'
+                )
 
     def publish_filtered(self, stamp: Time) -> None:
         """Publish what a driver steers by: first of all, so that it works while we go on."""

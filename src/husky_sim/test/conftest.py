@@ -3,7 +3,9 @@
 """Worlds and drives that several test modules use."""
 
 from collections.abc import Callable
+import os
 from pathlib import Path
+import socket
 
 from husky_sim.simulation import Simulation
 import pytest
@@ -25,6 +27,23 @@ ASPHALT = """
 
 MakeWorld = Callable[..., str]
 Drive = Callable[..., None]
+
+
+@pytest.fixture
+def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
+    """Give a test a DDS domain in which nobody is, as far as this machine's ports tell."""
+    for number in range(os.getpid() % 90, 101 + os.getpid() % 90):
+        domain = 1 + number % 100
+        # The first participant of a domain binds this port (RTPS 2.5, 9.6.2.3).
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.bind(('', 7410 + 250 * domain))
+            except OSError:
+                continue
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        return domain
+    raise RuntimeError('every DDS domain is in use: end the ROS nodes left over')
 
 
 @pytest.fixture

@@ -13,8 +13,8 @@ import sys
 import time
 from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticStatus
-from geometry_msgs.msg import Twist
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import Twist, TwistStamped
 from husky_sim.errors import SettingError, StartPoseError, WorldError
 from husky_sim.node import SimulatorNode
 from nav_msgs.msg import Odometry
@@ -28,7 +28,6 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Empty, SetBool, Trigger
 
-FIRST_DOMAIN_ID = 10
 COMMANDS = 'husky_velocity_controller/cmd_vel'
 TOPICS = {
     'odometry/filtered': Odometry,
@@ -106,16 +105,6 @@ class Bench:
         self.probe.destroy_node()
         self.simulator.destroy_node()
         self.context.try_shutdown()
-
-
-@pytest.fixture
-def domain_id(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> int:
-    """Give each test of this module a DDS domain of its own."""
-    names = [item.name for item in request.session.items if item.path == request.node.path]
-    number = FIRST_DOMAIN_ID + names.index(request.node.name) % 20
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(number))
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    return number
 
 
 @pytest.fixture
@@ -215,6 +204,38 @@ def test_a_command_that_is_no_number_stops_it_with_one_line(
     run.until(lambda: run.probe.odometry[-1].twist.twist.linear.x < 0.01, 'the stop')
     lines = [line for line in capfd.readouterr().err.splitlines() if 'finite' in line]
     assert len(lines) == 1
+
+
+def test_a_stamped_command_is_answered_with_what_is_wrong(
+    bench: Callable[..., Bench], domain_id: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    run = bench()
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    stranger = Node('stranger', context=context)
+    stranger.create_publisher(TwistStamped, COMMANDS, 10)
+    said = []
+
+    def told() -> bool:
+        said.append(capfd.readouterr().err)
+        return 'publish geometry_msgs/msg/Twist' in ''.join(said)
+
+    run.until(told, 'an explanation')
+    stranger.destroy_node()
+    context.try_shutdown()
+    assert 'stranger publishes geometry_msgs/msg/TwistStamped on ' in ''.join(said)
+
+
+def test_diagnostics_tell_the_pace_and_whether_it_is_kept(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=2.0)
+    heard: list[DiagnosticArray] = []
+    run.probe.create_subscription(DiagnosticArray, '/diagnostics', heard.append, 10)
+    run.until(lambda: len(heard) >= 2, 'two diagnostics')
+    values = {entry.key: entry.value for entry in heard[-1].status[0].values}
+    assert float(values['real_time_factor']) == pytest.approx(2.0, rel=0.2)
+    assert values['real_time_factor_asked'] == '2'
+    assert values['physics_warnings'] == '0'
+    assert heard[-1].status[0].name == 'husky_sim: time'
 
 
 def test_driving_into_the_barrier_reports_one_collision(bench: Callable[..., Bench]) -> None:

@@ -19,6 +19,12 @@ def test_nothing_is_due_too_early() -> None:
     assert pacer.due(5.021) == 1
 
 
+def test_a_timer_that_trembles_loses_no_period() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    trembling = [0.02 * i + (0.001 if i % 3 else -0.001) for i in range(1, 100)]
+    assert [pacer.due(now) for now in trembling] == [1] * 99
+
+
 @pytest.mark.parametrize('factor', [0.25, 1.0, 3.0, 50.0])
 def test_over_a_minute_the_pace_is_the_factor(factor: float) -> None:
     pacer = Pacer(period_sec=0.02, real_time_factor=factor)
