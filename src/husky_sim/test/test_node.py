@@ -25,7 +25,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Imu, JointState
+from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
 from std_srvs.srv import Empty, SetBool, Trigger
 
 COMMANDS = 'husky_velocity_controller/cmd_vel'
@@ -159,6 +159,29 @@ def test_frames_and_covariances_are_those_of_the_original(bench: Callable[..., B
         'rear_left_wheel_joint',
         'rear_right_wheel_joint',
     ]
+
+
+def test_scanner_and_receiver_speak_at_their_rates(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=5.0, lidar_rate_hz=10.0)
+    scans: list[LaserScan] = []
+    fixes: list[NavSatFix] = []
+    run.probe.create_subscription(LaserScan, 'front/scan', scans.append, 50)
+    run.probe.create_subscription(NavSatFix, 'navsat/fix', fixes.append, 50)
+    run.until(lambda: len(scans) > 5 and len(fixes) > 20, 'scans and fixes')
+    steps = [stamp_sec(after) - stamp_sec(before) for before, after in pairwise(scans)]
+    assert steps == pytest.approx([0.1] * len(steps))
+    assert len(scans[0].ranges) == 720
+    assert scans[0].header.frame_id == 'front_laser'
+    assert scans[0].angle_max == pytest.approx(2.35619)
+    assert (stamp_sec(fixes[20]) - stamp_sec(fixes[0])) == pytest.approx(0.5, abs=0.021)
+    assert fixes[0].latitude == pytest.approx(49.9)
+    assert fixes[0].position_covariance[0] > 0.0
+
+
+def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=0.0, localization=False)
+    run.until(lambda: run.probe.heard['husky_velocity_controller/odom'], 'wheel odometry')
+    assert run.probe.count_publishers('odometry/filtered') == 0
 
 
 def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
