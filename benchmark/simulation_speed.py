@@ -134,6 +134,8 @@ def node_speed(count: int, seconds: float, *, reads: bool = True, **parameters: 
     finally:
         driver.kill()
         driver.join()
+        executor.remove_node(node)
+        executor.shutdown()
         node.destroy_node()
         rclpy.try_shutdown()
 

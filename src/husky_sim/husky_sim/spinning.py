@@ -37,3 +37,5 @@ def spin(node: Node, *, until: 'Future[None]') -> None:
     # the timeout of a longer one while a timer is always due.
     while not until.done():
         executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
+    executor.remove_node(node)  # before it is destroyed: events may wait in here
+    executor.shutdown()
