@@ -70,7 +70,7 @@ def launch_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Itera
     environment = dict(os.environ)
     monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(30 + os.getpid() % 15))
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(30 + os.getpid() % 14))
     monkeypatch.delenv('OVERRIDE_LAUNCH_PROCESS_OUTPUT', raising=False)
     launch.logging.reset()
     yield

@@ -13,73 +13,62 @@ from ros2cli.graph import Graph
 
 
 def package(action: argparse.Action) -> None:
-    _attach(action, lambda _: sorted(packages.installed()))
+    attach(action, lambda _: sorted(packages.installed()))
 
 
 def executable(action: argparse.Action) -> None:
-    _attach(action, lambda args: [p.name for p in packages.executables(args.package_name)])
+    attach(action, lambda args: [p.name for p in packages.executables(args.package_name)])
 
 
 def launch_file(action: argparse.Action) -> None:
     def names(args: argparse.Namespace) -> list[str]:
-        from ros2cli.command import launch
+        return [p.name for p in packages.launch_files(packages.share_of(args.package_name))]
 
-        return [p.name for p in launch.launch_files(packages.share_of(args.package_name))]
-
-    _attach(action, names)
+    attach(action, names)
 
 
 def topic(action: argparse.Action) -> None:
-    _attach(action, lambda _: _graph().topics())
+    attach(action, lambda _: _graph().topics())
 
 
 def service(action: argparse.Action) -> None:
-    _attach(action, lambda _: _graph().services())
+    attach(action, lambda _: _graph().services())
 
 
 def action_name(action: argparse.Action) -> None:
-    _attach(action, lambda _: _graph().actions())
+    attach(action, lambda _: _graph().actions())
 
 
 def node(action: argparse.Action) -> None:
-    _attach(action, lambda _: [n.full_name for n in _graph().nodes if not n.is_hidden])
-
-
-def parameter(action: argparse.Action) -> None:
-    def names(args: argparse.Namespace) -> list[str]:
-        from ros2cli import params
-        from ros2cli.node import command_node
-
-        with command_node() as node:
-            return params.names_of(node, params.find_node(args))
-
-    _attach(action, names)
+    attach(action, lambda _: [n.full_name for n in _graph().nodes if not n.is_hidden])
 
 
 def message_type(action: argparse.Action) -> None:
-    _attach(action, lambda _: _interfaces('msg'))
+    attach(action, lambda _: _interfaces('msg'))
 
 
 def service_type(action: argparse.Action) -> None:
-    _attach(action, lambda _: _interfaces('srv'))
+    attach(action, lambda _: _interfaces('srv'))
 
 
 def action_type(action: argparse.Action) -> None:
-    _attach(action, lambda _: _interfaces('action'))
+    attach(action, lambda _: _interfaces('action'))
 
 
 def any_interface(action: argparse.Action) -> None:
-    _attach(action, lambda _: _interfaces(''))
+    attach(action, lambda _: _interfaces(''))
 
 
 def values(action: argparse.Action, type_key: str) -> None:
     """Offer the type's default value, as YAML on one line, to be changed."""
-    _attach(action, lambda args: _prototype(getattr(args, type_key, None)))
+    attach(action, lambda args: _prototype(getattr(args, type_key, None)))
 
 
-def _attach(
+def attach(
     action: argparse.Action, choices: Callable[[argparse.Namespace], Iterable[str]]
 ) -> None:
+    """Offer what a function finds for the arguments so far."""
+
     def complete(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
         try:
             return list(choices(parsed_args))

@@ -16,15 +16,16 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from ros2cli import discovery, names
+from ros2cli import names
 from ros2cli.errors import CommandError
+from ros2cli.settings import settings_from_environment
 
 
 class CommandNode:
     """A node with its executor."""
 
     def __init__(self, name: str | None = None, *, use_sim_time: bool = False) -> None:
-        discovery.settings_from_environment()
+        settings_from_environment()
         rclpy.init(args=[])
         overrides = [Parameter('use_sim_time', value=True)] if use_sim_time else []
         try:

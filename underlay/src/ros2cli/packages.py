@@ -11,6 +11,11 @@ import re
 from ros2cli import nearest
 from ros2cli.errors import CommandError
 
+LAUNCH_SUFFIXES = (
+    '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
+    '_launch.py', '_launch.xml', '_launch.yaml', '_launch.yml',
+)  # fmt: skip
+
 _INDEX = 'share/ament_index/resource_index/packages'
 _PACKAGE_NAME = re.compile(r'<name>\s*([^<\s]+)\s*</name>')
 
@@ -92,6 +97,13 @@ def find_executable(package: str, name: str) -> Path:
         f"No executable found: package '{package}' has no '{name}'"
         f'{nearest.hint(name, (path.name for path in known))}'
     )
+
+
+def launch_files(share: Path) -> list[Path]:
+    """List what looks like a launch file below a folder."""
+    return [
+        p for p in sorted(share.rglob('*')) if p.name.endswith(LAUNCH_SUFFIXES) and p.is_file()
+    ]
 
 
 def why_missing(package: str) -> str:

@@ -22,7 +22,7 @@ from ros2cli import completion, discovery, names, nearest, services
 from ros2cli.arguments import nonnegative_float
 from ros2cli.errors import CommandError
 from ros2cli.graph import Node, Role
-from ros2cli.node import CommandNode
+from ros2cli.node import command_node, CommandNode
 
 TYPE_NAMES = {
     ParameterType.PARAMETER_NOT_SET: 'not set',
@@ -57,6 +57,16 @@ def add_arguments(parser: argparse.ArgumentParser, *, node_is_optional: bool = F
         default=1.0,
         help='Wait for N seconds until node becomes available (default %(default)s sec)',
     )
+
+
+def add_parameter(parser: argparse.ArgumentParser, name: str, **options: Any) -> None:
+    """Add the argument that names parameters of the node."""
+    completion.attach(parser.add_argument(name, **options), _parameters)
+
+
+def _parameters(args: argparse.Namespace) -> list[str]:
+    with command_node() as node:
+        return names_of(node, find_node(args))
 
 
 def nodes(args: argparse.Namespace) -> list[Node]:

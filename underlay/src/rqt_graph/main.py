@@ -93,13 +93,13 @@ def _show(args: argparse.Namespace) -> int:
         raise CommandError(
             f'--port {args.port} is taken: leave it out to get a free one'
         ) from None
+    # Whatever ends it ends it as Ctrl-C does.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     suffix = ''.join((f'?view={args.view}', '&debug=shown' if args.debug else ''))
     address = server.address + (suffix if suffix != '?view=active' else '')
     print(f'rqt_graph: the live graph is at {address} (Ctrl-C ends it)', flush=True)
     if os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'):
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
-    # Whatever ends it ends it as Ctrl-C does.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     with server:
         server.serve_forever(poll_interval=0.2)
     return 0

@@ -19,7 +19,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent.parent
 SOURCES = HERE.parent.parent / 'src'
 sys.path.insert(0, str(SOURCES))
-_DOMAINS = range(45, 70)
+_DOMAINS = range(45, 58)
 _next_domain = os.getpid()
 
 

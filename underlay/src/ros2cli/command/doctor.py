@@ -15,6 +15,7 @@ import sys
 
 from ros2cli import discovery, packages
 from ros2cli.diagnosis import examination
+from ros2cli.settings import settings_from_environment
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +55,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _print_report(args: argparse.Namespace) -> None:
-    settings = discovery.settings_from_environment()
+    settings = settings_from_environment()
     graph = discovery.read_graph(args)
     own = [f'{name}: {prefix}' for name, prefix in packages.installed().items()
            if packages.source_of(name)]  # fmt: skip

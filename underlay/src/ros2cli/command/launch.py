@@ -14,9 +14,7 @@ from ros2cli import completion, nearest, packages
 from ros2cli.diagnosis import workspaces
 from ros2cli.errors import CommandError
 
-_SUFFIXES = ('.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml', '_launch.py',
-             '_launch.xml', '_launch.yaml', '_launch.yml', '.py', '.xml', '.yaml', '.yml',
-             '.launch')  # fmt: skip
+_SUFFIXES = (*packages.LAUNCH_SUFFIXES, '.py', '.xml', '.yaml', '.yml', '.launch')
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -119,7 +117,7 @@ def find_launch_file(
     if file_name is None and package.endswith(_SUFFIXES):
         raise CommandError(f"'{package}' is no file in this folder ({Path.cwd()})")
     share = packages.share_of(package)
-    known = launch_files(share)
+    known = packages.launch_files(share)
     if file_name is None:
         raise CommandError(
             'A launch file name is required in case a package name is given'
@@ -138,11 +136,6 @@ def find_launch_file(
             f"'{package}': [{', '.join(repr(str(p)) for p in sorted(matching))}]"
         )
     return matching[0], list(words)
-
-
-def launch_files(share: Path) -> list[Path]:
-    """List what looks like a launch file below a folder."""
-    return [p for p in sorted(share.rglob('*')) if p.name.endswith(_SUFFIXES[:8]) and p.is_file()]
 
 
 def parse_launch_arguments(words: Sequence[str]) -> list[tuple[str, str]]:

@@ -12,6 +12,7 @@ from pathlib import Path
 from ros2cli import discovery
 from ros2cli.diagnosis import connections, nodes, places, workspaces
 from ros2cli.diagnosis.finding import Finding
+from ros2cli.settings import settings_from_environment
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Check:
 
 def checks(args: argparse.Namespace) -> list[Check]:
     """List the checks; the graph is read once, before the first that needs it."""
-    settings = discovery.settings_from_environment()
+    settings = settings_from_environment()
     graph = discovery.read_graph(args, quiet=True)
 
     def command_rate() -> Iterator[Finding]:

@@ -11,10 +11,10 @@ from pathlib import Path
 import socket
 
 from ros2cli.diagnosis.finding import Finding
-from ros2cli.discovery import Settings
 from ros2cli.rtps import host
 from ros2cli.rtps.observer import Observer
 from ros2cli.rtps.participant import Participant
+from ros2cli.settings import Settings
 
 _LAST_DOMAIN = 101  # Beyond it lie the ports that Linux gives to anybody.
 _LISTEN_SEC = 0.6

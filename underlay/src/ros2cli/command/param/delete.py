@@ -8,14 +8,14 @@ import argparse
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 
-from ros2cli import completion, params
+from ros2cli import params
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     params.add_arguments(parser)
-    completion.parameter(parser.add_argument('parameter_name', help='Name of the parameter'))
+    params.add_parameter(parser, 'parameter_name', help='Name of the parameter')
 
 
 def main(args: argparse.Namespace) -> None:

@@ -8,15 +8,13 @@ import argparse
 
 from rcl_interfaces.msg import ParameterDescriptor
 
-from ros2cli import completion, params
+from ros2cli import params
 from ros2cli.node import command_node
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     params.add_arguments(parser)
-    completion.parameter(
-        parser.add_argument('parameter_names', nargs='+', help='Names of the parameters')
-    )
+    params.add_parameter(parser, 'parameter_names', nargs='+', help='Names of the parameters')
 
 
 def main(args: argparse.Namespace) -> None:

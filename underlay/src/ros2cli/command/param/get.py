@@ -8,7 +8,7 @@ import argparse
 
 from rcl_interfaces.msg import ParameterType
 
-from ros2cli import completion, params
+from ros2cli import params
 from ros2cli.errors import CommandError
 from ros2cli.node import command_node
 
@@ -27,7 +27,7 @@ _LABELS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     params.add_arguments(parser)
-    completion.parameter(parser.add_argument('parameter_name', help='Name of the parameter'))
+    params.add_parameter(parser, 'parameter_name', help='Name of the parameter')
     parser.add_argument('--hide-type', action='store_true', help='Hide the type information')
 
 
