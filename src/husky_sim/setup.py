@@ -46,9 +46,9 @@ setup(
     tests_require=['pytest'],
     entry_points={
         'console_scripts': [
-            'husky_sim = husky_sim.node:main',
-            'replay = husky_sim.view.replay:main',
-            'view = husky_sim.view.node:main',
+            'husky_sim = husky_sim.start:main',
+            'replay = husky_sim.start:replay',
+            'view = husky_sim.start:view',
         ]
     },
 )

@@ -64,7 +64,9 @@ class Husky:
         self._angles = [int(joint.qposadr[0]) for joint in joints]
         self._speeds = [int(joint.dofadr[0]) for joint in joints]
         self._actuators = [model.actuator(f'{name}/{wheel}_wheel').id for wheel in WHEELS]
+        self._model = model
         self._data = data
+        self._tyres = [model.geom(f'{name}/{wheel}_wheel').id for wheel in WHEELS]
         self._gravity_m_s2 = -float(model.opt.gravity[2])
         # The joints and the actuators of one robot lie side by side, so that slices do.
         self._wheel_angles = _block(data.qpos, self._angles)
@@ -80,7 +82,7 @@ class Husky:
     def drive(self, left_rad_s: float, right_rad_s: float) -> None:
         """Set the speeds the servos of the wheels aim at."""
         self._control[:] = (left_rad_s, right_rad_s, left_rad_s, right_rad_s)
-        if np.abs(self._torques).max() >= self._torque_limit:
+        if max(map(abs, self._torques.tolist())) >= self._torque_limit:
             self._unwind()
 
     def _unwind(self) -> None:
@@ -109,6 +111,17 @@ class Husky:
             tuple(self._wheel_speeds.tolist()),
             tuple(self._torques.tolist()),
         )
+
+    def wheel_loads_n(self) -> tuple[float, ...]:
+        """Return the force with which the ground, or whatever it is, presses on each wheel."""
+        loads = [0.0] * len(WHEELS)
+        force = np.zeros(6)
+        for index, pair in enumerate(self._data.contact.geom.tolist()):
+            mujoco.mj_contactForce(self._model, self._data, index, force)
+            for wheel, tyre in enumerate(self._tyres):
+                if tyre in pair:
+                    loads[wheel] += float(force[0])
+        return tuple(loads)
 
     def world_velocity(self) -> Vector:
         """Return the velocity of base_link along the axes of the world, in m/s."""

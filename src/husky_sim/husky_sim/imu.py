@@ -45,7 +45,7 @@ class Imu:
         acceleration = self._husky.specific_force(self._velocity, velocity, period_sec)
         self._velocity = velocity
         sample = ImuSample(state.orientation, state.angular_velocity, acceleration, state.yaw)
-        return sample if self._noise is None else _disturbed(sample, self._noise, period_sec)
+        return sample if self._noise is None else disturbed(sample, self._noise, period_sec)
 
 
 def new_noise(seed: list[int]) -> Noise:
@@ -53,7 +53,8 @@ def new_noise(seed: list[int]) -> Noise:
     return Noise(7, deviation=DEVIATION, drift=DEVIATION, seed=seed)
 
 
-def _disturbed(sample: ImuSample, noise: Noise, period_sec: float) -> ImuSample:
+def disturbed(sample: ImuSample, noise: Noise, period_sec: float) -> ImuSample:
+    """Return what an IMU with this noise says where an exact one says `sample`."""
     errors = noise.sample(period_sec).tolist()
     acceleration, rate = sample.acceleration, sample.angular_velocity
     return ImuSample(

@@ -22,6 +22,7 @@ from rclpy.clock import ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
+from rclpy.timer import Timer
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty, SetBool, Trigger
 
@@ -35,6 +36,7 @@ from husky_sim.record import RunRecord
 from husky_sim.robot_topics import QOS, RobotTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
+from husky_sim.simulation_services import add_simulation_services
 from husky_sim.spinning import future_of_signal, spin
 
 REPEAT_SEC = 0.5
@@ -42,6 +44,12 @@ REPEAT_SEC = 0.5
 
 _LOCKSTEP_POLL_SEC = 0.01
 _SHORTEST_TICK_SEC = 0.001
+
+# How long to go on before the executor may look for commands and services. As fast as possible: to
+# come back to it costs as much as half a control period. Behind the wall clock: long enough to
+# catch up where a control period takes most of its time.
+_TURN_SEC = 0.002
+_CATCH_UP_TURN_SEC = 0.02
 
 
 class SimulatorNode(Node):
@@ -75,12 +83,13 @@ class SimulatorNode(Node):
         self._by_name = {topics.robot.name: topics for topics in self._topics}
         self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
         self._clock_message = Clock()
-        self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self._paused)
+        self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
         self.create_service(Trigger, '~/step', self._on_step)
+        add_simulation_services(self, self)
         self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
-        self._timer = self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+        self._timer = self._new_timer()
         self._diagnostics = DiagnosticsTopic(self)
         self._watch = PaceWatch(self._simulation)
         self.create_timer(DIAGNOSTICS_PERIOD_SEC, self._on_diagnose, clock=self._steady)
@@ -117,21 +126,26 @@ class SimulatorNode(Node):
 
     def _change_pace(self, factor: float) -> None:
         self._run = replace(self._run, real_time_factor=factor)
-        self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
         self.destroy_timer(self._timer)
-        self._timer = self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+        self._timer = self._new_timer()
         self.get_logger().info(self._pace_in_words())
+
+    def _new_timer(self) -> Timer:
+        self._pacer.change(self._run.real_time_factor or 1e9, begin_sec=time.monotonic())
+        return self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
 
     def _on_tick(self) -> None:
         if self._paused:
             return
         if self._run.lockstep:
             self._continue_lockstep()
-        elif self._run.real_time_factor > 0.0:
-            for _ in range(self._pacer.due(time.monotonic())):
-                self._advance()
-        else:
+            return
+        free = self._run.real_time_factor == 0.0
+        now_sec = time.monotonic()
+        end_sec = now_sec + (_TURN_SEC if free else _CATCH_UP_TURN_SEC)
+        while now_sec < end_sec and (free or self._pacer.due(now_sec, most=1)):
             self._advance()
+            now_sec = time.monotonic()
 
     def _on_command(self) -> None:
         if self._run.lockstep and not self._paused:
@@ -180,7 +194,6 @@ class SimulatorNode(Node):
         seconds, nanoseconds = divmod(self._simulation.time_ns, 1_000_000_000)
         stamp = Time(sec=seconds, nanosec=nanoseconds)
         for topics in self._topics:
-            topics.now_sec = self._simulation.time_sec
             topics.publish_filtered(stamp)
         self._clock_message.clock = stamp
         self._clock_publisher.publish(self._clock_message)
@@ -199,20 +212,44 @@ class SimulatorNode(Node):
         for topics in self._topics:
             topics.warn_of_other_types(self)
 
-    def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
+    @property
+    def paused(self) -> bool:
+        """Whether time stands still."""
+        return self._paused
+
+    @property
+    def at_start(self) -> bool:
+        """Whether no time has passed since the start or the last reset."""
+        return self._simulation.periods == 0
+
+    def pause(self, paused: bool) -> None:
+        """Hold time up, or let it go on."""
+        self._paused = paused
+        self._pacer.restart()
+
+    def step(self) -> None:
+        """Advance by one control period."""
+        self._advance()
+
+    def reset(self) -> None:
+        """Put everything back as it was at the start."""
         self._simulation.reset()
         if self._record is not None:
             self._record.restart()
         self._pacer.restart()
         self._driven = self._answered = False
+        for topics in self._topics:
+            topics.commanded = False
         if not self._run.lockstep:
             self._publish()
         self.get_logger().info('everything is back at its start')
+
+    def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
+        self.reset()
         return response
 
     def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        self._paused = request.data
-        self._pacer.restart()
+        self.pause(request.data)
         response.success = True
         response.message = f'{"paused" if self._paused else "going on"} at {self._now_in_words()}'
         return response
@@ -220,7 +257,7 @@ class SimulatorNode(Node):
     def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success = self._paused
         if self._paused:
-            self._advance()
+            self.step()
             response.message = f'stepped to {self._now_in_words()}'
         else:
             response.message = 'a step needs a paused simulation; call ~/pause with true first'

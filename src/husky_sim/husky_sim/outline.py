@@ -49,12 +49,8 @@ def outline_of(
     yaw = math.atan2(turn[1, 0], turn[0, 0])
     tilted = math.acos(max(-1.0, min(1.0, float(turn[2, 2])))) > _UPRIGHT_RAD
     frame = _about_z(yaw) if tilted else turn
-    reach = np.array(
-        [
-            max(_reach(model, data, geom, origin, frame[:, :2] @ direction) for geom in geoms)
-            for direction in _circle_of_directions()
-        ]
-    )
+    directions = _circle_of_directions() @ frame[:, :2].T
+    reach = np.max([_reach(model, data, geom, origin, directions) for geom in geoms], axis=0)
     if reach.max() - reach.min() <= _ROUND * reach.max():
         return Outline(
             name=name, x=float(origin[0]), y=float(origin[1]), yaw=yaw, size=(float(reach.max()),)
@@ -82,29 +78,29 @@ def _circle_of_directions() -> Array:
 
 
 def _reach(
-    model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array, direction: Array
-) -> float:
-    """Return how far a geom reaches from origin along a unit vector."""
+    model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array, directions: Array
+) -> Array:
+    """Return how far a geom reaches from origin along each of the unit vectors (n, 3)."""
     kind = mujoco.mjtGeom
     size = model.geom_size[geom]
-    turn = data.geom_xmat[geom].reshape(3, 3)
-    local = turn.T @ direction
-    middle = float(direction @ (data.geom_xpos[geom] - origin))
+    local = directions @ data.geom_xmat[geom].reshape(3, 3)
+    middle: Array = directions @ (data.geom_xpos[geom] - origin)
     shape = int(model.geom_type[geom])
     if shape == kind.mjGEOM_SPHERE:
-        return middle + float(size[0])
+        return middle + size[0]
     if shape == kind.mjGEOM_CAPSULE:
-        return middle + float(size[0] + size[1] * abs(local[2]))
+        return middle + size[0] + size[1] * np.abs(local[:, 2])
     if shape == kind.mjGEOM_CYLINDER:
-        return middle + float(size[0] * math.hypot(local[0], local[1]) + size[1] * abs(local[2]))
+        across = np.hypot(local[:, 0], local[:, 1])
+        return middle + size[0] * across + size[1] * np.abs(local[:, 2])
     if shape == kind.mjGEOM_ELLIPSOID:
-        return middle + float(np.linalg.norm(size * local))
+        return middle + np.linalg.norm(local * size, axis=1)
     if shape == kind.mjGEOM_MESH:
         mesh = model.geom_dataid[geom]
         first = model.mesh_vertadr[mesh]
         points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
-        return middle + float((points @ local).max())
-    return middle + float(np.abs(local) @ size)
+        return middle + (local @ points.T).max(axis=1)
+    return middle + np.abs(local) @ size
 
 
 def clearances(poses: Array, outlines: Sequence[Outline]) -> Array:

@@ -19,11 +19,21 @@ class Pacer:
     """Says how many control periods are due. Times are of a steady wall clock, in seconds."""
 
     def __init__(self, *, period_sec: float, real_time_factor: float) -> None:
-        self._wall_period_sec = period_sec / real_time_factor
         self._period_sec = period_sec
-        self._next_sec: float | None = None
         self.overruns = 0
         self.lost_sec = 0.0
+        self.change(real_time_factor)
+
+    def change(self, real_time_factor: float, *, begin_sec: float | None = None) -> None:
+        """
+        Go on at another pace; what was lost stays counted.
+
+        :param begin_sec: when the timer was made that asks. Periods fall due when it fires: due
+            times amid two of its ticks would come now with the one, now with the other.
+        """
+        self._begin_sec = begin_sec
+        self._wall_period_sec = self._period_sec / real_time_factor
+        self._next_sec: float | None = None
 
     def restart(self) -> None:
         """Begin anew at the next question, after a pause."""
@@ -32,15 +42,21 @@ class Pacer:
     def due(self, now_sec: float, *, most: int = 1000) -> int:
         """Return how many periods to advance now, and count on it that it is done."""
         if self._next_sec is None:
-            self._next_sec = now_sec
+            self._next_sec = self._tick_near(now_sec)
         late_sec = now_sec - self._next_sec
         if late_sec < -EARLY * self._wall_period_sec:
             return 0
         if late_sec > CATCH_UP_SEC + self._wall_period_sec:
             self.overruns += 1
             self.lost_sec += late_sec
-            self._next_sec = now_sec
-            late_sec = 0.0
+            self._next_sec = self._tick_near(now_sec)
+            late_sec = now_sec - self._next_sec
         periods = min(most, 1 + math.floor(max(late_sec, 0.0) / self._wall_period_sec))
         self._next_sec += periods * self._wall_period_sec
         return periods
+
+    def _tick_near(self, now_sec: float) -> float:
+        if self._begin_sec is None:
+            return now_sec
+        ticks = round((now_sec - self._begin_sec) / self._wall_period_sec)
+        return self._begin_sec + ticks * self._wall_period_sec

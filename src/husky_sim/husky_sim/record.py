@@ -13,6 +13,7 @@ import numpy as np
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.contacts import Touch
 from husky_sim.outline import clearances, Outline
+from husky_sim.pushed import PushedBodies
 from husky_sim.simulation import SimulatedRobot, Simulation
 
 FORMAT = 'husky_playpen_record'
@@ -37,12 +38,14 @@ class RunRecord:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
+        self._pushed = PushedBodies(simulation)
         self.restart()
 
     def restart(self) -> None:
         """Drop everything and begin with the simulation as it is now."""
         self._entries = {robot.name: array('d') for robot in self._simulation.robots}
         self._touches: list[Touch] = []
+        self._pushed.restart()
         self.append()
 
     def append(self) -> None:
@@ -51,6 +54,7 @@ class RunRecord:
         for robot in self._simulation.robots:
             self._entries[robot.name].extend(_entry(robot, time_sec))
         self._touches.extend(self._simulation.touches)
+        self._pushed.look()
 
     def as_dict(self) -> dict[str, Any]:
         """Return the record as it is written."""
@@ -73,6 +77,7 @@ class RunRecord:
                 for name, table in tables.items()
             },
             'collisions': _collisions([*self._touches, *simulation.unreported_touches()]),
+            'pushed': self._pushed.as_dict(),
             'obstacles': [_obstacle(outline) for outline in obstacles],
             'min_clearance_m': {
                 name: _nearest(table, obstacles) for name, table in tables.items()

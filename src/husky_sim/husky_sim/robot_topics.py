@@ -45,6 +45,7 @@ class RobotTopics:
     ) -> None:
         self.robot = robot
         self.commanded = False
+        self._simulation = simulation
         self._on_command = on_command
         self._logger = node.get_logger()
         variances = messages.ODOMETRY_VARIANCES
@@ -83,7 +84,6 @@ class RobotTopics:
         )
         self._stopped = False
         self._other_types: set[str] = set()
-        self.now_sec = 0.0
 
     def _on_e_stop(self, message: Bool) -> None:
         if message.data != self._stopped:
@@ -91,14 +91,14 @@ class RobotTopics:
             what = 'emergency stop' if self._stopped else 'emergency stop released'
             self._logger.warning(f'{self.robot.name}: {what}')
         if self._stopped:
-            self.robot.controller.command(0.0, 0.0, time_sec=self.now_sec)
+            self.robot.controller.command(0.0, 0.0, time_sec=self._simulation.time_sec)
 
     def _on_cmd_vel(self, message: Twist) -> None:
         speed, yaw_rate = message.linear.x, message.angular.z
         if self._stopped:
             speed = yaw_rate = 0.0
         try:
-            self.robot.controller.command(speed, yaw_rate, time_sec=self.now_sec)
+            self.robot.controller.command(speed, yaw_rate, time_sec=self._simulation.time_sec)
         except ValueError as error:
             self._logger.error(f'{self.robot.name}: {error}', throttle_duration_sec=1.0)
         self.commanded = True

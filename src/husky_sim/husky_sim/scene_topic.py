@@ -11,7 +11,9 @@ whether the simulation runs in real time or fifty times as fast.
 from array import array
 from collections.abc import Callable
 from dataclasses import dataclass
+import hashlib
 from typing import Any
+from uuid import uuid4
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +23,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from husky_sim.simulation import Simulation
+from husky_sim.world import World
 
 TOPIC = '~/scene'
 RATE_HZ = 30.0
@@ -30,6 +33,8 @@ MOST_ROWS = 256
 TRACK = ('x', 'y', 'yaw', 'odom_x', 'odom_y', 'odom_yaw', 'speed_m_s')
 """Of every robot, after the time: the true pose, the believed one, the true speed."""
 
+_KEY = 16
+
 # Best effort: a viewer that hangs must not make the simulator wait.
 QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -38,8 +43,13 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """One message, taken apart."""
+    """
+    One message, taken apart.
 
+    :param run: tells one run of a simulator from those before and beside it.
+    """
+
+    run: str = ''
     paused: bool
     qpos: Array
     time_sec: Array  # of every entry of the track; the last one is now
@@ -60,8 +70,8 @@ class SceneTopic:
         self._message = Float64MultiArray()
         self._message.layout.dim = [
             MultiArrayDimension(label='paused', size=1),
-            MultiArrayDimension(label='qpos', size=simulation.model.nq),
-            MultiArrayDimension(label='track'),
+            MultiArrayDimension(label=world_key(simulation.world), size=simulation.model.nq),
+            MultiArrayDimension(label=uuid4().hex[:_KEY], size=0),
         ]
         self._publisher = node.create_publisher(Float64MultiArray, TOPIC, QOS)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -113,9 +123,28 @@ def _every_second(rows: 'array[float]', width: int) -> 'array[float]':
     return array('d', table[::-1][::2][::-1].tobytes())
 
 
+def world_key(world: World) -> str:
+    """Return what tells a world with its robots from any other, wherever its file lies."""
+    model = world.model
+    parts = (
+        *(model.qpos0, model.body_pos, model.body_quat),
+        *(model.geom_type, model.geom_size, model.geom_pos, model.geom_quat),
+    )
+    digest = hashlib.sha256(model.names)
+    for part in parts:
+        digest.update(np.ascontiguousarray(part).tobytes())
+    return digest.hexdigest()[:_KEY]
+
+
+def origin_of(message: Float64MultiArray) -> tuple[str, str]:
+    """Return the key of a message's world and its run; both are empty if it is no scene."""
+    labels = [dimension.label for dimension in message.layout.dim]
+    return (labels[1], labels[2]) if len(labels) == 3 else ('', '')
+
+
 def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:
     """
-    Take a message apart.
+    Take a message apart, of a world with so many robots.
 
     :raises ValueError: if it is of another simulation than one with so many robots.
     """
@@ -127,4 +156,10 @@ def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:
     qpos = data[1 : 1 + sizes[1]]
     rows = data[1 + sizes[1] :].reshape(-1, width)
     track = rows[:, 1:].reshape(-1, robots, len(TRACK))
-    return Scene(paused=bool(data[0]), qpos=qpos, time_sec=rows[:, 0], track=track)
+    return Scene(
+        run=origin_of(message)[1],
+        paused=bool(data[0]),
+        qpos=qpos,
+        time_sec=rows[:, 0],
+        track=track,
+    )

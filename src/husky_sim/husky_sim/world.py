@@ -19,12 +19,12 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart
+from husky_sim.config import RobotStart
 from husky_sim.errors import StartPoseError, WorldError
 from husky_sim.outline import Outline, outline_of
+from husky_sim.world_file import check_settings, line_of, refused, steps_per_period
 
 GROUND_NAMES = ('ground', 'floor', 'asphalt', 'ramp')
-LONGEST_TIMESTEP_SEC = 0.002
 HUSKY_FILE = 'husky.xml'
 
 # Places, from base_link, under which there must be ground: the middle and the four wheels.
@@ -67,16 +67,17 @@ def load_world(path: str, robots: Sequence[RobotStart], *, husky: str = '') -> W
             f'robots={[robot.name for robot in robots]}: every robot needs a name of its own'
         )
     empty = _compiled(path, _parsed(path))
-    steps = _steps_per_period(path, empty.opt.timestep)
+    steps = steps_per_period(path, empty.opt.timestep)
     heights = [_height_under(path, empty, robot) for robot in robots]
     spec = _parsed(path)
+    check_settings(path, spec)
     for robot, height in zip(robots, heights, strict=True):
         _attach(spec, husky or _husky_beside(path), robot, height)
     model = _compiled(path, spec)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     names, owners = _owners(model, robots)
-    _check_start(data, robots, names, owners)
+    _check_start(path, data, robots, names, owners)
     return World(
         path=path,
         model=model,
@@ -98,9 +99,11 @@ def _parsed(path: str) -> mujoco.MjSpec:
     if Path(path).suffix.lower() != '.xml':
         raise WorldError(f'world={path!r}: not an .xml file; give an MJCF file')
     try:
-        return mujoco.MjSpec.from_file(path)
+        spec = mujoco.MjSpec.from_file(path)
     except (ValueError, mujoco.FatalError) as error:
-        raise WorldError(f'world={path!r}: {_one_line(error)}') from error
+        raise refused(path, error) from error
+    spec.compiler.fusestatic = False  # it takes the bodies' names
+    return spec
 
 
 def _compiled(path: str, spec: mujoco.MjSpec) -> mujoco.MjModel:
@@ -110,26 +113,7 @@ def _compiled(path: str, spec: mujoco.MjSpec) -> mujoco.MjModel:
             warnings.simplefilter('ignore')
             return spec.compile()
     except (ValueError, mujoco.FatalError) as error:
-        raise WorldError(f'world={path!r}: {_one_line(error)}') from error
-
-
-def _one_line(error: Exception) -> str:
-    return ' '.join(str(error).split())
-
-
-def _steps_per_period(path: str, timestep_sec: float) -> int:
-    steps = round(CONTROL_PERIOD_SEC / timestep_sec)
-    if steps < 1 or not math.isclose(steps * timestep_sec, CONTROL_PERIOD_SEC):
-        raise WorldError(
-            f'world={path!r}: timestep={timestep_sec:g}: the control period of '
-            f'{CONTROL_PERIOD_SEC:g} s must be a whole number of timesteps; use 0.002'
-        )
-    if timestep_sec > LONGEST_TIMESTEP_SEC:
-        raise WorldError(
-            f'world={path!r}: timestep={timestep_sec:g}: the servos of the wheels need '
-            f'{LONGEST_TIMESTEP_SEC:g} s or less'
-        )
-    return steps
+        raise refused(path, error) from error
 
 
 def _husky_beside(path: str) -> str:
@@ -167,6 +151,7 @@ def _attach(spec: mujoco.MjSpec, husky: str, robot: RobotStart, height: float) -
         quat=[math.cos(robot.yaw / 2.0), 0.0, 0.0, math.sin(robot.yaw / 2.0)],
     )
     child.option.timestep = spec.option.timestep
+    spec.memory = -1  # as much as it takes: what a world sets for itself is too little for both
     frame.attach_body(base, f'{robot.name}/', '')
 
 
@@ -176,9 +161,10 @@ def _height_under(path: str, model: mujoco.MjModel, robot: RobotStart) -> float:
     mujoco.mj_forward(model, data)
     ground = {geom for geom in range(model.ngeom) if _is_ground(model, geom)}
     if not ground:
-        raise WorldError(
-            f'world={path!r}: nothing to drive on; add a plane, or a geom whose name begins with '
-            f'one of {", ".join(GROUND_NAMES)}'
+        raise refused(
+            path,
+            'nothing to drive on; add a plane, or a geom whose name begins with one of '
+            f'{", ".join(GROUND_NAMES)}',
         )
     cos, sin = math.cos(robot.yaw), math.sin(robot.yaw)
     heights = []
@@ -188,8 +174,8 @@ def _height_under(path: str, model: mujoco.MjModel, robot: RobotStart) -> float:
         height = _ground_at(model, data, ground, x, y)
         if height is None:
             raise StartPoseError(
-                f'{robot.name} at x={robot.x:g}, y={robot.y:g}: there is no ground under it in '
-                f'{path}; start it on the ground'
+                f'{robot.name} at x={robot.x:g}, y={robot.y:g}: there is no ground under it '
+                f'({path}); start it on the ground'
             )
         heights.append(height)
     return max(heights)
@@ -202,7 +188,7 @@ def _ground_at(
     down = np.array([0.0, 0.0, -1.0])
     hit = np.zeros(1, dtype=np.int32)
     z = _ABOVE_M
-    for _ in range(model.ngeom):
+    for _ in range(2 * model.ngeom):  # into and out of each
         distance = mujoco.mj_ray(model, data, np.array([x, y, z]), down, None, 1, -1, hit)
         if distance < 0.0:
             return None
@@ -213,19 +199,24 @@ def _ground_at(
     return None
 
 
+def _can_touch(model: mujoco.MjModel, geom: int) -> bool:
+    """Tell whether a geom and a robot's would collide, whose contype and conaffinity are 1."""
+    return bool((model.geom_contype[geom] | model.geom_conaffinity[geom]) & 1)
+
+
 def _is_ground(model: mujoco.MjModel, geom: int) -> bool:
-    if not model.geom_contype[geom] and not model.geom_conaffinity[geom]:
+    if not _can_touch(model, geom):
         return False
     body = int(model.geom_bodyid[geom])
     if model.body_weldid[body] != 0:
         return False
-    if model.geom_type[geom] in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+    if int(model.geom_type[geom]) in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
         return True
     names = [model.geom(geom).name]
     while body:
         names.append(model.body(body).name)
         body = int(model.body_parentid[body])
-    return any(name.startswith(GROUND_NAMES) for name in names)
+    return any(name.lower().startswith(GROUND_NAMES) for name in names)
 
 
 def _owners(
@@ -237,7 +228,7 @@ def _owners(
     owners = np.full(model.ngeom, _NOTHING, dtype=np.int64)
     obstacles: dict[tuple[str, int], int] = {}
     for geom in range(model.ngeom):
-        if not model.geom_contype[geom] and not model.geom_conaffinity[geom]:
+        if not _can_touch(model, geom):
             continue
         root = int(model.body_rootid[model.geom_bodyid[geom]])
         if root in bases:
@@ -256,6 +247,7 @@ def _owners(
 
 
 def _check_start(
+    path: str,
     data: mujoco.MjData,
     robots: Sequence[RobotStart],
     names: Sequence[str],
@@ -267,7 +259,8 @@ def _check_start(
             robot = robots[ours]
             raise StartPoseError(
                 f'{robot.name} at x={robot.x:g}, y={robot.y:g}, yaw={robot.yaw:g} would start '
-                f'inside {names[theirs]}; start it further away'
+                f'inside {names[theirs]} ({path}{line_of(path, names[theirs])}); start it further '
+                'away'
             )
 
 

@@ -33,7 +33,6 @@ def generate_launch_description() -> LaunchDescription:
     }
     given['robots'] = ParameterValue(LaunchConfiguration('robots'), value_type=list[str])
     given['world'] = ParameterValue(LaunchConfiguration('world'), value_type=str)
-    given['use_sim_time'] = ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
     page = {
         'viewer_host': ParameterValue(LaunchConfiguration('viewer_host'), value_type=str),
         'viewer_port': ParameterValue(LaunchConfiguration('viewer_port'), value_type=int),
@@ -42,9 +41,6 @@ def generate_launch_description() -> LaunchDescription:
         [
             DeclareLaunchArgument(
                 'namespace', default_value='', description='Namespace of all topics but /clock'
-            ),
-            DeclareLaunchArgument(
-                'use_sim_time', default_value='true', description='Log with simulated time'
             ),
             DeclareLaunchArgument(
                 'headless', default_value='true', description='false: show the browser view'

@@ -1,0 +1,95 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a world's file must not say, and how it is refused: file, reason, and line if any."""
+
+import math
+from pathlib import Path
+import re
+
+import mujoco
+
+from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.errors import WorldError
+
+LONGEST_TIMESTEP_SEC = 0.002
+
+_HAS_LINE = re.compile(r'\bline\b', re.IGNORECASE)
+_QUOTED = re.compile(r"'([^']+)'")
+
+
+def refused(path: str, reason: str | Exception, *, word: str = '') -> WorldError:
+    """
+    Make the error that says why a world cannot be used, in one line.
+
+    :param word: what to look for in the file, if the reason names no line: an attribute or a
+        name. By default what the reason quotes, which is what MuJoCo found wrong.
+    """
+    text = ' '.join(str(reason).split())
+    if not _HAS_LINE.search(text):
+        quoted = _QUOTED.search(text)
+        text += line_of(path, word or (quoted.group(1) if quoted else ''))
+    return WorldError(f'world={path!r}: {text}')
+
+
+def line_of(path: str, word: str) -> str:
+    """Return ', line N' for the first line of a file with a word in quotes, or bare; or ''."""
+    try:
+        lines = Path(path).read_text(encoding='utf-8', errors='replace').splitlines()
+    except OSError:
+        return ''
+    for wanted in (f'"{word}"', word):
+        for number, line in enumerate(lines, start=1):
+            if word and wanted in line:
+                return f', line {number}'
+    return ''
+
+
+def steps_per_period(path: str, timestep_sec: float) -> int:
+    """
+    Return how many physics steps make a control period.
+
+    :raises WorldError: if they are not a whole number, or too long for the wheels.
+    """
+    steps = CONTROL_PERIOD_SEC / timestep_sec if timestep_sec > 0.0 else 0.0
+    # Also false for nan, which MuJoCo accepts.
+    if not (steps >= 1.0 and math.isclose(steps, round(steps))):
+        raise refused(
+            path,
+            f'timestep={timestep_sec:g}: the control period of {CONTROL_PERIOD_SEC:g} s must be a '
+            'whole number of timesteps; use 0.002',
+            word='timestep',
+        )
+    if timestep_sec > LONGEST_TIMESTEP_SEC:
+        raise refused(
+            path,
+            f'timestep={timestep_sec:g}: the servos of the wheels need {LONGEST_TIMESTEP_SEC:g} s '
+            'or less',
+            word='timestep',
+        )
+    return round(steps)
+
+
+def check_settings(path: str, spec: mujoco.MjSpec) -> None:
+    """
+    Let pass what a robot can stand and drive in.
+
+    :raises WorldError: if the world switches off what it needs, or changes its weight.
+    """
+    # Without filterparent the wheels would rub against the body that bears them.
+    for flag in ('contact', 'constraint', 'actuation', 'filterparent'):
+        if spec.option.disableflags & getattr(mujoco.mjtDisableBit, f'mjDSBL_{flag.upper()}'):
+            raise refused(
+                path, f'{flag}="disable": the robot needs it to drive; remove the flag', word=flag
+            )
+    if spec.option.disableactuator & 1:
+        name = 'actuatorgroupdisable'
+        raise refused(
+            path, f'{name}: the motors of the robot are in group 0; use others', word=name
+        )
+    if spec.compiler.settotalmass > 0.0:
+        name = 'settotalmass'
+        raise refused(
+            path,
+            f'{name}: the robot would weigh something else; give each body its mass',
+            word=name,
+        )
