@@ -71,6 +71,10 @@ class Editor:
         self._start = self._world.robots[place]
         self._show()
 
+    def close(self) -> None:
+        """Let go of the clicks on the ground."""
+        self._set_editing(False)
+
     def _add_elements(self, gui: viser.GuiApi) -> None:
         later = self._work.put
         self._file = gui.add_dropdown('Open', (NEW, *course.files_in(self._folder)))

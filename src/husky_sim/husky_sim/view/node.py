@@ -7,37 +7,45 @@ It asks the simulator for its world, so it can be started at any time, before or
 """
 
 from pathlib import Path
-import sys
 import time
 from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor
-import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 from std_msgs.msg import Float64MultiArray
+import viser
 
 from husky_sim.errors import SimulatorError
-from husky_sim.scene_topic import QOS, RATE_HZ, read_scene, Scene
+from husky_sim.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
 from husky_sim.view.course import is_available, waypoint_folder
 from husky_sim.view.driver_process import DRIVER, DriverProcess
 from husky_sim.view.editor import Editor
 from husky_sim.view.pace import Pace
-from husky_sim.view.panel import Controls, Numbers, Panel
+from husky_sim.view.panel import Controls, Numbers, Panel, trouble_html
 from husky_sim.view.picture import Picture
+from husky_sim.view.presence import Presence, State
 from husky_sim.view.robot_link import RobotLink
-from husky_sim.view.server import address_of, AddressError, close_server, open_server
+from husky_sim.view.server import address_of, close_server, open_server
 from husky_sim.view.simulator import SimulatorLink, world_and_robots
-from husky_sim.view.spinning import spin_until_interrupted
 from husky_sim.view.work import Work
 from husky_sim.world import load_world
 
 TITLE = 'Husky playpen'
 NUMBERS_HZ = 5.0
 _ASK_AGAIN_SEC = 0.05
+_ANSWER_SEC = 2.0
 _LOOK_FOR_FILES_SEC = 2.0
-_HINT_AFTER_SEC = 5.0
+_HINT_AFTER_SEC = 3.0
+
+_TROUBLE = {
+    State.HERE: '',
+    State.GONE: 'The simulator is gone, or it hangs. This page goes on as soon as it is back.',
+    State.ANOTHER_WORLD: 'Another world is simulated now than the one in {world}. If this stays, '
+    'start the simulator again.',
+    State.TWO: 'Two simulators run at the same time: end one of them. The first is shown.',
+}
 
 _PARAMETERS = {
     'simulator': ('husky_sim', 'Name of the simulator node to show.'),
@@ -48,12 +56,13 @@ _PARAMETERS = {
 
 
 class ViewNode(Node):
-    """Serves the page."""
+    """Serves the page of one simulation."""
 
-    def __init__(self, **arguments: Any) -> None:
+    def __init__(self, server: viser.ViserServer | None = None, **arguments: Any) -> None:
         """
         Open the page; it is filled when the simulator answers.
 
+        :param server: of the node before this one, whose page goes on.
         :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
         :raises AddressError: if the page cannot be served there.
         """
@@ -64,9 +73,16 @@ class ViewNode(Node):
             ).value
             for name, (default, text) in _PARAMETERS.items()
         }
+        self.over: Future[None] = Future()
+        self.another_runs = False
         self._simulator = SimulatorLink(self, settings['simulator'], self._on_refused)
-        self._server = open_server(settings['viewer_host'], settings['viewer_port'], title=TITLE)
-        self.address = address_of(self._server)
+        self.server = server or open_server(
+            settings['viewer_host'], settings['viewer_port'], title=TITLE
+        )
+        self.address = address_of(self.server)
+        self._waiting = self.server.gui.add_html(
+            trouble_html(f'Waiting for the simulator {self._simulator.name}: is it running?')
+        )
         self._folder = Path(settings['waypoints_folder'] or waypoint_folder())
         self._driver = DriverProcess()
         self._work = Work()
@@ -74,6 +90,7 @@ class ViewNode(Node):
         self._editor: Editor | None = None
         self._scene: Scene | None = None
         self._answer: Any = None
+        self._answer_due_sec = 0.0
         self._pace = Pace()
         self._driven = 0
         self._stopped = False
@@ -84,21 +101,32 @@ class ViewNode(Node):
 
     def _on_ask(self) -> None:
         """Wait for the simulator's answer, then build the picture."""
-        if self._answer is None:
-            self._answer = self._simulator.ask()
-        elif self._answer.done():
+        answer = self._answer_of_simulator()
+        if answer is not None:
             self._asking.cancel()
-            self._build(*world_and_robots(self._answer.result()))
-            return
-        if time.monotonic() > self._hint_due_sec:
+            self._build(*world_and_robots(answer))
+        elif time.monotonic() > self._hint_due_sec:
             self._hint_due_sec = float('inf')
             self.get_logger().warning(
                 f'{self._simulator.name} does not answer yet: is the simulator running?'
             )
 
+    def _answer_of_simulator(self) -> Any:
+        """Ask the simulator what it runs; returns None until it has answered."""
+        now = time.monotonic()
+        if self._answer is None or now > self._answer_due_sec:
+            self._answer = self._simulator.ask()
+            self._answer_due_sec = now + _ANSWER_SEC
+        elif self._answer.done():
+            answer, self._answer = self._answer.result(), None
+            return answer
+        return None
+
     def _build(self, world_file: str, robots: Any) -> None:
         world = load_world(world_file, robots)
-        self._picture = Picture(self._server, world)
+        self._waiting.remove()
+        self._presence = Presence(world_key(world), now_sec=time.monotonic())
+        self._picture = Picture(self.server, world)
         many = len(robots) > 1
         self._links = [
             RobotLink(self, self._picture, place, f'{robot.name}/' if many else '')
@@ -114,7 +142,7 @@ class ViewNode(Node):
             choose_camera=self._on_choose_camera,
         )
         self._panel = Panel(
-            self._server, self._work, controls, robots=[robot.name for robot in robots]
+            self.server, self._work, controls, robots=[robot.name for robot in robots]
         )
         self._scenes = self.create_subscription(
             Float64MultiArray, f'{self._simulator.name}/scene', self._on_scene, QOS
@@ -122,7 +150,7 @@ class ViewNode(Node):
         self._frames = self.create_timer(1.0 / RATE_HZ, self._on_frame, clock=self._steady)
         if is_available():
             self._editor = Editor(
-                self._server,
+                self.server,
                 self._work,
                 world,
                 folder=self._folder,
@@ -136,8 +164,11 @@ class ViewNode(Node):
         self.get_logger().info(f'look at {self.address}')
 
     def _on_scene(self, msg: Float64MultiArray) -> None:
+        now = time.monotonic()
+        if not self._presence.hear(*origin_of(msg), now_sec=now):
+            return
         scene = read_scene(msg, robots=len(self._links))
-        self._pace.add(wall_sec=time.monotonic(), time_sec=float(scene.time_sec[-1]))
+        self._pace.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
         self._scene = scene
         self._picture.show(scene)
 
@@ -153,16 +184,36 @@ class ViewNode(Node):
         for link in self._links:
             link.draw()
         self._picture.draw(now)
-        if self._scene is not None and now >= self._numbers_due_sec:
+        if now >= self._numbers_due_sec:
             self._numbers_due_sec = now + 1.0 / NUMBERS_HZ
-            panel.show(self._numbers(self._scene))
-        self._server.flush()
+            state = self._presence.state(now_sec=now)
+            panel.show_trouble(_TROUBLE[state].format(world=self._picture.world.path))
+            if self._scene is not None:
+                panel.show(self._numbers(self._scene, state))
+            if state is State.ANOTHER_WORLD:
+                self._look_for_another()
+        self.server.flush()
 
-    def _numbers(self, scene: Scene) -> Numbers:
+    def _look_for_another(self) -> None:
+        """End this node if the simulator has a world to show that is not the one shown."""
+        answer = self._answer_of_simulator()
+        if answer is None:
+            return
+        try:
+            world = load_world(*world_and_robots(answer))
+        except SimulatorError as error:
+            self._on_refused('Not shown', str(error))
+            return
+        if world_key(world) != self._presence.world and not self.over.done():
+            self.get_logger().info(f'another simulation runs now: {world.path}')
+            self.another_runs = True
+            self.over.set_result(None)
+
+    def _numbers(self, scene: Scene, state: State) -> Numbers:
         robot = self._picture.robots[self._driven]
         return Numbers(
             time_sec=float(scene.time_sec[-1]),
-            real_time_factor=self._pace.factor,
+            real_time_factor=None if scene.paused or state is State.GONE else self._pace.factor,
             paused=scene.paused,
             speed_m_s=robot.speed_m_s,
             cross_track_m=robot.cross_track_m,
@@ -186,7 +237,9 @@ class ViewNode(Node):
     def _on_choose_camera(self, client: Any, preset: str) -> None:
         robot = self._picture.scene.position(self._driven)
         yaw = self._picture.robots[self._driven].yaw
-        self._picture.cameras.choose(client, preset, robot=robot, yaw=yaw)
+        self._picture.cameras.choose(
+            client, preset, robot=robot, yaw=yaw, now_sec=time.monotonic()
+        )
 
     def _on_refused(self, what: str, reason: str) -> None:
         self.get_logger().warning(f'{what}: {reason}')
@@ -206,28 +259,13 @@ class ViewNode(Node):
         self._simulator.reset(then=lambda: self._driver.start(file, namespace))
 
     def destroy_node(self) -> None:
-        """Close the page; may be called twice."""
+        """Close the page, unless another node goes on with it; may be called twice."""
         self._driver.end()
-        close_server(self._server)
+        if self.another_runs:
+            if self._editor is not None:
+                self._editor.close()
+            self.server.gui.reset()
+            self.server.scene.reset()
+        else:
+            close_server(self.server)
         super().destroy_node()
-
-
-def main(args: list[str] | None = None) -> int:
-    """Show the simulation until interrupted."""
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    node: ViewNode | None = None
-    try:
-        node = ViewNode()
-        spin_until_interrupted(node)
-    except (AddressError, SimulatorError) as error:
-        print(f'view: {error}', file=sys.stderr)
-        return 2
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
-    return 0
-
-
-if __name__ == '__main__':
-    sys.exit(main())

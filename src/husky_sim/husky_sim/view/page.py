@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the page needs beyond viser's own elements: arrow keys that drive, and buttons as a pad.
+What the page needs beyond viser's own elements: keys that drive, a pad, and room on a phone.
 
 viser has no element for keys that are held, so a script presses the buttons of the pad on their
 behalf. viser puts an element's HTML into the page as it is but does not run scripts in it; an
@@ -32,7 +32,11 @@ _STYLE = """
 .husky-pad > * { margin: 0 !important; padding: 0 !important; touch-action: none; }
 .husky-pad button { height: 2.6em !important; touch-action: none; user-select: none;
   -webkit-user-select: none; }
-@media (max-width: 600px) { .husky-legend { display: none; } }
+@media (max-width: 576px) {
+  .husky-legend { display: none; }
+  [style*="width: 20em"]:has(.husky-page) { width: 100% !important; }
+  [style*="position: fixed"]:has(.husky-page) { max-height: 52% !important; }
+}
 .husky-stop button, button.husky-stop { height: 3.2em !important; font-size: 1.15em; }
 """
 
@@ -56,6 +60,7 @@ if (!window.huskyPad) {
     e.target.closest('input, textarea, select, [role=slider], [role=tab], [contenteditable]');
   window.addEventListener('keydown', (e) => {
     if (!(e.key in keys) || e.ctrlKey || e.altKey || e.metaKey || typing(e)) return;
+    if (!button(keys[e.key])) return;
     e.preventDefault(); e.stopImmediatePropagation();
     if (!held.has(e.key)) { held.add(e.key); send(keys[e.key], 'pointerdown'); }
   }, true);
@@ -66,16 +71,31 @@ if (!window.huskyPad) {
   window.addEventListener('blur', releaseAll);
   window.addEventListener('pagehide', releaseAll);
   document.addEventListener('visibilitychange', releaseAll);
+  const makeRoom = () => {
+    const canvas = [...document.querySelectorAll('canvas')].find((c) => c.clientWidth > 100);
+    let panel = document.querySelector('.husky-page');
+    while (panel && getComputedStyle(panel).position !== 'fixed') panel = panel.parentElement;
+    if (!canvas || !panel) return;
+    const over = window.matchMedia('(max-width: 576px)').matches;
+    const height = over ? `${Math.round(panel.getBoundingClientRect().top)}px` : '100%';
+    const box = canvas.parentElement.parentElement;
+    if (box.style.height !== height) box.style.height = height;
+  };
   const arrange = () => {
+    makeRoom();
     for (const sign in areas) {
       const b = button(sign);
       if (!b || !b.parentElement) continue;
+      if (b.parentElement.style.gridArea) continue;
       b.parentElement.style.gridArea = areas[sign];
       b.parentElement.parentElement.classList.add('husky-pad');
     }
     const stop = [...document.querySelectorAll('button')]
       .find((b) => STOPS.includes(b.textContent.trim()));
     if (stop) stop.classList.add('husky-stop');
+    // To be without a graphics processor is nothing to warn of here; and it hides the scene.
+    for (const note of document.querySelectorAll('.mantine-Notification-root'))
+      if (note.textContent.startsWith('Software WebGL')) note.querySelector('button').click();
   };
   arrange();
   window.huskyPad = setInterval(arrange, 100);
@@ -93,6 +113,6 @@ def page_html() -> str:
         .replace('STOPS', json.dumps([STOP, GO]))
     )
     return (
-        f'<style>{_STYLE}</style>'
+        f'<style>{_STYLE}</style><span class="husky-page"></span>'
         f'<img src="data:," alt="" style="display:none" onerror="{escape(script, quote=True)}">'
     )

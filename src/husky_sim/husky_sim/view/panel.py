@@ -8,6 +8,7 @@ What is clicked is left as work for the thread that owns everything else.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from html import escape
 import time
 from typing import Any
 
@@ -67,6 +68,7 @@ class Panel:
         self._paused = False
         self._stopped = False
         gui = server.gui
+        self._trouble = gui.add_html('', visible=False)
         self._numbers = gui.add_html('')
         self._page = gui.add_html(page_html())
         self._stop = gui.add_button(STOP, color='red', icon=viser.Icon.HAND_STOP)
@@ -141,12 +143,27 @@ class Panel:
         if html != self._numbers.content:
             self._numbers.content = html
 
+    def show_trouble(self, text: str) -> None:
+        """Say above everything else what is the matter; empty: nothing is."""
+        html = trouble_html(text) if text else ''
+        if html != self._trouble.content:
+            self._trouble.content = html
+            self._trouble.visible = bool(text)
+
     def tell(self, title: str, body: str, error: bool) -> None:
         """Tell every tab something, for some seconds."""
         for client in self._server.get_clients().values():
             client.add_notification(
                 title, body, auto_close_seconds=6.0, color='red' if error else 'blue'
             )
+
+
+def trouble_html(text: str) -> str:
+    """Return a box that nobody overlooks."""
+    return (
+        '<div data-trouble style="margin:.3em .9em .6em;padding:.5em .7em;border-radius:.3em;'
+        f'background:#c40;color:#fff;font-size:.9em">{escape(text)}</div>'
+    )
 
 
 def numbers_html(numbers: Numbers) -> str:

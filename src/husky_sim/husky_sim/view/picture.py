@@ -101,13 +101,15 @@ class Picture:
             extent_m=float(world.model.stat.extent),
         )
         self.time_sec = 0.0
+        self._run = ''
         self.collision_count = 0
         self.followed = 0
 
     def show(self, scene: Scene) -> None:
         """Bring everything to the end of a scene; a scene of the past begins a new run."""
-        if scene.time_sec[-1] < self.time_sec:
+        if scene.time_sec[-1] < self.time_sec or scene.run != (self._run or scene.run):
             self.clear()
+        self._run = scene.run
         self.time_sec = float(scene.time_sec[-1])
         self.scene.show(scene.qpos)
         for place, robot in enumerate(self.robots):
@@ -119,7 +121,7 @@ class Picture:
             robot.true_trail.draw()
             robot.odometry_trail.draw()
         self.collisions.update(now_sec)
-        self.cameras.follow(self.scene.position(self.followed))
+        self.cameras.follow(self.scene.position(self.followed), now_sec=now_sec)
 
     def collide(self, collision: Collision, *, now_sec: float) -> None:
         """Show a collision."""

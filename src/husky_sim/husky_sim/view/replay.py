@@ -17,6 +17,7 @@ import viser
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import TRACK
 from husky_sim.view.course import CourseRefused, is_available, path_of
+from husky_sim.view.ending import end_soon
 from husky_sim.view.picture import Picture
 from husky_sim.view.planar import to_world
 from husky_sim.view.playback import Playback
@@ -38,7 +39,8 @@ class Replay:
         """
         Put the run's world on the page.
 
-        :raises SimulatorError: if the world is gone or is not the same any more.
+        :raises SimulatorError: if the world is gone.
+        :raises RunRefused: if it is not the same any more.
         """
         self._server = server
         self._run = run
@@ -115,6 +117,7 @@ class Replay:
             preset,
             robot=self._picture.scene.position(followed),
             yaw=self._picture.robots[followed].yaw,
+            now_sec=time.monotonic(),
         )
 
 
@@ -136,8 +139,7 @@ def main(args: Sequence[str] | None = None) -> int:
     )
     options = parser.parse_args(None if args is None else list(args)[1:])
     ended = Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: ended.set())
+    _end_on_signal(ended)
     try:
         run = load_run(options.record)
         server = open_server(options.host, options.port, title='Husky replay')
@@ -151,12 +153,21 @@ def main(args: Sequence[str] | None = None) -> int:
             replay.show_course(Path(options.waypoints or beside))
         print(f'replay of {run.file}: look at {address_of(server)} (Ctrl-C ends)', flush=True)
         _play(replay, ended)
-    except (SimulatorError, CourseRefused) as error:
+    except (SimulatorError, RunRefused, CourseRefused) as error:
         print(f'replay: {error}', file=sys.stderr)
         return BAD_INPUT
     finally:
         close_server(server)
     return 0
+
+
+def _end_on_signal(ended: Event) -> None:
+    def on_signal(*_: object) -> None:
+        ended.set()
+        end_soon()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, on_signal)
 
 
 def _play(replay: Replay, ended: Event) -> None:

@@ -10,6 +10,7 @@ import viser
 
 from husky_sim.view import cameras
 from husky_sim.view.collisions import Collision
+from husky_sim.view.page import page_html
 from husky_sim.view.palette import legend_html
 from husky_sim.view.playback import Playback
 from husky_sim.view.work import Work
@@ -36,6 +37,7 @@ class ReplayPanel:
         self._choose_camera = choose_camera
         gui = server.gui
         self._figures = gui.add_html('')
+        self._page = gui.add_html(page_html())
         self._play = gui.add_button_group('Time', (STAND, RESTART))
         self._play.on_click(lambda event: self._on_time(event.target.value))
         # The last step of a slider is whole as well, or its end could not be reached.

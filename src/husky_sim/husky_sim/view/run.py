@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from husky_sim.config import DriveConfig, RobotStart
 from husky_sim.husky import JOINTS
+from husky_sim.pushed import loose_bodies
 from husky_sim.record import FORMAT, VERSION
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.view.collisions import Collision
@@ -31,6 +32,14 @@ class RunRefused(Exception):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Push:
+    """Where a body went that was pushed."""
+
+    time_sec: Array
+    qpos: Array  # (n, joint coordinates of the body)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Run:
     """What a record holds of a run, as far as it is to be seen."""
 
@@ -41,6 +50,7 @@ class Run:
     track: Array  # shape (entries, robots, len(TRACK))
     turns: Array  # shape (entries, robots, 2): how far left and right wheels turned, in rad
     collisions: tuple[Collision, ...]
+    pushed: dict[str, Push]  # by the name of the body
 
     @property
     def duration_sec(self) -> float:
@@ -98,7 +108,16 @@ def _run_of(file: str, record: Mapping[str, Any]) -> Run:
         track=np.stack([table[:, 1 : 1 + columns] for table in tables], axis=1),
         turns=np.stack([_wheel_turns(table) for table in tables], axis=1),
         collisions=tuple(_collision(entry) for entry in record['collisions']),
+        # What was recorded before this was kept: nothing is known to have moved.
+        pushed={name: _push(entry) for name, entry in record.get('pushed', {}).items()},
     )
+
+
+def _push(entry: Mapping[str, Any]) -> Push:
+    time_sec, qpos = (np.array(entry[name], dtype=np.float64) for name in ('time_sec', 'qpos'))
+    if qpos.ndim != 2 or len(qpos) != len(time_sec) or not np.isfinite(qpos).all():
+        raise ValueError('a pushed body without its poses')
+    return Push(time_sec=time_sec, qpos=qpos)
 
 
 def _start(name: str, pose: list[float]) -> RobotStart:
@@ -129,11 +148,16 @@ def _collision(entry: Mapping[str, Any]) -> Collision:
 
 
 class Poser:
-    """Makes the scenes of a run; what was pushed stands where it stood at the start."""
+    """
+    Makes the scenes of a run.
+
+    :raises RunRefused: if the world lacks something that was pushed.
+    """
 
     def __init__(self, run: Run, world: World) -> None:
         self._run = run
-        self._qpos = world.model.qpos0.copy()
+        self._start = world.model.qpos0.copy()
+        self._qpos = self._start.copy()
         self._bases = []
         self._wheels = []
         for robot in run.robots:
@@ -142,6 +166,14 @@ class Poser:
             self._wheels.append(
                 [int(world.model.joint(f'{robot.name}/{joint}').qposadr[0]) for joint in JOINTS]
             )
+        loose = loose_bodies(world)
+        for name, push in run.pushed.items():
+            if name not in loose or push.qpos.shape[1] != loose[name].stop - loose[name].start:
+                raise RunRefused(
+                    f'{run.file}: {name!r} was pushed, but {run.world} has no such loose body '
+                    'any more; replay it with the world that was driven'
+                )
+        self._pushed = [(loose[name], push) for name, push in run.pushed.items()]
 
     def scene(self, first: int, last: int, *, paused: bool) -> Scene:
         """Return the scene at entry `last`, with the track from entry `first` on."""
@@ -152,6 +184,9 @@ class Poser:
             self._qpos[base : base + 2] = (x, y)
             self._qpos[base + 3 : base + 7] = (math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2))
             self._qpos[wheels] = (left, right, left, right)
+        for part, push in self._pushed:
+            past = int(np.searchsorted(push.time_sec, run.time_sec[last] + 1e-9, side='right'))
+            self._qpos[part] = push.qpos[past - 1] if past else self._start[part]
         rows = slice(first, last + 1)
         return Scene(
             paused=paused,

@@ -15,6 +15,11 @@ Array = npt.NDArray[np.float64]
 GROUND = (176, 174, 168)
 GROUND_LINES = (160, 158, 152)
 
+SKY = (235, 242, 255)
+SKY_ABOVE, SKY_BELOW = (150, 190, 230), (245, 248, 252)
+# Name, from where it shines, how bright. Two, or what faces away from the sun would look flat.
+SUNS = (('sun', (-6.0, -9.0, 14.0), 2.2), ('second_sun', (9.0, 4.0, 6.0), 0.7))
+
 ABOVE_GROUND_M = 0.02
 """Lines are drawn so far above the ground, or they would flicker in it."""
 
@@ -29,6 +34,7 @@ class PlaypenScene:
         mujoco.mj_kinematics(world.model, self._data)
         self._scene = ViserMujocoScene(server, world.model, num_envs=1)
         self._scene.camera_tracking_enabled = False
+        _light(server)
         _color_planes(server, world.model)
         self._lasers = [world.model.site(f'{robot.name}/front_laser').id for robot in world.robots]
         self._bases = [world.model.body(f'{robot.name}/base_link').id for robot in world.robots]
@@ -56,6 +62,26 @@ class PlaypenScene:
         beams = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * angles])
         ends: Array = beams @ turn.T + self._data.site_xpos[laser]
         return ends
+
+
+def _light(server: viser.ViserServer) -> None:
+    """
+    Light the scene as a bright day does.
+
+    Without a graphics processor, mjviser's reflections of surroundings and viser's shadows take
+    seconds a frame; with lights that only shine it is 20 frames a second.
+    """
+    scene = server.scene
+    scene.configure_environment_map(None)
+    scene.configure_default_lights(enabled=False)
+    scene.add_light_hemisphere('/light/sky', sky_color=SKY, ground_color=GROUND, intensity=1.6)
+    for name, position, intensity in SUNS:
+        scene.add_light_directional(
+            f'/light/{name}', position=position, intensity=intensity, cast_shadow=False
+        )
+    fade = np.linspace(0.0, 1.0, 64)[:, None]
+    sky = np.array(SKY_ABOVE) * (1.0 - fade) + np.array(SKY_BELOW) * fade
+    scene.set_background_image(np.repeat(sky.astype(np.uint8)[:, None], 4, axis=1), format='png')
 
 
 def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
