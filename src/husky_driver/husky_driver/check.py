@@ -63,7 +63,8 @@ def describe(course: Course, found: Survey) -> str:
     """Return one line about a course."""
     legs = plan_route(course)
     length = sum(leg.curve.length_m for leg in legs)
-    verdict = f'too near in {len(found.near)} places' if found.near else 'ok'
+    places = 'one place' if len(found.near) == 1 else f'{len(found.near)} places'
+    verdict = f'too near in {places}' if found.near else 'ok'
     nearest = ''
     if found.least_m is not None:
         nearest = f', nearest obstacle {found.nearest} at {found.least_m:.2f} m'

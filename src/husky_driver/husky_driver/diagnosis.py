@@ -5,17 +5,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 import math
 
 from husky_driver.alignment import align
 from husky_driver.path import Curve
 from husky_driver.run_record import RunRecord
+from husky_driver.visits import waypoints_in_order
+from husky_driver.waypoints import Course
 
 FAR_M = 0.5  # off the path by so much, it is worth guessing
 NEAR_M = 0.3
 DRIVEN_M = 2.0
 DEGREES_RAD_S = 6.3  # nobody means a whole turn a second
 ROUNDS = 2.0
+ORDER_SHARE = 0.8  # of the waypoints but the first, where every run begins
 
 Turn = Callable[[float, float], tuple[float, float]]
 
@@ -28,9 +32,20 @@ MISTAKES: tuple[tuple[str, Turn], ...] = (
 )
 
 
-def guesses(run: RunRecord, curve: Curve, rms_m: float, driven_m: float) -> list[str]:
+def guesses(
+    run: RunRecord, course: Course, curve: Curve, *, rms_m: float, driven_m: float
+) -> list[str]:
     """Return what the mistake may be; nothing when the run leaves no such trace."""
-    return [*_units(run), *_rounds(run, curve), *_frame(run, curve, rms_m, driven_m)]
+    lines = [*_units(run), *_rounds(run, curve), *_order(run, course)]
+    return lines or _frame(run, curve, rms_m, driven_m)
+
+
+def _order(run: RunRecord, course: Course) -> list[str]:
+    back = replace(course, waypoints=course.waypoints[::-1])
+    reached, in_order = (waypoints_in_order(c, run.x, run.y) for c in (back, course))
+    if sum(reached) <= max(sum(in_order), ORDER_SHARE * (len(reached) - 1)):
+        return []
+    return ['it drove the course from its end to its beginning: keep the order of the file']
 
 
 def _units(run: RunRecord) -> list[str]:

@@ -110,7 +110,7 @@ class Drive:
         if self.failure:
             return self._come_to_rest(odometry)
         self._count_reached(odometry)
-        wish = STOP if self.held else next(self._wishes, None)
+        wish = self._wait() if self.held else next(self._wishes, None)
         if wish is None:
             self.finished = True
             return None
@@ -121,6 +121,11 @@ class Drive:
             self.give_up(complaint)
             return STOP
         return self._command
+
+    def feel(self, time_sec: float, acceleration_m_s2: float) -> None:
+        """Take what the IMU felt along the robot; a drive without it cannot feel a wall ahead."""
+        if self._now is not None:
+            self._watchdog.bump.feel(time_sec, acceleration_m_s2)
 
     def give_up(self, why: str) -> None:
         """Break the drive off: from now on it only stops the robot."""
@@ -199,6 +204,13 @@ class Drive:
             if now.time_sec - begun_sec > SETTLE_SEC:
                 return
             yield STOP
+
+    def _wait(self) -> Command:
+        """Stand, and know how far the robot has rolled."""
+        now = self._odometry()
+        if self._tracker is not None:
+            self._tracker.locate(now.x_m, now.y_m, now.yaw_rad)
+        return STOP
 
     def _dwell(self, duration_sec: float) -> Generator[Command, None, None]:
         begun_sec = self._odometry().time_sec

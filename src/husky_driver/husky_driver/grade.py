@@ -138,7 +138,7 @@ def _grade_lab(options: argparse.Namespace) -> int:
         Path(options.report),
         answers=_typed(options.answers),
         real_time_factor=options.real_time_factor,
-        done=lambda step: print(f'{step.name} ...', file=sys.stderr, flush=True),
+        done=lambda step: print(f'{step.name}: done', file=sys.stderr, flush=True),
     )
     if options.json:
         print((Path(options.report) / 'lab.json').read_text(encoding='utf-8'), end='')
@@ -201,10 +201,11 @@ def table(names: Sequence[str], results: Sequence[Graded]) -> str:
     width = max(map(len, names))
     lines = []
     for name, graded in zip(names, results, strict=True):
-        reasons = [graded.refused] if graded.refused else (graded.report or {})['reasons']
+        refused = [line.removeprefix(f'{graded.file}: ') for line in graded.refused.splitlines()]
+        reasons = refused or (graded.report or {})['reasons']
         verdict = 'passed' if graded.passed else 'refused' if graded.refused else 'not passed'
         more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
-        reason = reasons[0].splitlines()[0] + more if reasons else ''
+        reason = reasons[0] + more if reasons else ''
         lines.append(f'{name:<{width}}  {graded.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
     return '\n'.join(lines)
 

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 import hashlib
 import importlib.util
 import json
 from pathlib import Path
+from threading import Thread
 import time
 from typing import Any
 
@@ -53,11 +55,15 @@ def grade_file(file: str, folder: Path, *, world: str = '') -> Graded:
     begun = time.monotonic()
     try:
         course = load_course(file)
-        record, _ = drive_course(course, world=world)
+        # To load matplotlib takes as long as to drive, and the physics leaves Python alone.
+        Thread(target=importlib.import_module, args=('husky_driver.path_png',)).start()
+        record, drive = drive_course(course, world=world)
     except ValueError as error:
         return Graded(file, None, str(error), refused=str(error))
     run = read_run(record)
     report = judge(run, course, wall_time_sec=time.monotonic() - begun)
+    if drive.failure:
+        report = replace(report, reasons=(*report.reasons, f'gave up: {drive.failure}'))
     write_report(folder, report, run, course)
     return Graded(file, as_json(report), summary(report))
 
@@ -79,13 +85,25 @@ def remember(folder: Path, key: str) -> None:
 
 def key_of(file: str, world: str = '') -> str:
     """Return a hash of all that a grade depends on: the file, the world and the programs."""
-    digest = hashlib.sha256()
-    for path in (Path(file), *_programs_and_worlds(world)):
-        try:
-            digest.update(path.read_bytes())
-        except OSError:
-            digest.update(b'?')
+    digest = _digest_of_programs(world).copy()
+    _take(digest, Path(file))
     return digest.hexdigest()
+
+
+@lru_cache(maxsize=1)
+def _digest_of_programs(world: str) -> Any:
+    digest = hashlib.sha256()
+    for path in _programs_and_worlds(world):
+        _take(digest, path)
+    return digest
+
+
+def _take(digest: Any, path: Path) -> None:
+    """Add the content of a file; of a device or a pipe, which may never end, only a mark."""
+    try:
+        digest.update(path.read_bytes() if path.is_file() else b'?')
+    except (OSError, ValueError):
+        digest.update(b'?')
 
 
 def _programs_and_worlds(world: str) -> list[Path]:

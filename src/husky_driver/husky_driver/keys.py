@@ -16,7 +16,7 @@ from husky_driver.motion import Command, STOP
 
 MAX_SPEED_M_S = 1.0
 MAX_TURN_RAD_S = 2.0
-STEP = 1.1  # one press changes a speed by so much
+FASTER, SLOWER = 1.1, 0.9  # one press, as there
 
 HELP = """\
    u    i    o      forward, with a turn to the left and to the right
@@ -31,8 +31,8 @@ MOVES = {
     **{'\x1b[A': (1, 0), '\x1b[B': (-1, 0), '\x1b[D': (0, 1), '\x1b[C': (0, -1)},
 }
 CHANGES = {
-    **{'q': (STEP, STEP), 'z': (1 / STEP, 1 / STEP), 'w': (STEP, 1.0), 'x': (1 / STEP, 1.0)},
-    **{'e': (1.0, STEP), 'c': (1.0, 1 / STEP)},
+    **{'q': (FASTER, FASTER), 'z': (SLOWER, SLOWER), 'w': (FASTER, 1.0), 'x': (SLOWER, 1.0)},
+    **{'e': (1.0, FASTER), 'c': (1.0, SLOWER)},
 }
 
 

@@ -135,6 +135,8 @@ def find_executable(folder: Path, package: str, name: str) -> Path:
     for candidate in (programs / name, programs / f'{name}.py'):
         if candidate.is_file() and os.access(candidate, os.X_OK):
             return candidate
+    if not (folder / 'install' / package).is_dir():
+        raise ValueError(f'ros2 run {package} {name} finds nothing: there is no package {package}')
     have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
     raise ValueError(
         f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '

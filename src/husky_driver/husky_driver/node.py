@@ -15,14 +15,15 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import qos_profile_sensor_data
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.task import Future
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import Imu, LaserScan
 from std_srvs.srv import SetBool
 
+from husky_driver.bump import forward_acceleration
 from husky_driver.display import DriveDisplay
 from husky_driver.drive import Drive
-from husky_driver.lookout import blocked_at_m
+from husky_driver.lookout import Lookout, Scan
 from husky_driver.motion import Odometry, relative_odometry, yaw_of
 from husky_driver.parameters import declare_settings
 from husky_driver.progress import Progress
@@ -36,6 +37,7 @@ STOP_WITHIN_SEC = 1.5  # how long a robot is waited for when the drive is broken
 
 DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
 NO_STAMP = (-1, -1)
+SENSOR = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class FollowPath(Node):
@@ -53,7 +55,8 @@ class FollowPath(Node):
         self._stop_deadline_sec = 0.0
         self._hint = ''
         self._origin: Odometry | None = None
-        self._paused = self._blocked = False
+        self._paused = False
+        self._lookout = Lookout() if self.settings.scan else None
         self._command = Twist()
         topic = 'husky_velocity_controller/cmd_vel'
         self._commands = self.create_publisher(Twist, topic, 10)
@@ -83,9 +86,10 @@ class FollowPath(Node):
         self._timer = self.create_timer(TICK_SEC, self._on_tick, clock=steady)
         self.create_service(SetBool, '~/pause', self._on_pause)
         self.add_on_set_parameters_callback(self._on_parameters)
-        if self.settings.scan:
-            sensor = qos_profile_sensor_data
-            self.create_subscription(LaserScan, 'front/scan', self._on_scan, sensor)
+        if self.settings.imu:
+            self.create_subscription(Imu, 'imu/data', self._on_imu, SENSOR)
+        if self._lookout is not None:
+            self.create_subscription(LaserScan, 'front/scan', self._on_scan, SENSOR)
 
     def stop(self, exit_code: int, why: str) -> None:
         """Break the drive off: stop the robot, then finish with this exit code."""
@@ -109,7 +113,9 @@ class FollowPath(Node):
         self._pending = None
         self._last_stamp = stamp
         self._heard_sec = time.monotonic()
-        command = self._drive.step(self._relative(read_odometry(msg)))
+        odometry = self._relative(read_odometry(msg))
+        self._look_out(odometry.time_sec)
+        command = self._drive.step(odometry)
         if command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
         elif self._stopping is not None:
@@ -139,27 +145,38 @@ class FollowPath(Node):
                 self._say(f'going over to {parameter.value}')
         return SetParametersResult(successful=True)
 
-    def _on_scan(self, scan: LaserScan) -> None:
-        now, tracker = self._drive.odometry, self._drive.tracker
-        if now is None or tracker is None or tracker.reverse:
+    def _on_imu(self, msg: Imu) -> None:
+        q = msg.orientation
+        ahead = forward_acceleration(msg.linear_acceleration.x, q.x, q.y, q.z, q.w)
+        self._drive.feel(time_of(msg), ahead)
+
+    def _on_scan(self, msg: LaserScan) -> None:
+        if self._lookout is None:
             return
-        blocked = blocked_at_m(
-            scan.ranges,
-            scan.angle_min,
-            scan.angle_increment,
-            pose=(now.x_m, now.y_m, now.yaw_rad),
-            curve=tracker.curve,
-            s=tracker.s,
-            speed_m_s=abs(now.speed_m_s),
-        )
-        if (blocked is not None) != self._blocked:
-            self._blocked = blocked is not None
-            where = '' if blocked is None else f': something stands {blocked:.2f} m ahead'
-            self._say(f'stopping{where}' if self._blocked else 'the way is free again')
-            self._hold()
+        scan = Scan(time_of(msg), msg.ranges, msg.angle_min, msg.angle_increment)
+        drive = self._drive
+        now, tracker = drive.odometry, drive.tracker
+        if now is None or tracker is None or tracker.reverse:
+            self._lookout.pass_over(scan)
+            return
+        pose = (now.x_m, now.y_m, now.yaw_rad)
+        # One that stands looks further than one that drives: else it would creep on.
+        going_on = drive.course.speed_m_s + 0.1 if self._lookout.holds else 0.0
+        speed = max(drive.speed_m_s, going_on)
+        self._lookout.look(scan, pose, tracker.curve, tracker.s, speed)
+
+    def _look_out(self, now_sec: float) -> None:
+        if self._lookout is None:
+            return
+        if news := self._lookout.news(now_sec):
+            self._say(news)
+        if complaint := self._lookout.complaint:
+            self._drive.give_up(complaint)
+        self._hold()
 
     def _hold(self) -> None:
-        self._drive.held = self._paused or self._blocked
+        blocked = self._lookout is not None and self._lookout.holds
+        self._drive.held = self._paused or blocked
 
     def _relative(self, odometry: Odometry) -> Odometry:
         """Let the frame begin where the robot starts, as that of odometry does by itself."""
@@ -245,12 +262,18 @@ class FollowPath(Node):
         return f'{self._odometry.topic_name} is silent; is the simulation paused?'
 
 
+def time_of(msg: Any) -> float:
+    """Return the time of a message's stamp, in seconds."""
+    stamp = msg.header.stamp
+    return float(stamp.sec + stamp.nanosec * 1e-9)
+
+
 def read_odometry(msg: OdometryMsg) -> Odometry:
     """Take what the driver needs out of the message."""
-    stamp, pose, twist = msg.header.stamp, msg.pose.pose, msg.twist.twist
+    pose, twist = msg.pose.pose, msg.twist.twist
     position, q = pose.position, pose.orientation
     return Odometry(
-        stamp.sec + stamp.nanosec * 1e-9,
+        time_of(msg),
         position.x,
         position.y,
         yaw_of(q.x, q.y, q.z, q.w),

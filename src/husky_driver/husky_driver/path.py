@@ -107,6 +107,22 @@ def smooth_curve(points: Sequence[Point], *, closed: bool = False) -> Curve:
     return samples.curve()
 
 
+def joined(curves: Sequence[Curve]) -> Curve:
+    """Return curves that continue each other as one."""
+    first, *rest = curves
+    x, y, s = list(first.x), list(first.y), list(first.s)
+    heading, curvature, knots = list(first.heading), list(first.curvature), list(first.knot_s)
+    for curve in rest:
+        begin = s[-1]
+        x += curve.x[1:]
+        y += curve.y[1:]
+        s += [begin + along for along in curve.s[1:]]
+        heading += curve.heading[1:]
+        curvature += curve.curvature[1:]
+        knots += [begin + along for along in curve.knot_s[1:]]
+    return Curve(x, y, s, heading, curvature, knots)
+
+
 # One piece of the curve: coefficients of u^0..u^3 for x and for y, u from 0 to 1.
 Cubic = tuple[tuple[float, float, float, float], tuple[float, float, float, float]]
 

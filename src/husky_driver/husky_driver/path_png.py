@@ -14,6 +14,8 @@ from matplotlib.patches import Circle, Polygon
 from husky_driver.path import Point
 from husky_driver.scene import corners, Scene
 
+MAX_NUMBERS = 60  # more could not be read, and take time
+
 
 def draw(scene: Scene, path: Path) -> None:
     """Write the map to a file; its ending tells the format."""
@@ -22,8 +24,11 @@ def draw(scene: Scene, path: Path) -> None:
     axes = figure.add_axes((0.12, 0.08, 0.86, 0.87))
     for outline in scene.obstacles:
         axes.add_patch(Polygon(corners(outline), closed=True, color='#8a8f98', lw=0))
-    for x, y in scene.waypoints:
+    for number, (x, y) in enumerate(scene.waypoints, 1):
         axes.add_patch(Circle((x, y), scene.tolerance_m, fill=False, color='#9db8d8', lw=0.8))
+        if len(scene.waypoints) <= MAX_NUMBERS:
+            beside = (x + scene.tolerance_m, y + scene.tolerance_m)
+            axes.text(*beside, str(number), color='#1f5fa8', fontsize=7)
     _line(axes, scene.given, 'given path', color='#1f5fa8', lw=1.6)
     _line(axes, scene.believed, 'believed (odometry)', color='#c78a00', lw=1.0, ls='--')
     _line(axes, scene.true, 'true path', color='#2a8f4f', lw=1.4)

@@ -17,7 +17,7 @@ from types import TracebackType
 from typing import IO
 
 END_WITHIN_SEC = 5.0
-DOMAINS = range(60, 100)
+DOMAINS = range(85, 102)
 
 
 class Process:

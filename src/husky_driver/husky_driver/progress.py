@@ -57,10 +57,15 @@ class Tally:
         self._stream = stream
         self._bar = bar
         self._count = 0
+        if bar:
+            self._show('the workers start')
 
     def add(self, note: str) -> None:
         """Count one more, and show the note about it."""
         self._count += 1
+        self._show(note)
+
+    def _show(self, note: str) -> None:
         done = BAR_WIDTH * self._count // self._total
         text = f'{self._count} of {self._total}  {note}'
         if self._bar:
@@ -72,6 +77,6 @@ class Tally:
         self._stream.flush()
 
     def close(self) -> None:
-        if self._bar and self._count:
+        if self._bar:
             self._stream.write('\n')
             self._stream.flush()

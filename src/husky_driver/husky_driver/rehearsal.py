@@ -19,6 +19,7 @@ from husky_sim.record import RunRecord
 from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world import default_worlds
 
+from husky_driver.bump import forward_acceleration
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry, relative, yaw_of
 from husky_driver.slip import NO_SLIP
@@ -29,6 +30,7 @@ MAX_SIM_SEC = 3600.0
 
 Pose = tuple[float, float, float]
 Controller = Callable[[Odometry], Command | None]
+Feel = Callable[[float, float], None]
 
 
 def drive_course(
@@ -46,18 +48,24 @@ def drive_course(
     :raises ValueError: when the world or the start cannot be used.
     """
     drive = Drive(course, slip=NO_SLIP if odometry == 'ground_truth' else None)
-    return drive_with(drive.step, world=world, start=start, odometry=odometry), drive
+    record = drive_with(drive.step, feel=drive.feel, world=world, start=start, odometry=odometry)
+    return record, drive
 
 
 def drive_with(
     controller: Controller,
     *,
+    feel: Feel = lambda _time_sec, _acceleration_m_s2: None,
     world: str = '',
     start: Pose = (0.0, 0.0, 0.0),
     odometry: str = 'filtered',
     limit_sec: float = MAX_SIM_SEC,
 ) -> dict[str, Any]:
-    """Let a controller answer each odometry until it answers None; return the record."""
+    """
+    Let a controller answer each odometry until it answers None; return the record.
+
+    :param feel: called with the time and the forward acceleration of each sample of the IMU.
+    """
     x, y, yaw = start
     config = SimulationConfig(
         world=world or str(default_worlds() / 'playpen.xml'),
@@ -76,6 +84,7 @@ def drive_with(
             break
         robot.controller.command(*command, time_sec=simulation.time_sec)
         simulation.advance()
+        feel(_time_sec(simulation.time_ns), _acceleration(robot))
         record.append()
     return record.as_dict()
 
@@ -88,8 +97,7 @@ def _loaded(config: SimulationConfig) -> Simulation:
 
 def _heard(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
     """Return what the driver hears, to the last bit of the message."""
-    seconds, nanoseconds = divmod(time_ns, 1_000_000_000)
-    time_sec = seconds + nanoseconds * 1e-9
+    time_sec = _time_sec(time_ns)
     if odometry == 'ground_truth':
         return _truth(time_sec, robot)
     pose = robot.filtered if odometry == 'filtered' else robot.odometry
@@ -108,3 +116,14 @@ def _truth(time_sec: float, robot: SimulatedRobot) -> Odometry:
     x, y = relative(state.position[0], state.position[1], (start.x, start.y, start.yaw))
     yaw = math.remainder(state.yaw - start.yaw, 2.0 * math.pi)
     return Odometry(time_sec, x, y, yaw, state.velocity[0], state.angular_velocity[2])
+
+
+def _time_sec(time_ns: int) -> float:
+    """Return the time as a stamp gives it."""
+    seconds, nanoseconds = divmod(time_ns, 1_000_000_000)
+    return seconds + nanoseconds * 1e-9
+
+
+def _acceleration(robot: SimulatedRobot) -> float:
+    w, x, y, z = robot.imu.orientation
+    return forward_acceleration(robot.imu.acceleration[0], x, y, z, w)

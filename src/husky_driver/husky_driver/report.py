@@ -36,7 +36,7 @@ def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -
     from husky_driver.path_png import draw  # matplotlib takes its time
 
     folder.mkdir(parents=True, exist_ok=True)
-    scene = run_scene(run, course)
+    scene = run_scene(run, course, report)
     _write(folder / 'report.json', json.dumps(as_json(report), indent=2) + '\n')
     _write(folder / 'report.html', page(report, run, scene))
     part = folder / '.path.part.png'
@@ -47,12 +47,12 @@ def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -
 def summary(report: Report) -> str:
     """Return the report for a terminal."""
     verdict = 'passed' if report.passed else 'NOT PASSED'
-    clearance = report.min_clearance_m
+    clearance, touches = report.min_clearance_m, len(report.collisions)
     near = '' if clearance is None else f', nearest obstacle {clearance:.2f} m'
     lines = [
         f'{report.course}: {verdict}, score {report.score:.1f} of 100',
         f'  {report.waypoints_reached} of {report.waypoints_total} waypoints, '
-        f'{len(report.collisions)} collisions, {report.driven_m:.2f} m in '
+        f'{touches} collision{"" if touches == 1 else "s"}, {report.driven_m:.2f} m in '
         f'{report.sim_time_sec:.2f} s',
         f'  off the path {report.cross_track_rms_m:.3f} m RMS, '
         f'{report.cross_track_max_m:.3f} m at most{near}',

@@ -6,41 +6,13 @@ from __future__ import annotations
 
 from html import escape
 
+from husky_driver.map_svg import map_svg
+from husky_driver.plot_svg import Plot
+from husky_driver.report_style import STYLE
 from husky_driver.run_record import RunRecord
 from husky_driver.scene import Scene
-from husky_driver.score_parts import FORMULA
+from husky_driver.score_parts import FORMULA, FULL_TRACKING_M
 from husky_driver.scoring import Report
-from husky_driver.svg import map_svg, plot_svg
-
-STYLE = """
-:root { color-scheme: light dark; --ink: #1c2430; --soft: #667; --page: #fff; --line: #d5dae1;
-  --given: #1f5fa8; --true: #22824a; --believed: #b87a00; --bad: #c62828; --solid: #9aa1ab; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6e9ee; --soft: #9aa3b2; --page: #14181f;
-  --line: #333b47; --given: #74aaf0; --true: #5fcf8f; --believed: #e8b04a; --bad: #ff7b72;
-  --solid: #5b6472; } }
-body { margin: 0 auto; padding: 1rem; max-width: 60rem; background: var(--page);
-  color: var(--ink); font: 16px/1.45 system-ui, sans-serif; }
-h1 { font-size: 1.4rem; margin: 0 0 .3rem; } h2 { font-size: 1.1rem; margin: 1.4rem 0 .4rem; }
-table { border-collapse: collapse; width: 100%; }
-th, td { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px solid var(--line);
-  vertical-align: top; }
-td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-.score { font-size: 2.4rem; font-weight: 700; } .bad { color: var(--bad); }
-.good { color: var(--true); } .soft, figcaption { color: var(--soft); font-size: .9rem; }
-figure { margin: .5rem 0; } svg { width: 100%; height: auto; display: block; }
-svg text { font: 14px system-ui, sans-serif; fill: var(--soft); }
-svg polyline { fill: none; stroke-width: 2; stroke-linejoin: round; }
-svg.map polyline { stroke-width: 4; } svg .grid { stroke: var(--line); }
-svg .obstacle { fill: var(--solid); } svg .waypoint { fill: var(--given); }
-svg .start { fill: var(--ink); } svg .mark { fill: var(--bad); }
-svg polyline.band { stroke: var(--given); opacity: .22; stroke-linecap: round; }
-svg .given { stroke: var(--given); } svg .true { stroke: var(--true); }
-svg .believed { stroke: var(--believed); stroke-dasharray: 10 7; }
-.key span { margin-right: 1rem; white-space: nowrap; } .key i { display: inline-block;
-  width: 1.4rem; height: .25rem; margin-right: .35rem; vertical-align: middle; }
-pre { white-space: pre-wrap; color: var(--soft); font-size: .8rem; }
-.hash { overflow-wrap: anywhere; }
-"""
 
 
 def page(report: Report, run: RunRecord, scene: Scene) -> str:
@@ -57,7 +29,7 @@ def page(report: Report, run: RunRecord, scene: Scene) -> str:
         f'<span class="{css}">{verdict}</span></div>'
         f'{_reasons(report)}{_map(scene)}{_parts(report)}{_figures(report)}'
         f'{_collisions(report)}{_plots(report, run)}'
-        f'<h2>How the score is made</h2><pre>{escape(FORMULA)}</pre>'
+        f'{_formula()}'
         f'<p class="soft hash">trajectory SHA-256 {report.trajectory_sha256}</p></body></html>\n'
     )
 
@@ -78,13 +50,16 @@ def _key(*entries: tuple[str, str]) -> str:
 
 
 def _map(scene: Scene) -> str:
-    key = _key(
-        ('given', f'given path, band {scene.tolerance_m:g} m'),
+    entries = [
+        ('given', 'given path and its waypoints'),
+        ('band', f'within {scene.tolerance_m:g} m of it'),
         ('true', 'true path'),
         ('believed', 'believed path (odometry)'),
-        ('bad', 'collision'),
-    )
-    return f'<figure>{map_svg(scene)}{key}</figure>'
+        ('error', 'error: between true and given'),
+    ]
+    entries += [('bad', 'waypoint missed')] if scene.missed else []
+    entries += [('bad', 'collision, with its number below')] if scene.marks else []
+    return f'<figure>{map_svg(scene)}{_key(*entries)}</figure>'
 
 
 def _parts(report: Report) -> str:
@@ -94,7 +69,7 @@ def _parts(report: Report) -> str:
         for part in report.parts
     )
     head = '<tr><th>part</th><th>factor</th><th>points lost</th><th>why</th></tr>'
-    return f'<h2>Score</h2><table>{head}{rows}</table>'
+    return f'<h2>Score</h2><table class="parts">{head}{rows}</table>'
 
 
 def _figures(report: Report) -> str:
@@ -117,17 +92,18 @@ def _figures(report: Report) -> str:
         for name, value in figures.items()
         if value
     )
-    return f'<h2>Figures</h2><table>{rows}</table>'
+    return f'<h2>Figures</h2><table class="figures">{rows}</table>'
 
 
 def _collisions(report: Report) -> str:
     if not report.collisions:
         return ''
-    head = '<tr><th>obstacle</th><th>part</th><th>time</th><th>force</th></tr>'
+    head = '<tr><th></th><th>obstacle</th><th>part</th><th>time</th><th>force</th></tr>'
     rows = ''.join(
-        f'<tr><td>{escape(touch.obstacle)}</td><td>{escape(touch.part)}</td>'
+        f'<tr><td>{number}</td><td>{escape(touch.obstacle)}</td>'
+        f'<td>{escape(touch.part.replace("_", " "))}</td>'
         f'<td class="n">{touch.time_sec:.2f} s</td><td class="n">{touch.force_n:.0f} N</td></tr>'
-        for touch in report.collisions
+        for number, touch in enumerate(report.collisions, 1)
     )
     return f'<h2>Collisions</h2><table>{head}{rows}</table>'
 
@@ -137,10 +113,39 @@ def _plots(report: Report, run: RunRecord) -> str:
     if end - begin < 2:
         return ''
     times = run.time_sec[begin:end]
-    error = plot_svg(times, [('true', report.errors_m[begin:end])], 'metres')
-    speeds = [('given', run.command_speed_m_s[begin:end]), ('true', run.speed_m_s[begin:end])]
+    touched = [touch.time_sec for touch in report.collisions]
+    touched = [time for time in touched if times[0] <= time <= times[-1]]
+    full = (-FULL_TRACKING_M, FULL_TRACKING_M)
+    errors = {'true': report.errors_m[begin:end]}
+    speeds = {
+        'asked': report.asked_m_s[begin:end],
+        'commanded': run.command_speed_m_s[begin:end],
+        'true': run.speed_m_s[begin:end],
+    }
+    error = Plot('metres off the path over seconds', times, errors, full, touched)
+    speed = Plot('metres per second over seconds', times, speeds, None, touched)
+    moment = [('bad', 'collision')] if touched else []
+    error_key = _key(('band-good', f'within {FULL_TRACKING_M:.2f} m'), *moment)
+    speed_key = _key(('given', 'asked'), ('believed', 'commanded'), ('true', 'true'), *moment)
     return (
-        f'<h2>Off the path, m over s (left of it is positive)</h2><figure>{error}</figure>'
-        f'<h2>Speed, m/s over s</h2><figure>{plot_svg(times, speeds, "metres per second")}'
-        f'{_key(("given", "commanded"), ("true", "true"))}</figure>'
+        '<div class="plots"><section><h2>Off the path, m over s</h2>'
+        '<p class="soft">to the left of it is positive</p>'
+        f'<figure>{error.svg()}{error_key}</figure>'
+        '</section><section><h2>Speed, m/s over s</h2>'
+        f'<p class="soft">backwards is negative</p><figure>{speed.svg()}{speed_key}</figure>'
+        '</section></div>'
     )
+
+
+def _formula() -> str:
+    """Return the formula as a list: a name begins an entry, deeper lines go on with it."""
+    first, *lines = FORMULA.splitlines()
+    entries: list[tuple[str, str]] = []
+    for line in lines:
+        if line[2] == ' ':
+            entries[-1] = (entries[-1][0], f'{entries[-1][1]} {line.strip()}')
+        else:
+            name, text = line.split(maxsplit=1)
+            entries.append((name, text))
+    items = ''.join(f'<dt>{name}</dt><dd>{escape(text)}</dd>' for name, text in entries)
+    return f'<h2>How the score is made</h2><p>{escape(first)}</p><dl>{items}</dl>'

@@ -5,16 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 import math
 
-from husky_driver.path import Point
+from husky_driver.path import joined, Point
 from husky_driver.route import plan_route
 from husky_driver.run_record import Outline, RunRecord
+from husky_driver.scoring import Report
 from husky_driver.waypoints import Course
 
 MAX_POINTS = 1500
 MARGIN_M = 0.8
+NEAR_M = 1.5  # around a course
+MIN_SIZE_M = 8.0
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,14 @@ class Scene:
     true: list[Point]
     believed: list[Point]
     marks: list[Point]  # collisions, or waypoints too near to something
+    missed: frozenset[int] = frozenset()  # numbers of waypoints
+    error: list[Point] = field(default_factory=list)  # outline of what lies between two paths
+
+    def near_bounds(self) -> tuple[float, float, float, float]:
+        """Return the same for the course and what was driven, not less than MIN_SIZE_M wide."""
+        points = [*self.given, *self.true, *self.believed, *self.marks, self.start[:2]]
+        xs, ys = [p[0] for p in points], [p[1] for p in points]
+        return (*_widened(min(xs), max(xs)), *_widened(min(ys), max(ys)))
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Return the least and greatest x and y, with a margin."""
@@ -38,6 +49,11 @@ class Scene:
             points += corners(outline)
         xs, ys = [p[0] for p in points], [p[1] for p in points]
         return min(xs) - MARGIN_M, max(xs) + MARGIN_M, min(ys) - MARGIN_M, max(ys) + MARGIN_M
+
+
+def _widened(low: float, high: float) -> tuple[float, float]:
+    more = max(NEAR_M, (MIN_SIZE_M - (high - low)) / 2)
+    return low - more, high + more
 
 
 def corners(outline: Outline) -> list[Point]:
@@ -89,12 +105,20 @@ def course_scene(
     )
 
 
-def run_scene(run: RunRecord, course: Course) -> Scene:
-    """Return the map of a run."""
+def run_scene(run: RunRecord, course: Course, report: Report) -> Scene:
+    """Return the map of a run that was judged."""
     scene = course_scene(course, run.obstacles, run.start)
     true = [run.to_world(x, y) for x, y in zip(run.x, run.y, strict=True)]
     believed = [run.to_world(x, y) for x, y in zip(run.odom_x, run.odom_y, strict=True)]
-    marks = [touch.position[:2] for touch in run.collisions]
-    return Scene(
-        **{**vars(scene), 'true': thinned(true), 'believed': thinned(believed), 'marks': marks}
+    curve = joined([leg.curve for leg in plan_route(course)])
+    driven = range(report.begin, report.end + 1)
+    asked = [run.to_world(*curve.point_at(report.along_m[i])) for i in driven]
+    missed = [i for i, got in enumerate(report.visits) if not got]  # a loop's last is its first
+    return replace(
+        scene,
+        true=thinned(true),
+        believed=thinned(believed),
+        marks=[touch.position[:2] for touch in run.collisions],
+        missed=frozenset(i % len(course.waypoints) for i in missed),
+        error=[*thinned([true[i] for i in driven]), *thinned(asked[::-1])],
     )

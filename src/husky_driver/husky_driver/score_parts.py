@@ -19,6 +19,7 @@ MIN_TIME_FACTOR = 0.5
 TOO_FAST_FACTOR = 0.5  # for a path driven too fast from beginning to end
 FULL_TRACKING_M = 0.10
 NO_TRACKING_M = 0.50
+WRONG_WAY_FACTOR = 0.5  # for a path driven backwards from beginning to end
 
 FORMULA = f"""\
 score = 100 x completion x {COLLISION_FACTOR} per collision x time x tracking
@@ -26,7 +27,9 @@ score = 100 x completion x {COLLISION_FACTOR} per collision x time x tracking
               times {NOT_STOPPED_FACTOR} unless the robot stands at the last one in the end
   time        1 within {TIME_ALLOWANCE} x the time at the asked speed, then in proportion, not
               below {MIN_TIME_FACTOR}; times 1 - {1 - TOO_FAST_FACTOR} x the share driven too fast
-  tracking    1 up to {FULL_TRACKING_M:.2f} m RMS off the path, 0 from {NO_TRACKING_M:.2f} m"""
+  tracking    1 up to {FULL_TRACKING_M:.2f} m RMS off the path, 0 from {NO_TRACKING_M:.2f} m;
+              times 1 - {1 - WRONG_WAY_FACTOR} x the share driven backwards where the course asks
+              for forwards, or forwards where it asks for backwards (reverse: true)"""
 
 
 @dataclass(frozen=True)
@@ -75,10 +78,19 @@ def time(needed_sec: float, par_sec: float, too_fast: float) -> tuple[float, str
     return factor, why
 
 
-def tracking(rms_m: float) -> tuple[float, str]:
+def tracking(rms_m: float, wrong_way: float = 0.0) -> tuple[float, str]:
+    """
+    Return the factor for keeping to the path.
+
+    :param wrong_way: the share of the way driven backwards instead of forwards, or the reverse.
+    """
     share = (NO_TRACKING_M - rms_m) / (NO_TRACKING_M - FULL_TRACKING_M)
     why = f'{rms_m:.3f} m RMS off the path, full marks up to {FULL_TRACKING_M:.2f} m'
-    return min(max(share, 0.0), 1.0), why
+    factor = min(max(share, 0.0), 1.0)
+    if wrong_way > 0.0:
+        factor *= 1.0 - (1.0 - WRONG_WAY_FACTOR) * wrong_way
+        why += f'; {wrong_way:.0%} of the way in the wrong direction'
+    return factor, why
 
 
 def total(parts: Sequence[tuple[str, tuple[float, str]]]) -> tuple[float, tuple[Part, ...]]:

@@ -11,7 +11,8 @@ from typing import Any
 
 from husky_driver import diagnosis, score_parts, verdict
 from husky_driver.alignment import align
-from husky_driver.path import Curve
+from husky_driver.manner import manner_of, pieces_of
+from husky_driver.path import joined
 from husky_driver.route import Leg, plan_route
 from husky_driver.run_record import Collision, read_run, RunRecord
 from husky_driver.score_parts import Part
@@ -20,14 +21,13 @@ from husky_driver.waypoints import Course
 
 STANDING_M_S = 0.02
 STANDING_RAD_S = 0.05
-TOO_FAST = 1.10  # times the asked speed, plus 2 cm/s
 STOP_ALLOWANCE_SEC = 1.0  # for each stop on the way, beside the turning
 TURN_ALLOWANCE_RAD_S = 1.0
 
 
 @dataclass(frozen=True)
 class Report:
-    """What a run is worth; `errors_m` and `along_m` have one entry a control period."""
+    """What a run is worth; `along_m`, `errors_m`, `asked_m_s` have one entry a period."""
 
     course: str
     completed: bool
@@ -51,6 +51,8 @@ class Report:
     end: int
     along_m: tuple[float, ...]
     errors_m: tuple[float, ...]
+    asked_m_s: tuple[float, ...]
+    visits: tuple[bool, ...]  # of `Course.stops`
 
     @property
     def passed(self) -> bool:
@@ -85,7 +87,8 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
     worst = max((abs(errors[i]) for i in judged), default=0.0)
     needed = run.time_sec[end] - run.time_sec[begin]
     progress = max((along[i] for i in judged), default=0.0) / curve.length_m
-    too_fast = _too_fast(run, legs, along, judged)
+    pieces = pieces_of(legs, along)
+    manner = manner_of(run, pieces, along, judged)
     reached = sum(visits)
     points, parts = score_parts.total(
         [
@@ -94,11 +97,13 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
                 score_parts.completion(reached, len(visits), stands_at_end=stands and at_end),
             ),
             ('collisions', score_parts.collisions([c.obstacle for c in run.collisions])),
-            ('time', score_parts.time(needed, progress * par_time_sec(legs), too_fast)),
-            ('tracking', score_parts.tracking(rms)),
+            ('time', score_parts.time(needed, progress * par_time_sec(legs), manner.too_fast)),
+            ('tracking', score_parts.tracking(rms, manner.wrong_way)),
         ]
     )
-    guessed = diagnosis.guesses(run, curve, rms, _driven(run)) if reached < len(visits) else []
+    guessed = []
+    if reached < len(visits):
+        guessed = diagnosis.guesses(run, course, curve, rms_m=rms, driven_m=_driven(run))
     accelerations = _accelerations(run, begin, end)
     return Report(
         course=course.name,
@@ -118,28 +123,14 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
         trajectory_sha256=run.trajectory_sha256,
         score=points,
         parts=parts,
-        reasons=(*verdict.reasons(run, course, visits), *guessed),
+        reasons=(*verdict.reasons(run, course, visits, manner), *guessed),
         begin=begin,
         end=end,
         along_m=tuple(along),
         errors_m=tuple(errors),
+        asked_m_s=tuple(piece.speed_m_s for piece in pieces),
+        visits=tuple(visits),
     )
-
-
-def joined(curves: Sequence[Curve]) -> Curve:
-    """Return curves that continue each other as one."""
-    first, *rest = curves
-    x, y, s = list(first.x), list(first.y), list(first.s)
-    heading, curvature, knots = list(first.heading), list(first.curvature), list(first.knot_s)
-    for curve in rest:
-        begin = s[-1]
-        x += curve.x[1:]
-        y += curve.y[1:]
-        s += [begin + along for along in curve.s[1:]]
-        heading += curve.heading[1:]
-        curvature += curve.curvature[1:]
-        knots += [begin + along for along in curve.knot_s[1:]]
-    return Curve(x, y, s, heading, curvature, knots)
 
 
 def par_time_sec(legs: Sequence[Leg]) -> float:
@@ -190,23 +181,6 @@ def _judged(run: RunRecord, course: Course, begin: int, end: int) -> list[int]:
     )
     start = next(near, begin)
     return [i for i in range(start, end + 1) if abs(run.speed_m_s[i]) > STANDING_M_S]
-
-
-def _too_fast(
-    run: RunRecord, legs: Sequence[Leg], along: Sequence[float], judged: Sequence[int]
-) -> float:
-    """Return the share of the entries in which it was faster than asked."""
-    knots, speeds = [0.0], list[float]()
-    for leg in legs:
-        begin = knots[-1]
-        knots += [begin + s for s in leg.curve.knot_s[1:]]
-        speeds += leg.speeds_m_s
-    over, piece = 0, 0
-    for i in judged:
-        while piece < len(speeds) - 1 and along[i] > knots[piece + 1]:
-            piece += 1
-        over += abs(run.speed_m_s[i]) > TOO_FAST * speeds[piece] + 0.02
-    return over / len(judged) if judged else 0.0
 
 
 def _driven(run: RunRecord) -> float:

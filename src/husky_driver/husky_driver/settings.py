@@ -48,6 +48,7 @@ class Settings:
         (0.0, 0.0, 0.0), 'where the robot starts in that world: x m, y m, yaw rad'
     )
     slip: bool = _setting(True, 'count with the sliding in bends that odometry cannot see')
+    imu: bool = _setting(True, 'give up when imu/data shows that something holds the robot')
     scan: bool = _setting(False, 'stop before what front/scan sees on the path')
     progress: str = _setting(
         'auto', 'how progress is shown: auto, bar, lines or off', choice=PROGRESS

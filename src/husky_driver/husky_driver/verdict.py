@@ -7,23 +7,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
+from husky_driver.manner import ENOUGH_M, Manner
 from husky_driver.run_record import RunRecord
 from husky_driver.waypoints import Course
 
 MAX_LINES = 4  # of one kind
 STANDING_M_S = 0.02
 MOVED_M = 0.05
-BACKWARDS_M = 0.3
 
 
-def reasons(run: RunRecord, course: Course, reached: Sequence[bool]) -> tuple[str, ...]:
+def reasons(
+    run: RunRecord, course: Course, reached: Sequence[bool], manner: Manner
+) -> tuple[str, ...]:
     """Return one line for each thing that went wrong; none for a good run."""
     if not _moved(run):
         return (_why_still(run),)
+    wrong_way = _wrong_way(manner)
     lines = [*_collisions(run), *_missed(run, course, reached)]
     lines += _ending(run, course, all(reached))
-    lines += _backwards(run, course)
-    return tuple(lines)
+    return tuple([*wrong_way, *lines] if manner.wrong_way > 0.5 else [*lines, *wrong_way])
 
 
 def _moved(run: RunRecord) -> bool:
@@ -88,12 +90,13 @@ def _ending(run: RunRecord, course: Course, all_reached: bool) -> list[str]:
     return []
 
 
-def _backwards(run: RunRecord, course: Course) -> list[str]:
-    if any(point.reverse for point in course.waypoints):
+def _wrong_way(manner: Manner) -> list[str]:
+    if manner.wrong_way == 0.0:
         return []
-    back = sum(
-        math.hypot(run.x[i + 1] - run.x[i], run.y[i + 1] - run.y[i])
-        for i in range(len(run.x) - 1)
-        if run.speed_m_s[i] < -STANDING_M_S and run.command_speed_m_s[i] < 0.0
-    )
-    return [f'drove {back:.2f} m backwards'] if back > BACKWARDS_M else []
+    lines = [
+        f'drove {manner.backwards_m:.2f} m backwards where the course asks for forwards: '
+        'linear.x is positive ahead, and turn to face the way first',
+        f'drove {manner.forwards_m:.2f} m forwards where the course says reverse: true',
+    ]
+    metres = (manner.backwards_m, manner.forwards_m)
+    return [line for line, way_m in zip(lines, metres, strict=True) if way_m > ENOUGH_M]

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 
+from husky_driver.bump import Bump
 from husky_driver.motion import Command, Odometry, STANDING_M_S, STANDING_RAD_S
 
 STUCK_SEC = 4.0
@@ -22,6 +23,7 @@ class Watchdog:
     def __init__(self, start: Odometry) -> None:
         self._moved = start
         self._turning_well_sec = start.time_sec
+        self.bump = Bump()
 
     def complaint(self, odometry: Odometry, command: Command) -> str:
         """Return why the drive cannot go on, or nothing."""
@@ -36,6 +38,11 @@ class Watchdog:
             return (
                 f'the wheels slip: told to turn {command.yaw_rate_rad_s:.2f} rad/s, but it turns '
                 f'{odometry.yaw_rate_rad_s:.2f} rad/s; is something in its way near {place}?'
+            )
+        if self.bump.is_held(odometry.time_sec, odometry.speed_m_s):
+            return (
+                f'the wheels drive {odometry.speed_m_s:.2f} m/s, but the IMU has felt the robot '
+                f'stop: something holds it near {place}'
             )
         return ''
 

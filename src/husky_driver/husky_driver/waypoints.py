@@ -187,7 +187,7 @@ class _Checker:
     def _pair(self, value: Value, name: str) -> Waypoint | None:
         if len(value.items) != 2:
             count = len(value.items)
-            comma = ', with a decimal point and not a comma' if count == 4 else ''
+            comma = ', with a decimal point and not a comma' if count in (3, 4) else ''
             self._wrong(value, name, f'{count} values instead of 2; write [x, y]{comma}')
             return None
         x = _coordinate(self, value.items[0], f'{name}.x')

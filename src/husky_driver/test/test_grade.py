@@ -99,6 +99,7 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
     assert touch['obstacle'] == 'jersey_barrier_15'
     assert touch['force_n'] > 100.0
     assert report['min_clearance_m'] == 0.0
+    assert report['reasons'][-1].startswith('gave up: the wheels drive 0.')
     assert json.loads(capsys.readouterr().out) == report
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from husky_driver.lookout import blocked_at_m, FRONT_M, LASER_X_M
+from husky_driver.lookout import FRONT_M, LASER_X_M, look_along, Lookout, Scan, Sighting
 from husky_driver.path import smooth_curve
 import pytest
 
@@ -20,37 +20,77 @@ def scan_of(*points: tuple[float, float]) -> list[float]:
     return ranges
 
 
-def blocked(ranges: list[float], speed_m_s: float = 0.8) -> float | None:
-    return blocked_at_m(
-        ranges, FIRST, STEP, pose=(0.0, 0.0, 0.0), curve=LINE, s=0.0, speed_m_s=speed_m_s
+def seen(ranges: list[float], speed_m_s: float = 0.8) -> Sighting | None:
+    return look_along(Scan(0.0, ranges, FIRST, STEP), (0.0, 0.0, 0.0), LINE, 0.0, speed_m_s)
+
+
+def test_a_free_path_is_not_seen() -> None:
+    assert seen([math.inf] * BEAMS) is None
+    assert seen([math.nan] * BEAMS) is None
+    assert seen([0.0] * BEAMS) is None
+
+
+def test_something_on_the_path_blocks_it_and_is_described() -> None:
+    found = seen(scan_of((1.2, 0.0), (1.2, 0.1), (1.25, 0.2), (1.2, -0.9)))
+    assert found is not None
+    assert found.ahead_m == pytest.approx(1.2 - FRONT_M, abs=0.01)
+    assert (found.x_m, found.y_m) == pytest.approx((1.2, 0.0), abs=0.01)
+    assert found.width_m == pytest.approx(0.2, abs=0.02)
+    assert str(found) == (
+        'something 0.2 m wide stands on the path, 0.71 m ahead near (1.20, 0.00)'
     )
 
 
-def test_a_free_path_is_not_blocked() -> None:
-    assert blocked([math.inf] * BEAMS) is None
-    assert blocked([math.nan] * BEAMS) is None
-    assert blocked([0.0] * BEAMS) is None
-
-
-def test_something_on_the_path_blocks_it_at_its_distance() -> None:
-    found = blocked(scan_of((1.2, 0.0)))
-    assert found is not None
-    assert found == pytest.approx(1.2 - FRONT_M - 0.4, abs=0.06)
-
-
 def test_what_stands_beside_the_path_does_not_block_it() -> None:
-    assert blocked(scan_of((1.0, 0.6), (1.0, -0.6))) is None
-    assert blocked(scan_of((1.0, 0.3))) is not None
+    assert seen(scan_of((1.0, 0.6), (1.0, -0.6))) is None
+    assert seen(scan_of((1.0, 0.3))) is not None
 
 
 def test_it_looks_only_as_far_as_it_needs_to_stop() -> None:
-    assert blocked(scan_of((1.5, 0.0)), speed_m_s=0.2) is None
-    assert blocked(scan_of((1.5, 0.0)), speed_m_s=1.0) is not None
+    assert seen(scan_of((1.4, 0.0)), speed_m_s=0.2) is None
+    assert seen(scan_of((1.4, 0.0)), speed_m_s=1.0) is not None
 
 
 def test_a_wall_beside_a_bend_does_not_block_the_bend() -> None:
     bend = smooth_curve([(0, 0), (1, 0), (1.7, 0.7), (1.7, 2)])
     wall = scan_of(*[(2.3, y / 20) for y in range(-10, 20)])
-    assert (
-        blocked_at_m(wall, FIRST, STEP, pose=(0, 0, 0), curve=bend, s=0.0, speed_m_s=0.6) is None
-    )
+    assert look_along(Scan(0.0, wall, FIRST, STEP), (0, 0, 0), bend, 0.0, 0.6) is None
+
+
+def scan_at(time_sec: float, *points: tuple[float, float]) -> Scan:
+    return Scan(time_sec, scan_of(*points), FIRST, STEP)
+
+
+def test_it_waits_for_the_first_scan_and_stands_while_something_is_seen() -> None:
+    lookout, ahead = Lookout(), ((0.0, 0.0, 0.0), LINE, 0.0, 0.8)
+    assert lookout.news(10.0) == ''
+    assert lookout.holds
+    lookout.look(scan_at(10.0), *ahead)
+    assert (lookout.news(10.1), lookout.holds) == ('', False)
+    lookout.look(scan_at(10.2, (1.2, 0.0)), *ahead)
+    assert lookout.news(10.2).startswith('stopping: something 0.0 m wide stands on the path')
+    assert (lookout.news(10.3), lookout.holds) == ('', True)
+    lookout.look(scan_at(10.4), *ahead)
+    assert lookout.news(10.4) == 'the way is free: driving on'
+    assert not lookout.holds
+
+
+def test_it_does_not_drive_blind() -> None:
+    lookout = Lookout()
+    lookout.news(10.0)
+    lookout.pass_over(scan_at(10.0))
+    assert (lookout.news(10.9), lookout.holds) == ('', False)
+    assert 'no scan comes on front/scan' in lookout.news(11.1)
+    assert lookout.holds
+    lookout.pass_over(scan_at(11.2))
+    assert lookout.news(11.2) == 'the way is free: driving on'
+    assert lookout.news(1.0) == ''  # the simulator was reset
+    assert lookout.holds
+
+
+def test_it_waits_a_minute_and_no_longer() -> None:
+    lookout = Lookout()
+    for tenth in range(610):
+        lookout.news(tenth / 10)
+        assert (lookout.complaint != '') == (tenth >= 600)
+    assert lookout.complaint.startswith('stood for 60 s: standing: no scan comes')

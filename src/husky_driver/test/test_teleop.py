@@ -1,10 +1,12 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 from collections.abc import Callable
+import fcntl
 import os
 import pty
 import subprocess
 import sys
+import termios
 import threading
 import time
 from typing import Any
@@ -29,7 +31,9 @@ DOMAIN = 84
         ('j', (0.0, 1.0)),
         ('l', (0.0, -1.0)),
         ('u', (0.5, 1.0)),
+        ('o', (0.5, -1.0)),
         ('m', (-0.5, -1.0)),
+        ('.', (-0.5, 1.0)),
         ('\x1b[A', (0.5, 0.0)),
         ('k', (0.0, 0.0)),
         ('?', (0.0, 0.0)),
@@ -63,7 +67,9 @@ def test_speeds_change_by_a_tenth_and_keep_the_limits() -> None:
     keyboard.press('w', 0.0)
     assert (keyboard.speed_m_s, keyboard.turn_rad_s) == pytest.approx((0.55, 1.0))
     keyboard.press('c', 0.0)
-    assert keyboard.turn_rad_s == pytest.approx(1 / 1.1)
+    assert keyboard.turn_rad_s == pytest.approx(0.9)
+    keyboard.press('z', 0.0)
+    assert (keyboard.speed_m_s, keyboard.turn_rad_s) == pytest.approx((0.495, 0.81))
     for _ in range(50):
         keyboard.press('q', 0.0)
     assert (keyboard.speed_m_s, keyboard.turn_rad_s) == (1.0, 2.0)
@@ -113,22 +119,30 @@ def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> No
         time.sleep(0.01)
 
 
-def test_a_key_at_a_terminal_drives_and_a_closed_terminal_stops(heard: list[Command]) -> None:
+def test_a_key_at_a_terminal_drives_until_it_is_released_or_the_terminal_goes(
+    heard: list[Command],
+) -> None:
     ours, theirs = pty.openpty()
     process = subprocess.Popen(
         [sys.executable, '-m', 'husky_driver.teleop'],
         stdin=theirs,
         stdout=subprocess.DEVNULL,
         start_new_session=True,
+        # As in a login over SSH: the terminal that goes away is the one of the session.
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
     )
     os.close(theirs)
+    forward = Command(0.5, 0.0)
+
+    def driving() -> bool:
+        os.write(ours, b'i')
+        return heard[-1:] == [forward]
+
     try:
-
-        def driving() -> bool:
-            os.write(ours, b'i')
-            return Command(0.5, 0.0) in heard
-
         wait_until(driving, timeout_sec=20.0, what='command of 0.5 m/s')
+        wait_until(lambda: heard[-1] == STOP, timeout_sec=5.0, what='stop after the release')
+        assert process.poll() is None
+        wait_until(driving, timeout_sec=5.0, what='command of 0.5 m/s')
         os.close(ours)
         assert process.wait(timeout=10.0) == 0
         wait_until(lambda: heard[-1] == STOP, timeout_sec=5.0, what='stop')

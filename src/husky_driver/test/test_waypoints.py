@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math
+import os
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from husky_driver.route import plan_route
@@ -14,6 +16,9 @@ from hypothesis import strategies as st
 import jsonschema
 import pytest
 import yaml
+
+# For ten thousand: GENERATED_FILES=10000 ./lab test src/husky_driver/test/test_waypoints.py
+GENERATED_FILES = int(os.environ.get('GENERATED_FILES', '200'))
 
 
 def problems(text: str) -> list[str]:
@@ -190,9 +195,17 @@ likely_courses = st.tuples(
     st.sampled_from(['', 'loop: true\n', 'corners: sharp\n', 'tolerance: 0.1\n']),
     st.lists(likely_points, min_size=2, max_size=8),
 ).map(lambda course: course[0] + 'waypoints:\n' + '\n'.join(f'  - {p}' for p in course[1]))
+enormous = st.one_of(
+    st.integers(0, 3000).map(lambda count: 'waypoints:\n' + '  - [1, 2]\n' * count),
+    st.tuples(st.sampled_from(['[', '{a: ', '- ', '"', '\n', ' ', '?']), st.integers(1, 9999)).map(
+        lambda repeated: repeated[0] * repeated[1]
+    ),
+)
 documents = st.one_of(
     likely_courses,
+    enormous,
     st.text(),
+    st.binary(),
     values,
     st.lists(st.tuples(keys, values), max_size=6).map(
         lambda pairs: '\n'.join(f'{key}: {value}' for key, value in pairs)
@@ -203,13 +216,20 @@ documents = st.one_of(
 )
 
 
-@settings(max_examples=500, deadline=2000, database=None)
+@pytest.mark.timeout(120 + GENERATED_FILES // 20)
+@settings(max_examples=GENERATED_FILES, deadline=2000, database=None)
 @given(documents)
-def test_any_file_is_either_a_course_or_refused_with_a_line(text: str) -> None:
+def test_any_file_is_either_a_course_or_refused_with_a_line(document: str | bytes) -> None:
+    content = document if isinstance(document, bytes) else document.encode(errors='replace')
     try:
-        found: Course | tuple[Problem, ...] = parse_course(text, 'course.yaml')
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / 'course.yaml'
+            file.write_bytes(content)
+            found: Course | tuple[Problem, ...] = load_course(file)
     except FileRefused as refused:
         found = refused.problems
+        lines = str(refused).split('\n')
+        assert all(line.startswith(f'{file}: line ') for line in lines), lines
     if isinstance(found, tuple):
         assert found
         assert all(problem.line >= 1 and problem.column >= 1 for problem in found)

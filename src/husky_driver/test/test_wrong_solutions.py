@@ -22,6 +22,9 @@ import pytest
 
 Turn = Callable[[float, float], tuple[float, float]]
 
+EMPTY = str(Path(__file__).resolve().parents[3] / 'worlds' / 'empty.xml')
+BEND = parse_course('speed: 0.8\nwaypoints: [[0, 0], [-2, 1], [-3.5, 0.5], [-4, -1.5]]')
+
 
 @pytest.fixture
 def barrier(courses: Path) -> Course:
@@ -66,13 +69,45 @@ def test_one_that_cuts_a_corner_is_told_which() -> None:
     assert reason.startswith('missed waypoint 3 at (-4, 0): it came no nearer than')
 
 
-def test_one_that_drives_backwards_instead_of_forwards_is_told_so() -> None:
-    asked = parse_course('waypoints: [[0, 0], [-2, 0], [-4, 0]]')
-    wrong = moved(asked, lambda x, y: (-x / 4, y), reverse=False)
-    backwards = parse_course('waypoints: [[0, 0], {x: -4, y: 0, reverse: true}]')
-    assert not judged(wrong, asked).passed
-    report = judged(backwards, asked)
-    assert any('m backwards' in reason for reason in report.reasons)
+def test_one_that_drives_all_of_it_backwards_gets_half_of_the_points_and_is_told_why() -> None:
+    report = judged(moved(BEND, lambda x, y: (x, y), reverse=True), BEND)
+    assert report.waypoints_reached == 4
+    assert report.score == pytest.approx(50.0, abs=0.5)
+    tracking = report.parts[-1]
+    assert tracking.cost_points == pytest.approx(50.0, abs=0.5)
+    assert tracking.why.endswith('; 100% of the way in the wrong direction')
+    (reason,) = report.reasons
+    assert reason.startswith('drove 5.9')
+    assert 'm backwards where the course asks for forwards' in reason
+
+
+def test_one_that_takes_ahead_for_back_is_told_so_before_all_it_missed() -> None:
+    drive = Drive(BEND)
+
+    def controller(now: Odometry) -> Command | None:
+        command = drive.step(now)
+        return None if command is None else Command(-command.speed_m_s, command.yaw_rate_rad_s)
+
+    report = score(drive_with(controller, world=EMPTY, limit_sec=8.0), BEND)
+    assert report.score == 0.0
+    assert 'm backwards where the course asks for forwards' in report.reasons[0]
+
+
+def test_one_that_drives_forwards_where_the_course_says_reverse_is_told_so() -> None:
+    asked = parse_course('waypoints: [[0, 0], {x: -4, y: 0, reverse: true}]')
+    report = judged(moved(asked, lambda x, y: (x, y), reverse=False), asked)
+    assert report.score == pytest.approx(50.0, abs=0.5)
+    assert report.reasons == ('drove 4.00 m forwards where the course says reverse: true',)
+    assert judged(asked, asked).score == pytest.approx(100.0)
+
+
+def test_one_that_drives_the_course_from_its_end_is_told_so() -> None:
+    first, *others = BEND.waypoints
+    report = judged(replace(BEND, waypoints=(first, *others[::-1])), BEND)
+    assert not report.passed
+    assert report.waypoints_reached == 2
+    assert any(reason.endswith('it was there, but not in its turn') for reason in report.reasons)
+    assert report.reasons[-1].startswith('it drove the course from its end to its beginning')
 
 
 def test_one_that_touches_a_cone_is_told_which_and_with_what() -> None:
@@ -94,10 +129,8 @@ def test_one_that_touches_a_cone_is_told_which_and_with_what() -> None:
     ],
 )
 def test_one_in_the_wrong_frame_is_told_which(turn: Turn, reason: str) -> None:
-    asked = parse_course('speed: 0.8\nwaypoints: [[0, 0], [-2, 1], [-3.5, 0.5], [-4, -1.5]]')
-    empty = str(Path(__file__).resolve().parents[3] / 'worlds' / 'empty.xml')
-    record = drive_with(Drive(moved(asked, turn)).step, world=empty, limit_sec=60.0)
-    report = score(record, asked)
+    record = drive_with(Drive(moved(BEND, turn)).step, world=EMPTY, limit_sec=60.0)
+    report = score(record, BEND)
     assert not report.passed
     assert any(line.startswith(reason) for line in report.reasons), report.reasons
 
@@ -112,6 +145,19 @@ def test_one_that_takes_degrees_for_radians_is_told_so(barrier: Course) -> None:
     report = score(drive_with(controller, limit_sec=20.0), barrier)
     assert not report.passed
     assert any('that is rad/s, not degrees' in reason for reason in report.reasons)
+
+
+def test_one_whose_angles_never_come_back_to_pi_is_told_so() -> None:
+    def controller(now: Odometry) -> Command:
+        turned = now.time_sec * 2.0  # it takes the angle to its goal for ever larger
+        return Command(0.2, min(turned, 2.0))
+
+    report = score(drive_with(controller, world=EMPTY, limit_sec=12.0), BEND)
+    assert not report.passed
+    assert any(
+        'rounds more than the path does: angles are in radians' in reason
+        for reason in report.reasons
+    )
 
 
 def test_one_that_is_too_fast_loses_points_for_it() -> None:

@@ -1,0 +1,91 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from collections.abc import Callable
+from pathlib import Path
+import re
+from typing import Any
+
+from husky_driver.map_svg import map_svg, SIZE
+from husky_driver.plot_svg import Plot, ticks
+from husky_driver.report import write_report
+from husky_driver.run_record import read_run
+from husky_driver.scene import run_scene, Scene
+from husky_driver.scoring import judge
+from husky_driver.waypoints import parse_course
+import pytest
+
+COURSE = parse_course('tolerance: 0.2\nwaypoints: [[0, 0], [2, 0], [4, 0]]')
+TOUCH = {'robot': 'husky', 'obstacle': 'a <cone>', 'part': 'front_left_wheel', 'time_sec': 0.6}
+TOUCH |= {'force_n': 12.0, 'position': [1.0, 0.5, 0.1]}
+
+
+@pytest.fixture
+def run(make_record: Callable[..., dict[str, Any]]) -> Any:
+    """Return a run that leaves the path by half a metre in its middle, and touches a cone."""
+    places = [(k / 50, min(k, 200 - k, 50) / 100) for k in range(201)]
+    return read_run(make_record(places + [places[-1]] * 10, collisions=[TOUCH]))
+
+
+@pytest.fixture
+def scene(run: Any) -> Scene:
+    return run_scene(run, COURSE, judge(run, COURSE))
+
+
+def test_the_band_around_the_path_is_as_wide_as_the_tolerance(scene: Scene) -> None:
+    low_x, high_x, low_y, high_y = scene.near_bounds()
+    a_metre = SIZE / max(high_x - low_x, high_y - low_y)
+    (width,) = re.findall(r'class="band"[^>]*style="stroke-width: ([\d.]+)px"', map_svg(scene))
+    assert float(width) == pytest.approx(2 * 0.2 * a_metre, abs=0.1)
+
+
+def test_the_error_band_lies_between_the_true_path_and_the_given_one(scene: Scene) -> None:
+    half = len(scene.error) // 2
+    there, back = scene.error[:half], scene.error[half:]
+    assert max(y for _, y in there) == pytest.approx(0.5)
+    assert max(abs(y) for _, y in back) == pytest.approx(0.0, abs=1e-6)
+    assert back[0][0] > 3.9
+    assert back[-1][0] < 0.1
+
+
+def test_missed_waypoints_and_collisions_bear_the_numbers_of_the_text(scene: Scene) -> None:
+    drawing = map_svg(scene)
+    assert re.findall(r'<text class="waypoint"[^>]*>(\d+)<', drawing) == ['1', '3']
+    assert re.findall(r'<text class="missed"[^>]*>(\d+)<', drawing) == ['2']
+    assert re.findall(r'<text class="hit"[^>]*>(\d+)<', drawing) == ['1']
+
+
+def test_the_page_holds_everything_and_loads_nothing(run: Any, tmp_path: Path) -> None:
+    write_report(tmp_path, judge(run, COURSE), run, COURSE)
+    page = (tmp_path / 'report.html').read_text()
+    for part in ('given path', 'true path', 'believed path', 'error', 'collision', 'Speed'):
+        assert part in page
+    assert 'a &lt;cone&gt;' in page
+    assert 'front left wheel' in page
+    assert page.count('class="moment"') == 2  # the touch, in both plots
+    assert re.findall(r'(?:src|href)=|<script|@import|url\(', page) == []
+
+
+@pytest.mark.parametrize(
+    ('low', 'high', 'expected'),
+    [
+        (0.0, 24.4, [0, 5, 10, 15, 20, 25]),
+        (-0.12, 0.59, [-0.2, 0.0, 0.2, 0.4, 0.6]),
+        (0.0, 0.05, [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]),
+        (3.0, 3.0, None),
+    ],
+)
+def test_an_axis_has_round_numbers_that_enclose_the_values(
+    low: float, high: float, expected: list[float] | None
+) -> None:
+    found = ticks(low, high)
+    assert found[0] <= low + 1e-9
+    assert found[-1] >= high - 1e-9
+    if expected is not None:
+        assert found == pytest.approx(expected)
+
+
+def test_curves_stay_within_their_frame() -> None:
+    plot = Plot('p', [0.0, 1.0, 2.0], {'true': [0.0, -3.0, 7.0]}, (-0.1, 0.1), [1.0]).svg()
+    (points,) = re.findall(r'class="true" points="([^"]*)"', plot)
+    places = [tuple(map(float, point.split(','))) for point in points.split()]
+    assert all(46 <= x <= 468 and 10 <= y <= 172 for x, y in places)
