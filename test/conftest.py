@@ -10,11 +10,20 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from playpen_testing import chromium  # noqa: E402
+from playpen_testing.browser import Browser  # noqa: E402
 from playpen_testing.domain import free_domain_id  # noqa: E402
 from playpen_testing.processes import Processes  # noqa: E402
 from playpen_testing.spinning import SpunNodes  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope='session')
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """Start the one browser of all tests, at the first that wants it."""
+    with Browser(chromium.find_or_install(), tmp_path_factory.mktemp('browser')) as started:
+        yield started
 
 
 @pytest.fixture

@@ -20,6 +20,7 @@ from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
+from rcl_interfaces.msg import Log
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSES = ROOT / 'config' / 'waypoints'
@@ -30,6 +31,10 @@ waypoints:
   - [0.0, 0.0]
   - [4.5, 0.0]
 """
+
+CRATE = """\
+  <body name="crate" mocap="true" pos="-2.5 0.1 0.3"><geom type="box" size="0.2 0.3 0.3"/></body>
+</worldbody>"""
 
 
 def drive(
@@ -95,6 +100,50 @@ def test_a_course_through_the_central_barrier_reports_the_collision(
     report = score(record, load_course(str(course)))
     assert not report.completed
     assert {collision.obstacle for collision in report.collisions} == {'jersey_barrier_15'}
+
+
+def test_with_the_laser_on_it_stops_before_what_no_map_knows_and_drives_on_when_it_is_gone(
+    nodes: SpunNodes, tmp_path: Path
+) -> None:
+    world, course, record = (tmp_path / name for name in ('w.xml', 'c.yaml', 'record.json'))
+    playpen = (ROOT / 'worlds' / 'playpen.xml').read_text()
+    world.write_text(playpen.replace('</worldbody>', CRATE))
+    course.write_text('speed: 0.8\nwaypoints: [[0, 0], [2, 0], [4, 0]]\n')
+    listener = nodes.start(Listener, {'/rosout': Log, 'odometry/filtered': Odometry})
+    simulator = nodes.start(
+        SimulatorNode,
+        world=str(world), yaw=math.pi, record=str(record),
+        lidar_rate_hz=20.0, lockstep=True, real_time_factor=0.0,
+    )  # fmt: skip
+    driver = nodes.start(
+        FollowPath,
+        before_spin=lambda node: node.start(Drive(load_course(str(course)))),
+        scan=True, progress='off',
+    )  # fmt: skip
+
+    def lines() -> list[str]:
+        return [log.msg for log in listener.heard['/rosout'] if log.name == 'follow_path']
+
+    wait_until(lambda: len(lines()) > 0, timeout_sec=20.0, what='a line about the crate')
+    wait_until(
+        lambda: abs(listener.latest('odometry/filtered').twist.twist.linear.x) < 0.005,
+        timeout_sec=10.0,
+        what='a robot that stands',
+    )
+    (said,) = lines()
+    assert said.startswith('stopping: something 0.6 m wide stands on the path, ')
+    x_m, y_m = map(float, said[said.rindex('(') + 1 : -1].split(','))
+    assert (x_m, y_m) == pytest.approx((2.3, 0.0), abs=0.1)
+    x = listener.latest('odometry/filtered').pose.pose.position.x
+    assert 1.0 < x < 2.3 - 0.49 - 0.25, 'it stands in front, not against it'
+    assert not driver.finished.done()
+    simulator.simulation.data.mocap_pos[0, 1] = 5.0
+    wait_until(driver.finished.done, timeout_sec=20.0, what='the end of the course')
+    wait_until(lambda: len(lines()) > 2, timeout_sec=5.0, what='a line about the end')
+    assert lines()[1] == 'the way is free: driving on'
+    assert lines()[2].startswith('done: 3 of 3 waypoints')
+    nodes.close(simulator)
+    assert json.loads(record.read_text())['collisions'] == []
 
 
 def test_lost_commands_stop_the_wheels_within_the_timeout(nodes: SpunNodes) -> None:

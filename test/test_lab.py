@@ -39,13 +39,17 @@ def test_drive_ends_with_a_report_and_success(processes: Processes, tmp_path: Pa
     assert report['score'] > 0
     assert (tmp_path / 'report.html').read_text().startswith('<!DOCTYPE html>')
     assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
+    driven = ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'
+    assert (tmp_path / 'waypoints.yaml').read_bytes() == driven.read_bytes()
 
 
 def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_path: Path) -> None:
-    course = tmp_path / 'through.yaml'
-    course.write_text('speed: 0.6\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n')
-    run = drive(processes, tmp_path, '--fast', '--waypoints', 'through.yaml')
+    course = tmp_path / 'waypoints.yaml'  # which is where the report keeps the one driven
+    through = 'speed: 0.6\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n'
+    course.write_text(through)
+    run = drive(processes, tmp_path, '--fast', '--waypoints', 'waypoints.yaml')
     assert run.wait(timeout_sec=60.0) == 1, run.output
+    assert course.read_text() == through
     report = json.loads((tmp_path / 'report.json').read_text())
     assert not report['completed']
     assert report['collisions'][0]['obstacle'] == 'jersey_barrier_15'

@@ -8,27 +8,35 @@ import subprocess
 import sys
 
 from playpen_testing.browser import Browser
-from playpen_testing.page import button, number
+from playpen_testing.page import button, labelled_input, number
+from playpen_testing.tab import Tab
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
 
 PHONE = (390, 844)
+TROUBLE = "(document.querySelector('[data-trouble]') || {textContent: ''}).textContent"
+PANEL = """(() => {
+  let e = document.querySelector('.husky-page');
+  while (getComputedStyle(e).position !== 'fixed') e = e.parentElement;
+  const r = e.getBoundingClientRect();
+  return [r.left, r.top, r.width];
+})()"""
 
 
 @pytest.fixture(scope='module')
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    with view_lab(tmp_path_factory.mktemp('view')) as started:
+def lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    with view_lab(tmp_path_factory.mktemp('view'), browser) as started:
         yield started
 
 
 @pytest.fixture(scope='module')
-def page(lab: Lab) -> Browser:
+def page(lab: Lab) -> Tab:
     return lab.open()
 
 
 @pytest.mark.timeout(120)
-def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page: Browser) -> None:
+def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page: Tab) -> None:
     shown = page.run(number('time'))
     page.wait_for(f'{number("time")} !== {json.dumps(shown)}', what='time that goes on')
     assert page.run("document.body.innerText.includes('true trail')"), 'there is no legend'
@@ -36,7 +44,7 @@ def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page:
 
 
 @pytest.mark.timeout(120)
-def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Browser) -> None:
+def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Tab) -> None:
     page.click(button('Pause'))
     page.wait_for(button('Resume'), what='a page that knows of the pause')
     paused_sec = lab.time_sec
@@ -57,7 +65,7 @@ def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Browse
 
 
 @pytest.mark.timeout(120)
-def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Browser) -> None:
+def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Tab) -> None:
     page.key('keyDown', 'ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
     page.key('keyUp', 'ArrowUp')
@@ -76,7 +84,7 @@ def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Browser) -> None:
 
 
 @pytest.mark.timeout(120)
-def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Browser) -> None:
+def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Tab) -> None:
     page.mouse('mousePressed', *page.middle_of(button('◀')))
     wait_until(
         lambda: lab.truth.twist.twist.angular.z > 0.3, timeout_sec=10.0, what='a turn to the left'
@@ -99,24 +107,66 @@ def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Br
 
 
 @pytest.mark.timeout(120)
-def test_a_page_that_is_closed_while_a_key_is_held_stops_the_robot(lab: Lab) -> None:
+def test_a_page_that_is_reloaded_while_a_key_is_held_stops_the_robot_and_works(lab: Lab) -> None:
     page = lab.open()
     page.key('keyDown', 'ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
+    page.call('Page.reload')
+    wait_until(lab.stands, timeout_sec=5.0, what='a robot that stands')
+    page.wait_for("document.querySelector('.husky-stop')", what='the panel of the view')
+    page.wait_for(number('time'), what='the figures')
+    assert page.errors == []
     page.close()
-    wait_until(lab.stands, timeout_sec=3.0, what='a robot that stands')
 
 
 @pytest.mark.timeout(120)
-def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab) -> None:
+def test_a_page_that_dies_while_its_pad_is_held_stops_the_robot(lab: Lab) -> None:
+    page = lab.open()
+    page.mouse('mousePressed', *page.middle_of(button('▼')))
+    wait_until(lambda: lab.speed_m_s < -0.2, timeout_sec=10.0, what='a robot that moves')
+    page.crash()
+    wait_until(lab.stands, timeout_sec=3.0, what='a robot that stands')
+    page.close()
+
+
+@pytest.mark.timeout(120)
+def test_a_phone_shows_the_scene_above_the_panel_and_can_stop_the_robot(lab: Lab) -> None:
     page = lab.open(*PHONE)
     x, y = page.middle_of(button('STOP'))
     assert 0 < x < PHONE[0]
     assert 0 < y < PHONE[1]
+    left, top, width = page.run(PANEL)
+    assert (left, width) == (0, PHONE[0]), 'the panel is as wide as the phone'
+    assert top > 0.4 * PHONE[1], 'and leaves room for the scene'
     page.click_at(x, y)
     page.wait_for(button('Release the stop'))
     page.click(button('Release the stop'))
     page.wait_for(button('STOP'))
+    assert page.errors == []
+    page.close()
+
+
+@pytest.mark.timeout(120)
+def test_the_page_says_that_the_simulator_is_gone_and_goes_on_with_the_next(
+    lab: Lab, page: Tab
+) -> None:
+    wait_until(lambda: lab.time_sec > 1.0, timeout_sec=15.0, what='a second of this run')
+    lab.simulator.close()
+    page.wait_for(f"{TROUBLE}.includes('is gone')", what='a word about the simulator')
+    assert page.run(number('factor')) == '–'
+    lab.start_simulator()
+    page.wait_for(f'!{TROUBLE}', what='no trouble any more')
+    page.wait_for(f'parseFloat({number("factor")}) > 0.5', what='time that goes on')
+    assert page.errors == []
+
+
+@pytest.mark.timeout(120)
+def test_of_a_simulator_with_other_robots_the_page_is_made_anew(lab: Lab, page: Tab) -> None:
+    lab.simulator.close()
+    lab.start_simulator('alpha 0 0 0', 'beta -3 0 0')
+    page.wait_for(labelled_input('Robot'), what='a choice of robots')
+    page.wait_for(f'parseFloat({number("factor")}) > 0.5', what='time that goes on')
+    page.wait_for(f'!{TROUBLE}', what='no trouble any more')
     assert page.errors == []
 
 

@@ -8,6 +8,7 @@ import math
 from husky_driver.waypoints import load_course
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, labelled_input
+from playpen_testing.tab import Tab
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
@@ -22,13 +23,13 @@ PLACES: tuple[Place, ...] = ((0.0, 0.0), (-2.0, 0.5), (-4.0, 0.0))
 
 
 @pytest.fixture(scope='module')
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    with view_lab(tmp_path_factory.mktemp('editor')) as started:
+def lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    with view_lab(tmp_path_factory.mktemp('editor'), browser) as started:
         yield started
 
 
 @pytest.fixture(scope='module')
-def page(lab: Lab) -> Browser:
+def page(lab: Lab) -> Tab:
     """Open the editor and look from above."""
     page = lab.open(*SIZE)
     page.click(button('Top'))
@@ -60,7 +61,7 @@ def distances(ones: Sequence[Place], others: Sequence[Place]) -> float:
 
 @pytest.mark.timeout(180)
 def test_what_is_clicked_and_dragged_is_saved_and_passes_the_check(
-    lab: Lab, page: Browser, capsys: pytest.CaptureFixture[str]
+    lab: Lab, page: Tab, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for count, place in enumerate(PLACES, start=1):
         page.click_at(*on_screen(*place))
@@ -86,7 +87,8 @@ def test_what_is_clicked_and_dragged_is_saved_and_passes_the_check(
 
 
 @pytest.mark.timeout(180)
-def test_what_is_saved_is_what_is_driven(lab: Lab, page: Browser) -> None:
+def test_what_is_saved_is_what_is_driven(lab: Lab, page: Tab) -> None:
+    page.click(button('5×'))
     page.click(button('Save and drive it'))
     goal = saved(lab)[-1]
 

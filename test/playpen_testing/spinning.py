@@ -13,6 +13,7 @@ from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.task import Future
 
 AnyNode = TypeVar('AnyNode', bound=Node)
 
@@ -25,20 +26,23 @@ class SpunNode:
         self.node = node
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(node)
+        self._closing: Future[None] = Future()
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
 
     def _spin(self) -> None:
-        with suppress(ExternalShutdownException):  # how `close` ends it
-            self._executor.spin()
+        with suppress(ExternalShutdownException):
+            self._executor.spin_until_future_complete(self._closing)
 
     def close(self) -> None:
-        """Stop serving, then let the node go; may be called twice."""
-        self.context.try_shutdown()
+        """Stop serving after the callback that runs, then let the node go; may be called twice."""
+        if not self._closing.done():
+            self._closing.set_result(None)
         self._thread.join(timeout=10.0)
         assert not self._thread.is_alive(), f'{self.node.get_name()} still spins after 10 s'
         self._executor.shutdown()
         self.node.destroy_node()
+        self.context.try_shutdown()
 
 
 class SpunNodes:

@@ -9,43 +9,17 @@ from pathlib import Path
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool
 
-from playpen_testing import chromium
 from playpen_testing.browser import Browser
 from playpen_testing.domain import free_domain_id
 from playpen_testing.listener import Listener
-from playpen_testing.page import number
 from playpen_testing.processes import Process, Processes
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.tab import Tab
+from playpen_testing.waiting import wait_until
 
 COMMANDS = 'husky_velocity_controller/cmd_vel'
-
-
-class Browsers:
-    """The browsers of some tests."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._program = chromium.find_or_install()
-        self._open: list[Browser] = []
-
-    def open(
-        self, url: str, width: int = 1000, height: int = 700, *, drawn: bool = False
-    ) -> Browser:
-        """Open the view in a browser of its own; unless drawn, its 3D scene stays empty."""
-        profile = self._folder / f'profile_{len(self._open)}'
-        browser = Browser(self._program, profile, width=width, height=height)
-        self._open.append(browser)
-        if not drawn:
-            browser.draw_nothing()
-        browser.visit(url)
-        browser.wait_for(number('time'), what='the panel of the view')
-        return browser
-
-    def close(self) -> None:
-        """Close all of them; may be called twice."""
-        for browser in self._open:
-            browser.close()
 
 
 class Lab:
@@ -56,14 +30,14 @@ class Lab:
         processes: Processes,
         nodes: SpunNodes,
         environment: dict[str, str],
-        browsers: Browsers,
+        browser: Browser,
         folder: Path,
     ) -> None:
-        self.browsers = browsers
+        self.browser = browser
         self.folder = folder
         self._processes = processes
         self._environment = environment
-        processes.start('ros2', 'run', 'husky_sim', 'husky_sim', environment=environment)
+        self.simulator = self.start_simulator()
         self.view = processes.start(
             *('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
             *('-p', f'waypoints_folder:={folder}'),
@@ -74,6 +48,23 @@ class Lab:
         self.listener.latest('ground_truth/odom')
         self.view.wait_for_text('look at http://')
         self.address = self.view.output.split('look at ')[1].split()[0]
+
+    def start_simulator(self, *robots: str) -> Process:
+        """Start a simulator; of several robots ('NAME X Y YAW') if they are given."""
+        given = ['--ros-args', '-p', f'robots:=[{", ".join(map(repr, robots))}]']
+        self.simulator = self._processes.start(
+            *('ros2', 'run', 'husky_sim', 'husky_sim'),
+            *(given if robots else ()),
+            environment=self._environment,
+        )
+        return self.simulator
+
+    def pause(self) -> None:
+        """Pause the simulator."""
+        client = self.listener.create_client(SetBool, 'husky_sim/pause')
+        wait_until(client.service_is_ready, timeout_sec=10.0, what='the service to pause')
+        answer = client.call_async(SetBool.Request(data=True))
+        wait_until(answer.done, timeout_sec=10.0, what='the answer to pause')
 
     def drive(self, course: Path) -> Process:
         """Let follow_path drive a course."""
@@ -101,15 +92,15 @@ class Lab:
     def stands(self) -> bool:
         return abs(self.speed_m_s) < 0.01
 
-    def open(self, *size: int, drawn: bool = False) -> Browser:
+    def open(self, *size: int, drawn: bool = False) -> Tab:
         """Look at the view."""
-        page = self.browsers.open(self.address, *size, drawn=drawn)
+        page = self.browser.open(self.address, *size, drawn=drawn)
         page.wait_for("document.querySelector('.husky-stop')", what='the pad in its place')
         return page
 
 
 @contextmanager
-def view_lab(folder: Path) -> Iterator[Lab]:
+def view_lab(folder: Path, browser: Browser) -> Iterator[Lab]:
     """Start everything in a domain of its own; waypoints are saved in a folder of it."""
     domain = free_domain_id()
     environment = {
@@ -120,9 +111,8 @@ def view_lab(folder: Path) -> Iterator[Lab]:
     }
     waypoints = folder / 'waypoints'
     waypoints.mkdir()
-    browsers = Browsers(folder)
     try:
         with Processes() as processes, SpunNodes(domain) as nodes:
-            yield Lab(processes, nodes, environment, browsers, waypoints)
+            yield Lab(processes, nodes, environment, browser, waypoints)
     finally:
-        browsers.close()
+        browser.close_tabs()

@@ -12,6 +12,7 @@ import pytest
 
 from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
 
+DOMAINS = range(58, 71)
 WORLDS = Path(__file__).resolve().parents[3] / 'worlds'
 
 # Asphalt is a box in the playpen, and a box is another collision than a plane.
@@ -32,8 +33,8 @@ Drive = Callable[..., None]
 @pytest.fixture
 def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
     """Give a test a DDS domain in which nobody is, as far as this machine's ports tell."""
-    for number in range(os.getpid() % 90, 101 + os.getpid() % 90):
-        domain = 1 + number % 100
+    for number in range(os.getpid(), os.getpid() + len(DOMAINS)):
+        domain = DOMAINS[number % len(DOMAINS)]
         # The first participant of a domain binds this port (RTPS 2.5, 9.6.2.3).
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:

@@ -144,6 +144,8 @@ def test_every_topic_comes_at_50_hz_of_simulated_time(bench: Callable[..., Bench
 def test_frames_and_covariances_are_those_of_the_original(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=0.0)
     run.matched()
+    for off in ('front/scan', 'camera/image_raw'):
+        assert run.simulator.count_publishers(off) == 0, f'{off} should be off by default'
     filtered = run.probe.odometry[0]
     truth = run.probe.heard['ground_truth/odom'][0]
     wheels = run.probe.heard['husky_velocity_controller/odom'][0]
@@ -192,6 +194,14 @@ def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
     taken_sec = time.monotonic() - begin
     assert taken_sec > 1.4, 'it ran ahead'
     assert taken_sec < 3.0, 'it stayed far behind'
+    refused, changed = run.simulator.set_parameters(
+        [Parameter('real_time_factor', value=-1.0), Parameter('real_time_factor', value=6.0)]
+    )
+    assert not refused.successful
+    assert changed.successful
+    first, begin = stamp_sec(run.probe.odometry[-1]), time.monotonic()
+    run.until(lambda: stamp_sec(run.probe.odometry[-1]) - first > 3.0, '3 s of simulated time')
+    assert 0.45 < time.monotonic() - begin < 1.4
 
 
 def test_a_command_moves_it_and_its_end_stops_it_within_the_timeout(
@@ -261,6 +271,38 @@ def test_diagnostics_tell_the_pace_and_whether_it_is_kept(bench: Callable[..., B
     assert values['real_time_factor_asked'] == '2'
     assert values['physics_warnings'] == '0'
     assert heard[-1].status[0].name == 'husky_sim: time'
+
+
+def test_after_a_stall_it_tells_so_and_goes_on_with_whole_steps(
+    bench: Callable[..., Bench],
+) -> None:
+    run = bench(real_time_factor=1.0)
+    heard: list[DiagnosticArray] = []
+    run.probe.create_subscription(DiagnosticArray, '/diagnostics', heard.append, 10)
+    run.matched()
+    before_sec, over_at = run.simulator.simulation.time_sec, time.monotonic() + 0.4
+    while time.monotonic() < over_at:
+        pass  # as if the machine were busy with something else
+    run.until(lambda: run.simulator.simulation.time_sec > before_sec, 'the next period')
+    assert run.simulator.simulation.time_sec < before_sec + 0.11, 'it should not make up for it'
+    run.until(lambda: heard and heard[-1].status[0].level == DiagnosticStatus.WARN, 'a warning')
+    values = {entry.key: entry.value for entry in heard[-1].status[0].values}
+    assert int(values['overruns']) >= 1
+    assert float(values['wall_time_lost_sec']) > 0.25
+    stamps = [stamp_sec(message) for message in run.probe.odometry]
+    assert [after - before for before, after in pairwise(stamps)] == pytest.approx(
+        [0.02] * (len(stamps) - 1)
+    )
+
+
+def test_a_pace_beyond_the_machine_leaves_it_listening(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=1000.0)
+    run.matched()
+    spun_at = time.monotonic()
+    run.executor.spin_once(timeout_sec=0.0)
+    assert time.monotonic() - spun_at < 0.3
+    assert run.call(SetBool, 'pause', SetBool.Request(data=True)).success
+    assert run.simulator.simulation.physics_warnings == 0
 
 
 def test_driving_into_the_barrier_reports_one_collision(bench: Callable[..., Bench]) -> None:
@@ -381,9 +423,9 @@ def test_a_setting_that_cannot_be_is_refused(
     context.try_shutdown()
 
 
-def run_process(*arguments: str) -> 'subprocess.Popen[str]':
+def run_process(*arguments: str, module: str = 'husky_sim.node') -> 'subprocess.Popen[str]':
     return subprocess.Popen(
-        [sys.executable, '-m', 'husky_sim.node', '--ros-args', *arguments],
+        [sys.executable, '-m', module, '--ros-args', *arguments],
         stderr=subprocess.PIPE,
         text=True,
     )
@@ -396,6 +438,18 @@ def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int)
     assert process.returncode == 2
     assert said.count('\n') == 1
     assert said.startswith("husky_sim: world='nowhere.xml': no such file")
+
+
+def test_a_signal_while_it_still_loads_ends_it_without_a_word(domain_id: int) -> None:
+    del domain_id
+    process = run_process(module='husky_sim.start')
+    maps = Path(f'/proc/{process.pid}/maps')
+    deadline = time.monotonic() + 20.0
+    while 'numpy' not in maps.read_text():
+        assert time.monotonic() < deadline, 'it never began to load'
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=20.0)
+    assert (process.returncode, said) == (0, '')
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])

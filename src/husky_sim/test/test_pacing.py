@@ -48,6 +48,15 @@ def test_a_long_stall_is_not_and_is_counted() -> None:
     assert pacer.due(10.021) == 1
 
 
+def test_another_pace_begins_at_once_and_forgets_no_overrun() -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    pacer.due(0.0)
+    pacer.due(5.0)
+    pacer.change(10.0)
+    assert [pacer.due(5.01 + 0.002 * i + 1e-6) for i in range(50)] == [1] * 50
+    assert pacer.overruns == 1
+
+
 def test_time_spent_in_a_pause_is_not_made_up_for() -> None:
     pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
     pacer.due(0.0)
@@ -61,3 +70,13 @@ def test_at_most_as_many_as_asked_for() -> None:
     pacer.due(0.0)
     assert pacer.due(0.085, most=1) == 1
     assert pacer.due(0.086) == 3
+
+
+@pytest.mark.parametrize('late_sec', [0.0, 0.003, 0.0055, 0.006, 0.01, 0.015, 0.019])
+def test_periods_fall_due_with_the_ticks_however_late_the_first_was(late_sec: float) -> None:
+    pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
+    pacer.change(1.0, begin_sec=10.0)
+    pacer.due(10.02 + late_sec)
+    trembling = [0.0001, 0.0008, 0.016, 0.0015] * 25
+    counts = [pacer.due(10.04 + 0.02 * k + late) for k, late in enumerate(trembling)]
+    assert set(counts[1:]) == {1}

@@ -3,6 +3,7 @@
 """How the simulated A200 drives: the figures a skid-steer robot has to meet."""
 
 from collections.abc import Callable
+from itertools import product
 import math
 from pathlib import Path
 
@@ -19,25 +20,25 @@ def plan(robot: SimulatedRobot) -> tuple[float, float]:
     return robot.state.position[0], robot.state.position[1]
 
 
-@pytest.mark.parametrize(
-    ('speed', 'yaw_rate'),
-    [(0.0, 0.2), (0.0, 0.5), (0.0, 1.5), (0.5, -0.5), (1.0, 0.2), (1.0, 0.8), (1.0, 1.5)],
-)
-def test_the_robot_turns_as_fast_as_it_is_told(
-    on_asphalt: OnAsphalt, drive: Drive, speed: float, yaw_rate: float
+def test_the_robot_turns_as_fast_as_it_is_told_at_every_speed(
+    on_asphalt: OnAsphalt, drive: Drive
 ) -> None:
     simulation = on_asphalt()
     robot = simulation.robots[0]
-    drive(simulation, speed, yaw_rate, seconds=1.0)
-    turned = 0.0
-    for _ in range(150):
-        before = robot.state.yaw
-        drive(simulation, speed, yaw_rate, seconds=CONTROL_PERIOD_SEC)
-        turned += math.remainder(robot.state.yaw - before, math.tau)
-    measured = turned / (150 * CONTROL_PERIOD_SEC)
-    track_m = robot.controller.config.wheel_separation_m * yaw_rate / measured
-    assert measured == pytest.approx(yaw_rate, rel=0.08)
-    assert 1.00 <= track_m <= 1.14
+    for speed, yaw_rate in product((0.0, 0.25, 0.5, 0.75, 1.0), (0.2, -0.6, 1.0, -1.5)):
+        simulation.reset()
+        drive(simulation, speed, yaw_rate, seconds=1.0)
+        turned = 0.0
+        for _ in range(50):
+            before = robot.state.yaw
+            drive(simulation, speed, yaw_rate, seconds=0.04)
+            turned += math.remainder(robot.state.yaw - before, math.tau)
+        measured = turned / 2.0
+        # With this track the wheel speeds give the true yaw rate.
+        track_m = robot.controller.config.wheel_separation_m * yaw_rate / measured
+        case = f'{speed} m/s, {yaw_rate} rad/s'
+        assert measured == pytest.approx(yaw_rate, rel=0.08), case
+        assert 1.00 <= track_m <= 1.14, case
 
 
 def test_three_turns_on_the_spot_leave_the_centre_where_it_was(
@@ -49,20 +50,23 @@ def test_three_turns_on_the_spot_leave_the_centre_where_it_was(
     for _ in range(round(3.0 * math.tau / 0.5)):
         drive(simulation, 0.0, 0.5, seconds=1.0)
         furthest = max(furthest, math.hypot(*plan(robot)))
-    assert furthest < 0.01
+    assert furthest < 0.03
 
 
+@pytest.mark.parametrize(('speed', 'yaw_rate'), [(0.0, 1.0), (0.0, 2.0), (1.0, -1.5)])
 def test_no_wheel_loses_its_share_of_the_weight_in_a_turn(
-    on_asphalt: OnAsphalt, drive: Drive
+    on_asphalt: OnAsphalt, drive: Drive, speed: float, yaw_rate: float
 ) -> None:
     simulation = on_asphalt()
     robot = simulation.robots[0]
-    heights = []
-    drive(simulation, 0.0, 1.0, seconds=1.0)
-    for _ in range(100):
-        drive(simulation, 0.0, 1.0, seconds=CONTROL_PERIOD_SEC)
-        heights.append(robot.state.position[2])
-    assert max(heights) - min(heights) < 0.0005
+    drive(simulation, speed, yaw_rate, seconds=1.0)
+    weight_n = 56.582 * 9.8
+    for _ in range(50):
+        drive(simulation, speed, yaw_rate, seconds=CONTROL_PERIOD_SEC)
+        shares = [load / weight_n for load in robot.husky.wheel_loads_n()]
+        assert sum(shares) == pytest.approx(1.0, abs=0.02), 'it should not hop'
+        # A quarter each; a bend at 1.5 m/s2 moves some of it to the outer wheels.
+        assert min(shares) > 0.25 - 0.07, shares
 
 
 def test_ten_metres_straight_on_stay_straight(on_asphalt: OnAsphalt, drive: Drive) -> None:
@@ -138,10 +142,14 @@ def test_pushing_a_wall_neither_enters_it_nor_throws_the_robot(
     simulation = on_asphalt(WALL)
     robot = simulation.robots[0]
     drive(simulation, 1.0, 0.0, seconds=3.0)
+    wall = simulation.model.body('wall').geomadr[0]
     for _ in range(100):
         drive(simulation, 1.0, 0.0, seconds=CONTROL_PERIOD_SEC)
-        front = robot.state.position[0] + 0.4937
-        assert front < 1.9 + 0.005
+        contacts = simulation.data.contact
+        at_wall = (contacts.geom == wall).any(axis=1)
+        assert at_wall.any(), 'it should lean on the wall'
+        assert contacts.dist[at_wall].min() > -0.005
+        assert robot.state.position[0] + 0.4937 < 1.9 + 0.005
         assert abs(robot.state.position[2] - 0.178) < 0.05
     assert min(robot.wheels.speeds_rad_s) > 1.0, 'the wheels should spin'
     assert simulation.physics_warnings == 0

@@ -6,8 +6,10 @@ from collections.abc import Callable
 import math
 from pathlib import Path
 
+from builtin_interfaces.msg import Time
 from husky_sim.camera import Camera
 from husky_sim.errors import SettingError
+from husky_sim.sensor_topics import new_camera_info, new_image
 from husky_sim.sensors import Rate
 from husky_sim.simulation import Simulation
 import numpy as np
@@ -162,8 +164,17 @@ def test_the_fix_follows_the_true_position(drive: Drive) -> None:
     )
 
 
-def test_the_camera_sees_sky_over_asphalt_or_says_in_one_line_why_not() -> None:
-    simulation = simulate('playpen.xml', yaw=math.pi / 2.0)
+POSTS = """
+    <geom name="left_post" type="box" size="0.1 0.1 0.5" pos="4 1 0.5" rgba="1 0 0 1"/>
+    <geom name="right_post" type="box" size="0.1 0.1 0.5" pos="4 -1.5 0.5" rgba="0 0 1 1"/>
+    <light directional="true" pos="0 0 5" dir="1 0 -1"/>
+"""
+
+
+def test_the_camera_sees_things_where_they_are_or_says_in_one_line_why_not(
+    make_world: Callable[..., str],
+) -> None:
+    simulation = Simulation(SimulationConfig(world=make_world(POSTS)))
     simulation.advance()
     try:
         camera = Camera('husky', simulation.model, simulation.data)
@@ -171,9 +182,34 @@ def test_the_camera_sees_sky_over_asphalt_or_says_in_one_line_why_not() -> None:
         assert '\n' not in str(error)
         assert 'set camera_rate_hz to 0' in str(error)
         return
-    picture = camera.picture()
+    pixels = camera.picture()
+    message = new_image(pixels, Time(sec=7))
+    assert (message.header.frame_id, message.header.stamp.sec) == ('camera', 7)
+    assert (message.encoding, message.step, len(message.data)) == ('rgb8', 1920, 480 * 1920)
+    picture = np.array(message.data).reshape(480, 640, 3).astype(int)
+    info = new_camera_info(camera.focal_length_px)
     camera.close()
     camera.close()
-    assert picture.shape == (480, 640, 3)
-    above, below = picture[5].mean(), picture[-20].mean()
-    assert above > below + 50.0
+    assert pixels.shape == (info.height, info.width, 3) == (480, 640, 3)
+    assert info.header.frame_id == 'camera'
+    # The camera looks along x from x = 0.45. K maps a place to its column (sensor_msgs).
+    for name, colour in (('left_post', 0), ('right_post', 2)):
+        x, y, _ = simulation.model.geom(name).pos
+        column = info.k[0] * -y / (x - 0.1 - 0.45) + info.k[2]
+        others = np.delete(picture, colour, axis=2).max(axis=2)
+        _, columns = np.nonzero(picture[:, :, colour] > 2 * others + 20)
+        assert columns.mean() == pytest.approx(column, abs=6.0), name
+
+
+def test_where_nothing_can_be_drawn_the_camera_says_so_in_one_line(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def refuse(name: str) -> None:
+        raise ImportError(f'no {name}:\nlibEGL.so is missing')
+
+    monkeypatch.setattr('husky_sim.camera.import_module', refuse)
+    simulation = simulate()
+    with pytest.raises(SettingError, match='set camera_rate_hz to 0') as refused:
+        Camera('husky', simulation.model, simulation.data)
+    assert '\n' not in str(refused.value)
+    assert 'libEGL.so is missing' in str(refused.value)

@@ -9,6 +9,7 @@ from pathlib import Path
 import socket
 from typing import Any
 
+from husky_sim.pushed import loose_bodies, MOVED
 from husky_sim.record import RunRecord
 from husky_sim.scene_topic import _every_second
 from husky_sim.simulation import Simulation
@@ -148,6 +149,41 @@ def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> Non
     assert 2.0 * math.atan2(scene.qpos[base + 6], scene.qpos[base + 3]) == pytest.approx(
         husky['yaw'][60]
     )
+
+
+def test_a_replay_moves_what_was_pushed_and_a_jump_puts_it_back(tmp_path: Path) -> None:
+    start = RobotStart(x=-2.35, y=-2.6, yaw=-math.pi / 2)
+    world = str(default_worlds() / 'playpen.xml')
+    simulation = Simulation(SimulationConfig(world=world, robots=(start,)))
+    dumpster = loose_bodies(simulation.world)['Dumpster_0']
+    recorded = RunRecord(simulation)
+    stood = simulation.data.qpos[dumpster].copy()
+    for _ in range(150):
+        simulation.robots[0].controller.command(0.5, 0.0, time_sec=simulation.time_sec)
+        simulation.advance()
+        recorded.append()
+    went = simulation.data.qpos[dumpster].copy()
+    assert math.dist(went[:2], stood[:2]) > 0.2, 'the dumpster was not pushed'
+    recorded.write(str(tmp_path / 'record.json'))
+    run = load_run(str(tmp_path))
+    assert list(run.pushed) == ['Dumpster_0'], 'what nothing touched takes room'
+    poser = Poser(run, simulation.world)
+    np.testing.assert_allclose(
+        poser.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
+    )
+    assert poser.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
+    written = json.loads((tmp_path / 'record.json').read_text())
+    written['pushed']['Gone'] = written['pushed'].pop('Dumpster_0')
+    (tmp_path / 'record.json').write_text(json.dumps(written))
+    with pytest.raises(RunRefused, match=r"'Gone' was pushed, but .* has no such loose body"):
+        Poser(load_run(str(tmp_path)), simulation.world)
+
+
+def test_a_record_of_before_pushes_were_kept_is_replayed(tmp_path: Path) -> None:
+    written = record(tmp_path / 'record.json')
+    assert written.pop('pushed') == {}
+    (tmp_path / 'record.json').write_text(json.dumps(written))
+    assert load_run(str(tmp_path)).pushed == {}
 
 
 @pytest.mark.parametrize(

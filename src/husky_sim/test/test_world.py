@@ -7,11 +7,12 @@ import math
 from pathlib import Path
 
 from husky_sim.errors import StartPoseError, WorldError
+from husky_sim.simulation import Simulation
 from husky_sim.world import load_world
 import mujoco
 import pytest
 
-from husky_sim.config import RobotStart
+from husky_sim.config import RobotStart, SimulationConfig
 
 FLOOR = '<geom name="floor" type="plane" size="5 5 1"/>'
 
@@ -26,8 +27,10 @@ def write(tmp_path: Path) -> Callable[[str], str]:
     return to_file
 
 
-def mjcf(body: str = FLOOR, *, before: str = '') -> str:
-    return f'<mujoco>\n  {before}\n  <worldbody>\n    {body}\n  </worldbody>\n</mujoco>\n'
+def mjcf(body: str = FLOOR, *, before: str = '', after: str = '') -> str:
+    return (
+        f'<mujoco>\n  {before}\n  <worldbody>\n    {body}\n  </worldbody>\n  {after}\n</mujoco>\n'
+    )
 
 
 def test_a_plain_floor_is_a_world(write: Callable[[str], str]) -> None:
@@ -47,6 +50,14 @@ def test_obstacles_are_named_after_the_outermost_body(write: Callable[[str], str
     assert [outline.name for outline in world.obstacles][:2] == ['stone', 'geom 2']
     assert world.obstacles[2].name == 'house'
     assert world.obstacles[2].size == pytest.approx((2.0, 2.0))
+
+
+def test_static_obstacles_keep_their_names_where_the_world_would_fuse_them(
+    write: Callable[[str], str],
+) -> None:
+    body = FLOOR + '<body name="house" pos="3 0 0"><geom type="box" size="1 1 1"/></body>'
+    world = load_world(write(mjcf(body, before='<compiler fusestatic="true"/>')), [RobotStart()])
+    assert [outline.name for outline in world.obstacles] == ['house']
 
 
 def test_what_is_only_seen_is_no_obstacle(write: Callable[[str], str]) -> None:
@@ -77,28 +88,107 @@ def test_a_robot_stands_on_a_height_field_and_on_a_platform(write: Callable[[str
     assert height == pytest.approx(0.5 + 0.13, abs=0.01)
 
 
-def test_a_keyframe_of_the_world_does_not_hinder(write: Callable[[str], str]) -> None:
-    ball = '<body name="ball" pos="2 0 0.2"><freejoint/><geom size="0.2"/></body>'
-    text = mjcf(FLOOR + ball)
-    text = text.replace(
-        '</mujoco>', '<keyframe><key name="k" qpos="2 1 0.2 1 0 0 0"/></keyframe></mujoco>'
-    )
-    world = load_world(write(text), [RobotStart()])
-    assert world.names == ('husky', 'ball')
+BALL = '<body name="ball" pos="3 0 0.2"><freejoint/><geom size="0.2"/></body>'
+GATE = (
+    '<body name="gate" pos="3 0 1"><joint name="hinge" axis="0 0 1"/>'
+    '<geom type="box" size="0.5 0.05 0.5"/></body>'
+)
+HILLS = '<asset><hfield name="h" nrow="9" ncol="9" size="5 5 0.1 0.1"/></asset>'
+ODD = {
+    'an unnamed plane': mjcf('<geom type="plane" size="5 5 1"/>'),
+    'a floor with a capital': mjcf('<geom name="Floor" type="box" size="5 5 0.1"/>'),
+    'a height field': mjcf('<geom type="hfield" hfield="h"/>', before=HILLS),
+    'a roof over the start': mjcf(FLOOR + '<geom type="box" size="1 1 0.05" pos="0 0 1"/>'),
+    'a file included': mjcf(FLOOR + '<include file="part.xml"/>'),
+    'a keyframe': mjcf(FLOOR + BALL, after='<keyframe><key qpos="2 1 1 1 0 0 0"/></keyframe>'),
+    'actuators': mjcf(FLOOR + GATE, after='<actuator><motor joint="hinge"/></actuator>'),
+    'a state of activation': mjcf(
+        FLOOR + GATE, after='<actuator><intvelocity joint="hinge" actrange="-1 1"/></actuator>'
+    ),
+    'sensors': mjcf(FLOOR + GATE, after='<sensor><jointpos joint="hinge"/></sensor>'),
+    'an obstacle with the name of the robot': mjcf(
+        FLOOR + '<body name="husky" pos="3 0 1"><geom size="0.2"/></body>'
+    ),
+    'materials and classes with our names': mjcf(
+        FLOOR,
+        before='<default><default class="husky"><geom contype="0"/></default></default>'
+        '<asset><material name="husky_yellow" rgba="1 0 0 1"/></asset>',
+    ),
+    'defaults of its own': mjcf(
+        FLOOR, before='<default><geom friction="0.01"/><joint damping="9"/></default>'
+    ),
+    'a solver of its own': mjcf(
+        FLOOR, before='<option integrator="RK4" cone="pyramidal" timestep="0.0005"/>'
+    ),
+    'little memory': mjcf(FLOOR, before='<size memory="10K"/>'),
+}
+
+
+@pytest.mark.parametrize('what', ODD)
+def test_an_odd_world_is_driven_in_like_any_other(
+    write: Callable[[str], str], drive: Callable[..., None], tmp_path: Path, what: str
+) -> None:
+    (tmp_path / 'part.xml').write_text('<mujoco><geom name="x" size="0.1" pos="4 0 0"/></mujoco>')
+    simulation = Simulation(SimulationConfig(world=write(ODD[what])))
+    drive(simulation, 0.5, 0.0, seconds=0.5)
+    assert simulation.robots[0].state.position[0] == pytest.approx(0.2, abs=0.03)
+    assert simulation.robots[0].state.velocity[2] == pytest.approx(0.0, abs=0.01)
+    assert simulation.physics_warnings == 0
+    assert simulation.unreported_touches() == []
+
+
+def test_without_gravity_the_robot_floats_and_nothing_breaks(
+    write: Callable[[str], str], drive: Callable[..., None]
+) -> None:
+    world = write(mjcf(before='<option gravity="0 0 0"/>'))
+    simulation = Simulation(SimulationConfig(world=world))
+    drive(simulation, 0.5, 0.5, seconds=1.0)
+    assert 0.1 < simulation.robots[0].state.position[2] < 0.5
+    assert simulation.physics_warnings == 0
 
 
 @pytest.mark.parametrize(
     ('text', 'reason'),
     [
-        ('<mujoco><worldbody>', r'XML parse error'),
-        (mjcf('<geom typ="box" size="1 1 1"/>'), r"unrecognized attribute: 'typ'.*line 4"),
-        (mjcf('<gem/>'), r"unrecognized element.*'gem', line 4"),
-        (mjcf('<geom type="box"/>'), r'size 0 must be positive in geom.*line 4'),
-        (mjcf('<geom type="mesh" mesh="none"/>'), r"mesh 'none' not found"),
+        ('<mujoco><worldbody>', r'XML parse error.*Line number=1:'),
+        ('', r'empty file'),
+        ('<sdf version="1.4"/>', r"Unrecognized XML model type: 'sdf', line 1$"),
+        (mjcf('<geom typ="box" size="1 1 1"/>'), r"unrecognized attribute: 'typ'.*line 4$"),
+        (mjcf('<gem/>'), r"unrecognized element.*'gem', line 4$"),
+        (mjcf('<geom type="box"/>'), r'size 0 must be positive in geom.*line 4$'),
+        (mjcf('<geom type="mesh" mesh="none"/>'), r"mesh 'none' not found.*line 4$"),
+        (
+            mjcf(before='<asset><mesh name="m" file="no.obj"/></asset>'),
+            r"opening file 'no.obj', line 2$",
+        ),
+        (mjcf('<include file="no.xml"/>'), r"opening file 'no.xml' .*line 4$"),
+        (
+            mjcf(after='<sensor><accelerometer site="no"/></sensor>'),
+            r"unrecognized name 'no'.*line 6$",
+        ),
         (mjcf('<geom size="0.1"/>'), r'nothing to drive on; add a plane'),
-        (mjcf(before='<option timestep="0.003"/>'), r'whole number of timesteps'),
-        (mjcf(before='<option timestep="0.005"/>'), r'0.002 s or less'),
-        (mjcf('<body name="husky/base_link"/>' + FLOOR), r"repeated name 'husky/base_link'"),
+        (
+            mjcf('<geom name="floor" contype="2" conaffinity="2" size="9"/>'),
+            r'nothing to drive on',
+        ),
+        (mjcf(before='<option timestep="0.003"/>'), r'whole number of timesteps.*line 2$'),
+        (mjcf(before='<option timestep="0.005"/>'), r'0.002 s or less, line 2$'),
+        (mjcf(before='<option timestep="0"/>'), r'timestep=0: .*use 0.002, line 2$'),
+        (mjcf(before='<option timestep="nan"/>'), r'timestep=nan: .*use 0.002, line 2$'),
+        (
+            mjcf(before='<option><flag contact="disable"/></option>'),
+            r'contact="disable": the robot needs it to drive; remove the flag, line 2$',
+        ),
+        (
+            mjcf(before='<option><flag filterparent="disable"/></option>'),
+            r'filterparent="disable"',
+        ),
+        (mjcf(before='<option actuatorgroupdisable="0"/>'), r'the motors .* group 0; .*, line 2$'),
+        (mjcf(before='<compiler settotalmass="100"/>'), r'would weigh something else; .*line 2$'),
+        (
+            mjcf('<body name="husky/base_link"/>' + FLOOR),
+            r"repeated name 'husky/base_link' in body, line 4$",
+        ),
     ],
 )
 def test_a_broken_world_is_refused_with_its_file_and_the_reason_in_one_line(
@@ -122,10 +212,13 @@ def test_a_file_that_is_not_there_or_not_xml_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ('starts', 'reason'),
     [
-        ([RobotStart(x=2.455)], 'would start inside jersey_barrier_15'),
+        (
+            [RobotStart(x=2.455)],
+            r'inside jersey_barrier_15 \(.*playpen.xml, line \d+\); start it further away',
+        ),
         ([RobotStart(x=-3.0, y=4.0)], 'would start inside fire_hydrant_0'),
         ([RobotStart(x=7.0, y=-2.5)], 'would start inside Construction Barrel'),
-        ([RobotStart(x=100.0)], 'there is no ground under it'),
+        ([RobotStart(x=100.0)], r'there is no ground under it \(.*playpen.xml\)'),
         ([RobotStart(), RobotStart(x=5.0)], 'every robot needs a name of its own'),
         ([RobotStart(name='a'), RobotStart(name='b', x=0.4)], 'a at .* would start inside b'),
     ],
@@ -149,6 +242,7 @@ def test_the_husky_weighs_and_measures_what_the_original_does(worlds: Path) -> N
     model = mujoco.MjModel.from_xml_path(str(worlds / 'husky.xml'))
     assert model.body_subtreemass[model.body('base_link').id] == pytest.approx(56.582)
     assert model.body('base_link').mass[0] == 46.034
+    assert model.body('base_link').inertia.sum() == pytest.approx(0.6022 + 1.7386 + 2.0296)
     for wheel, x, y in (
         ('front_left', 0.256, 0.2854),
         ('front_right', 0.256, -0.2854),
@@ -158,8 +252,13 @@ def test_the_husky_weighs_and_measures_what_the_original_does(worlds: Path) -> N
         link = model.body(f'{wheel}_wheel_link')
         assert link.pos.tolist() == [x, y, 0.03282]
         assert link.mass[0] == 2.637
+        assert sorted(link.inertia) == pytest.approx([0.02467, 0.02467, 0.04411])
     front = model.geom('front_bumper')
     assert 2.0 * (front.pos[0] + front.size[0]) == pytest.approx(0.9874)
+    bottom, top = model.geom('chassis'), model.geom('top_plate')
+    assert bottom.pos[2] - bottom.size[2] == pytest.approx(0.0)
+    assert top.pos[2] + top.size[2] == pytest.approx(0.2514)
+    assert 2.0 * top.size[:2] == pytest.approx([0.73, 0.59])
     wheel = model.geom('front_left_wheel')
     assert 2.0 * (0.2854 + wheel.size[1]) == pytest.approx(0.6851)
     assert math.isclose(wheel.size[0], 0.1651, abs_tol=0.003)

@@ -1,0 +1,53 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Three Huskies in one playpen, as launched: each in its namespace, at its place, on its own."""
+
+from functools import partial
+import math
+import signal
+
+from nav_msgs.msg import Odometry
+from playpen_testing.listener import Listener
+from playpen_testing.processes import Processes
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
+import pytest
+
+# Of multi_husky_playpen.launch of the original, its 30 and 45 read as degrees.
+STARTS = {
+    'husky_alpha': (0.0, 0.0, 0.0),
+    'husky_beta': (1.0, 3.0, math.radians(30.0)),
+    'husky_gamma': (-3.0, -1.0, math.radians(45.0)),
+}
+
+
+def pose(message: Odometry) -> tuple[float, float, float]:
+    position, turn = message.pose.pose.position, message.pose.pose.orientation
+    return position.x, position.y, 2.0 * math.atan2(turn.z, turn.w)
+
+
+@pytest.mark.timeout(60)
+def test_three_huskies_start_at_their_places_and_one_is_driven_alone(
+    processes: Processes, nodes: SpunNodes
+) -> None:
+    launch = processes.start(
+        *('ros2', 'launch', 'husky_sim', 'multi_husky_playpen.launch.py', 'real_time_factor:=3.0')
+    )
+    topics = {f'/{name}/ground_truth/odom': Odometry for name in STARTS}
+    listener = nodes.start(partial(Listener, topics, namespace='husky_beta'))
+    for name, start in STARTS.items():
+        first = listener.latest(f'/{name}/ground_truth/odom')
+        assert pose(first) == pytest.approx(start, abs=0.001), name
+        assert first.child_frame_id == 'base_link'
+
+    def pushed() -> bool:
+        listener.command(0.5)
+        return pose(listener.latest('/husky_beta/ground_truth/odom'))[0] > 1.2
+
+    wait_until(pushed, timeout_sec=15.0, what='20 cm of husky_beta')
+    for name in ('husky_alpha', 'husky_gamma'):
+        last = listener.latest(f'/{name}/ground_truth/odom')
+        assert pose(last) == pytest.approx(STARTS[name], abs=0.001), name
+    launch.signal(signal.SIGINT)
+    assert launch.wait(timeout_sec=10.0) == 0
+    assert 'Traceback' not in launch.output

@@ -1,0 +1,64 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the README and the pages of docs/ name is there; what the README shows is printed."""
+
+from pathlib import Path
+import re
+
+from ament_index_python.packages import get_package_share_directory
+from playpen_testing.processes import Processes
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / 'README.md').read_text()
+PAGES = [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
+STUDENTS_OWN = ('my_driver', 'my_pkg')
+NUMBER = re.compile(r'\d+(?:\.\d+)?')
+
+
+@pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
+def test_every_link_leads_to_a_file(page: Path) -> None:
+    links = re.findall(r'\]\(([^)#]+)\)|src="([^"]+)"', page.read_text())
+    ours = [link or picture for link, picture in links if '://' not in link]
+    assert ours, 'the page has links'
+    assert [link for link in ours if not (page.parent / link).exists()] == []
+
+
+@pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
+def test_every_program_and_launch_file_is_there(page: Path, processes: Processes) -> None:
+    text = page.read_text()
+    programs = set(re.findall(r'ros2 run (\w+ \w+)', text))
+    listed = processes.start('ros2', 'pkg', 'executables')
+    assert listed.wait(timeout_sec=30.0) == 0, listed.output
+    missing = {program for program in programs if program not in listed.lines}
+    assert {program for program in missing if not program.startswith(STUDENTS_OWN)} == set()
+    for package, file in re.findall(r'ros2 launch (\w+) (\S+\.launch\.\w+)', text):
+        assert (Path(get_package_share_directory(package)) / 'launch' / file).is_file(), file
+
+
+def test_every_word_of_the_lab_and_its_options_are_known(processes: Processes) -> None:
+    shown = processes.start(str(ROOT / 'lab'), 'help')
+    assert shown.wait(timeout_sec=10.0) == 0, shown.output
+    lines = [line for line in README.splitlines() if './lab' in line]
+    named = {word for line in lines for word in re.findall(r'\./lab (\w+)', line)}
+    assert {'drive', 'test'} <= named
+    assert {word for word in named if not re.search(rf'^  {word}\b', shown.output, re.M)} == set()
+    options = {option for line in lines for option in re.findall(r'--[a-z][a-z-]+', line)}
+    known = shown.output + (ROOT / 'src/husky_driver/husky_driver/grade.py').read_text()
+    assert {option for option in options if option not in known} == set()
+
+
+def test_a_drive_prints_what_the_readme_shows(processes: Processes, tmp_path: Path) -> None:
+    block = re.search(r'```\n(central_barrier: .*?)\n```', README, re.S)
+    assert block is not None
+    course = str(ROOT / 'config' / 'waypoints' / 'central_barrier.yaml')
+    graded = processes.start(str(ROOT / 'lab'), 'grade', course, '--report', str(tmp_path))
+    assert graded.wait(timeout_sec=60.0) == 0, graded.output
+    shown, printed = block[1].splitlines()[:-1], graded.lines[:-1]
+    words = [[NUMBER.sub('#', line) for line in lines] for lines in (shown, printed)]
+    assert words[0] == words[1]
+    # Not to the last digit: another version of MuJoCo drives a little differently.
+    values = [
+        [float(n) for line in lines for n in NUMBER.findall(line)] for lines in (shown, printed)
+    ]
+    assert values[1] == pytest.approx(values[0], rel=0.05, abs=0.01)

@@ -1,0 +1,127 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The camera presets in a real browser, which tells where its camera really is."""
+
+from collections.abc import Callable, Iterator
+import math
+import time
+
+from husky_sim.view.cameras import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
+from husky_sim.view.server import close_server, open_server
+import numpy as np
+import numpy.typing as npt
+from playpen_testing.browser import Browser
+from playpen_testing.tab import Tab
+from playpen_testing.waiting import wait_until
+import pytest
+import viser
+
+Array = npt.NDArray[np.float64]
+
+SPEED_M_S, AHEAD = 1.0, np.array([1.0, 0.0, 0.0])
+BEHIND = np.array([-BACK_M, 0.0, UP_M])
+BEHIND_M = math.hypot(BACK_M, UP_M)
+CENTER, EXTENT_M = np.array([0.0, 0.0, 0.5]), 12.0
+
+
+class Scene:
+    """A robot that drives along x on an empty page, and what its one tab tells of its camera."""
+
+    def __init__(self, server: viser.ViserServer, cameras: Cameras, tab: Tab) -> None:
+        self.tab = tab
+        self.robot = np.zeros(3)
+        self.driving = False
+        self._cameras = cameras
+        self.client = next(iter(server.get_clients().values()))
+        self._told = (np.zeros(3), np.zeros(3))
+        self._before_sec = time.monotonic()
+
+        @self.client.camera.on_update
+        async def _(camera: viser.CameraHandle) -> None:
+            self._told = (np.array(camera.position), np.array(camera.look_at))
+
+    @property
+    def away_m(self) -> float:
+        return float(np.linalg.norm(self.offset))
+
+    @property
+    def at(self) -> Array:
+        return self._told[1]
+
+    @property
+    def offset(self) -> Array:
+        return self._told[0] - self._told[1]
+
+    def choose(self, preset: str) -> None:
+        self._cameras.choose(
+            self.client, preset, robot=self.robot, yaw=0.0, now_sec=time.monotonic()
+        )
+
+    def wait(self, fact: Callable[[], bool], what: str) -> None:
+        """Go on as the view's frames do, until the fact holds."""
+
+        def frame() -> bool:
+            now = time.monotonic()
+            if self.driving:
+                self.robot = self.robot + SPEED_M_S * (now - self._before_sec) * AHEAD
+            self._before_sec = now
+            self._cameras.follow(self.robot, now_sec=now)
+            return fact()
+
+        wait_until(frame, timeout_sec=20.0, what=lambda: f'{what}: {self._told}, {self.robot}')
+
+
+@pytest.fixture(scope='module')
+def scene(browser: Browser) -> Iterator[Scene]:
+    server = open_server('127.0.0.1', 18780, title='cameras')
+    server.gui.add_html('<b data-number="time">0</b>')
+    cameras = Cameras(server, center=CENTER, extent_m=EXTENT_M)
+    tab = browser.open(f'http://localhost:{server.get_port()}')
+    wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
+    yield Scene(server, cameras, tab)
+    tab.close()
+    close_server(server)
+
+
+def distance(ones: Array, others: Array) -> float:
+    return float(np.linalg.norm(ones - others))
+
+
+@pytest.mark.timeout(60)
+def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scene: Scene) -> None:
+    scene.choose(FOLLOW)
+    scene.driving = True
+    scene.wait(lambda: scene.at[0] > 1.0, 'a camera that goes along')
+    assert distance(scene.offset, BEHIND) < 0.02
+    scene.tab.wheel(500, 350, 240)
+    scene.wait(lambda: scene.away_m > 1.02 * BEHIND_M, 'a camera further away')
+    begun = scene.robot[0]
+    scene.wait(
+        lambda: scene.at[0] > begun + 1.5 and distance(scene.at, scene.robot) < 0.6,
+        'a camera that comes after',
+    )
+    assert scene.away_m > 1.02 * BEHIND_M, 'it went back to its own distance'
+    zoomed_m = scene.away_m
+    scene.tab.drag((500, 350), (700, 350))
+    scene.wait(
+        lambda: abs(scene.offset[1]) > 0.5 and distance(scene.at, scene.robot) < 0.6,
+        'a camera that follows, seen from the side',
+    )
+    assert scene.away_m == pytest.approx(zoomed_m, rel=0.05)
+
+
+@pytest.mark.timeout(60)
+def test_free_leaves_the_camera_where_it_is_and_top_looks_down(scene: Scene) -> None:
+    scene.choose(FOLLOW)
+    scene.driving = False
+    scene.wait(lambda: distance(scene.at, scene.robot) < 0.002, 'a camera at the robot')
+    scene.choose(FREE)
+    stood, begun = scene.at, scene.robot[0]
+    scene.driving = True
+    scene.wait(lambda: scene.robot[0] > begun + 1.0, 'a robot that drives off')
+    assert distance(scene.at, stood) < 0.005, 'a free camera is left alone'
+    scene.choose(TOP)
+    scene.wait(lambda: distance(scene.at, CENTER) < 0.01, 'a camera that looks at the middle')
+    down = -scene.offset / scene.away_m
+    assert down[2] < -0.99
+    assert scene.offset[2] > EXTENT_M, 'all of it is in the picture'
