@@ -69,6 +69,20 @@ def three_turns_mm(slip: str, yaw_rate: float) -> float:
     return 1000.0 * furthest
 
 
+def least_load(slip: str) -> float:
+    """Return the least part of the weight that any wheel bears in turns: a quarter at rest."""
+    least = 1.0
+    for speed, yaw_rate in ((0.0, 1.0), (0.0, 2.0), (0.5, 1.5)):
+        simulation, robot = on(slip)
+        drive(simulation, 0.0, 0.0, 1.0)
+        weight = sum(robot.husky.wheel_loads_n())
+        drive(simulation, speed, yaw_rate, 1.0)
+        for _ in range(100):
+            drive(simulation, speed, yaw_rate, CONTROL_PERIOD_SEC)
+            least = min(least, min(robot.husky.wheel_loads_n()) / weight)
+    return least
+
+
 def stop(slip: str) -> tuple[float, float]:
     """Return the time and the way from 1 m/s to a stop."""
     simulation, robot = on(slip, x=-10.0)
@@ -109,14 +123,16 @@ def main() -> None:
         print(f'| {speed:g} | ' + ' | '.join(row) + ' |')
     print(
         '\n| slip | friction | track on the spot, m | three turns move it by, mm '
+        '| least load of a wheel in turns '
         '| stop from 1 m/s | a minute, m | wheel odometry off by, m | filtered off by, m |'
     )
-    print('|---|---|---|---|---|---|---|---|')
+    print('|---|---|---|---|---|---|---|---|---|')
     for slip, grip in GRIP.items():
         track = effective_track_m(slip, 0.0, 0.5)
         (taken_sec, braked_m), (way, wheels, fused) = stop(slip), drift_m(slip)
         print(
             f'| `{slip}` | {grip:g} | {track:.3f} | {three_turns_mm(slip, 0.5):.1f} | '
+            f'{100.0 * least_load(slip):.0f} % | '
             f'{taken_sec:.2f} s, {braked_m:.3f} m | {way:.1f} | {wheels:.2f} | {fused:.2f} |'
         )
 

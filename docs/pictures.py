@@ -25,10 +25,13 @@ WIDTH, HEIGHT = 960, 540
 class Studio:
     """A camera that flies round a world."""
 
-    def __init__(self, world: str, start: RobotStart) -> None:
+    def __init__(self, world: str, start: RobotStart, *, lamp: float = 0.0) -> None:
+        """Load the world; the camera may carry a lamp that fills its shadows."""
         self._model = load_world(str(default_worlds() / world), [start]).model
         self._data = mujoco.MjData(self._model)
         mujoco.mj_forward(self._model, self._data)
+        self._model.vis.headlight.diffuse[:] = lamp
+        self._model.vis.quality.shadowsize = 8192
         self._model.vis.global_.offwidth = 2 * WIDTH
         self._model.vis.global_.offheight = 2 * HEIGHT
         self._renderer = mujoco.Renderer(self._model, 2 * HEIGHT, 2 * WIDTH)
@@ -52,10 +55,10 @@ def save(pixels: np.ndarray, name: str) -> None:
 
 def main() -> None:
     """Draw both pictures."""
-    studio = Studio('empty.xml', RobotStart())
+    studio = Studio('empty.xml', RobotStart(), lamp=0.4)
     sides = [
-        studio.picture(azimuth, at=(0.0, 0.0, 0.14), distance_m=1.5, tilt=tilt)
-        for azimuth, tilt in ((180.0, -12.0), (90.0, -12.0), (140.0, -25.0), (0.0, -12.0))
+        studio.picture(azimuth, at=(0.0, 0.0, 0.15), distance_m=1.35, tilt=tilt)
+        for azimuth, tilt in ((180.0, -12.0), (270.0, -12.0), (0.0, -12.0), (140.0, -24.0))
     ]
     save(np.vstack([np.hstack(sides[:2]), np.hstack(sides[2:])]), 'husky.jpg')
     studio = Studio('playpen.xml', RobotStart())
