@@ -11,7 +11,7 @@ import mujoco
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import WorldError
 
-LONGEST_TIMESTEP_SEC = 0.002
+LONGEST_TIMESTEP_SEC = 0.004
 
 _HAS_LINE = re.compile(r'\bline\b', re.IGNORECASE)
 _QUOTED = re.compile(r"'([^']+)'")
@@ -56,7 +56,7 @@ def steps_per_period(path: str, timestep_sec: float) -> int:
         raise refused(
             path,
             f'timestep={timestep_sec:g}: the control period of {CONTROL_PERIOD_SEC:g} s must be a '
-            'whole number of timesteps; use 0.002',
+            'whole number of timesteps; use 0.004',
             word='timestep',
         )
     if timestep_sec > LONGEST_TIMESTEP_SEC:

@@ -18,7 +18,7 @@ WORLDS = Path(__file__).resolve().parents[3] / 'worlds'
 # Asphalt is a box in the playpen, and a box is another collision than a plane.
 ASPHALT = """
 <mujoco>
-  <option timestep="0.002" gravity="0 0 -9.8"/>
+  <option timestep="0.004" gravity="0 0 -9.8"/>
   <worldbody>
     <geom name="asphalt_plane" type="box" size="20 20 0.05" friction="1 0.005 0.0001"/>
     {more}

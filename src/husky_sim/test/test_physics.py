@@ -8,6 +8,7 @@ import math
 from pathlib import Path
 
 from husky_sim.simulation import SimulatedRobot, Simulation
+import mujoco
 import pytest
 
 from husky_sim.config import CONTROL_PERIOD_SEC, GroundConfig, SimulationConfig
@@ -67,6 +68,45 @@ def test_no_wheel_loses_its_share_of_the_weight_in_a_turn(
         assert sum(shares) == pytest.approx(1.0, abs=0.02), 'it should not hop'
         # A quarter each; a bend at 1.5 m/s2 moves some of it to the outer wheels.
         assert min(shares) > 0.25 - 0.07, shares
+
+
+def test_a_shorter_timestep_takes_it_nowhere_else(
+    worlds: Path, tmp_path: Path, drive: Drive
+) -> None:
+    text = (worlds / 'empty.xml').read_text(encoding='utf-8')
+    fine = tmp_path / 'fine.xml'
+    fine.write_text(text.replace('timestep="0.004"', 'timestep="0.0005"'), encoding='utf-8')
+    ends = []
+    for world, steps in (worlds / 'empty.xml', 5), (fine, 40):
+        simulation = Simulation(SimulationConfig(world=str(world)))
+        assert simulation.world.steps_per_period == steps
+        drive(simulation, 0.8, 0.5, seconds=2.0)
+        drive(simulation, 0.5, -0.8, seconds=4.0)
+        drive(simulation, 0.0, 1.5, seconds=1.0)
+        drive(simulation, 0.0, 0.0, seconds=1.0)
+        ends.append(simulation.robots[0])
+    assert math.dist(plan(ends[0]), plan(ends[1])) < 0.003
+    turned = math.remainder(ends[0].state.yaw - ends[1].state.yaw, math.tau)
+    assert abs(turned) < math.radians(0.2)
+
+
+def test_the_servos_pull_as_the_robot_speeds_up_and_do_not_rattle(
+    on_asphalt: OnAsphalt, drive: Drive
+) -> None:
+    simulation = on_asphalt()
+    robot = simulation.robots[0]
+    timestep_sec = simulation.model.opt.timestep
+    drive(simulation, 0.3, 0.0, seconds=0.06)
+    robot.controller.command(0.6, 0.0, time_sec=simulation.time_sec)
+    robot.act(simulation.time_sec)
+    torques = []
+    for _ in range(round(CONTROL_PERIOD_SEC / timestep_sec)):
+        mujoco.mj_step(simulation.model, simulation.data)
+        torques.append(sum(robot.husky.wheels().torques_n_m))
+    # What 56.6 kg and four wheels of 0.74 kg m2 need for 3 m/s2.
+    needed = 3.0 * (56.6 * 0.1651 + 4 * 0.74 / 0.1651)
+    assert all(0.0 < torque < 2.0 * needed for torque in torques), torques
+    assert torques[1:] == sorted(torques[1:], reverse=True), torques
 
 
 def test_ten_metres_straight_on_stay_straight(on_asphalt: OnAsphalt, drive: Drive) -> None:

@@ -172,9 +172,9 @@ def test_without_gravity_the_robot_floats_and_nothing_breaks(
             r'nothing to drive on',
         ),
         (mjcf(before='<option timestep="0.003"/>'), r'whole number of timesteps.*line 2$'),
-        (mjcf(before='<option timestep="0.005"/>'), r'0.002 s or less, line 2$'),
-        (mjcf(before='<option timestep="0"/>'), r'timestep=0: .*use 0.002, line 2$'),
-        (mjcf(before='<option timestep="nan"/>'), r'timestep=nan: .*use 0.002, line 2$'),
+        (mjcf(before='<option timestep="0.005"/>'), r'0.004 s or less, line 2$'),
+        (mjcf(before='<option timestep="0"/>'), r'timestep=0: .*use 0.004, line 2$'),
+        (mjcf(before='<option timestep="nan"/>'), r'timestep=nan: .*use 0.004, line 2$'),
         (
             mjcf(before='<option><flag contact="disable"/></option>'),
             r'contact="disable": the robot needs it to drive; remove the flag, line 2$',
