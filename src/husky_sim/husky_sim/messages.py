@@ -3,108 +3,166 @@
 """
 The simulator's states as ROS messages.
 
-Each function fills a message that was made once: what never changes is already in it, since
-building a message costs more than the physics between two of them.
+Each class keeps one message in its serialized form and packs the numbers of a control period into
+it; `bytes()` of it is what to publish.
 """
 
 import math
-from typing import Any
 
+from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu, JointState
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
 
+from husky_sim.cdr import SerializedMessage
 from husky_sim.contacts import Touch
 from husky_sim.diff_drive import VelocityController, WheelOdometry
 from husky_sim.husky import JOINTS, Quaternion, RobotState, Vector
 from husky_sim.imu import VARIANCE as IMU_VARIANCE
 from husky_sim.localization import PlanarFilter
+from husky_sim.navsat import VARIANCE_M2
 from husky_sim.simulation import SimulatedRobot
+
+Stamp = tuple[int, int]
+"""Simulated time: seconds, nanoseconds."""
+
 
 # Diagonals of the velocity controller (husky_control, control.yaml).
 ODOMETRY_VARIANCES = (0.001, 0.001, 0.001, 0.001, 0.001, 0.03)
-
 
 # Where x, y and yaw stand in the 6 x 6 covariances of a message.
 _PLANE = [0, 1, 5, 6, 7, 11, 30, 31, 35]
 
 
-def new_imu() -> Imu:
-    """Make an IMU message with the variances of its noise, whether that is on or not."""
-    message = Imu()
-    message.header.frame_id = 'base_link'
-    for covariance in (
-        message.orientation_covariance,
-        message.angular_velocity_covariance,
-        message.linear_acceleration_covariance,
-    ):
-        covariance[::4] = IMU_VARIANCE
-    return message
+def time_message(stamp: Stamp) -> Time:
+    """Return a time as a message."""
+    return Time(sec=stamp[0], nanosec=stamp[1])
 
 
-def new_joint_state() -> JointState:
-    """Make a message of the four wheels."""
-    message = JointState()
-    message.name = list(JOINTS)
-    return message
-
-
-class OdometryMessage:
-    """An odometry message of base_link, with its parts at hand."""
+class OdometryMessage(SerializedMessage):
+    """An odometry message of base_link."""
 
     def __init__(self, frame_id: str, variances: tuple[float, ...]) -> None:
-        self.message = Odometry()
-        self.message.header.frame_id = frame_id
-        self.message.child_frame_id = 'base_link'
-        for place, variance in enumerate(variances):
-            self.message.pose.covariance[7 * place] = variance
-            self.message.twist.covariance[7 * place] = variance
-        self._position = self.message.pose.pose.position
-        self._orientation = self.message.pose.pose.orientation
-        self._linear = self.message.twist.twist.linear
-        self._angular = self.message.twist.twist.angular
+        message = Odometry(child_frame_id='base_link')
+        message.header.frame_id = frame_id
+        message.pose.covariance[::7] = variances
+        message.twist.covariance[::7] = variances
+        super().__init__(message)
+        self._stamp = self.packer('iI', 'header.stamp.sec')
+        self._pose = self.packer('7d', 'pose.pose.position.x')
+        self._twist = self.packer('6d', 'twist.twist.linear.x')
+        self._pose_covariance = self.doubles('pose.covariance', 36)
+        self._twist_covariance = self.doubles('twist.covariance', 36)
 
-    def fill_planar(self, estimate: WheelOdometry | PlanarFilter) -> None:
-        """Fill in an estimate that lives in the plane."""
-        self._position.x, self._position.y = estimate.x, estimate.y
-        self._orientation.z = math.sin(estimate.yaw / 2.0)
-        self._orientation.w = math.cos(estimate.yaw / 2.0)
-        self._linear.x = estimate.speed_m_s
-        self._angular.z = estimate.yaw_rate_rad_s
+    def pack_planar(self, stamp: Stamp, estimate: WheelOdometry | PlanarFilter) -> None:
+        """Pack an estimate that lives in the plane."""
+        half = estimate.yaw / 2.0
+        self._stamp(*stamp)
+        self._pose(estimate.x, estimate.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half))
+        self._twist(estimate.speed_m_s, 0.0, 0.0, 0.0, 0.0, estimate.yaw_rate_rad_s)
 
-    def fill_covariance(self, estimate: PlanarFilter) -> None:
-        """Fill in how sure the filter is: of x, y, yaw, and of their speeds in base_link."""
+    def pack_covariance(self, estimate: PlanarFilter) -> None:
+        """Pack how sure the filter is: of x, y, yaw, and of their speeds in base_link."""
         covariance = estimate.covariance
-        self.message.pose.covariance[_PLANE] = covariance[:3, :3].ravel()
-        self.message.twist.covariance[_PLANE] = covariance[3:6, 3:6].ravel()
+        self._pose_covariance[_PLANE] = covariance[:3, :3].ravel()
+        self._twist_covariance[_PLANE] = covariance[3:6, 3:6].ravel()
 
-    def fill_truth(self, state: RobotState) -> None:
-        """Fill in the true pose and twist."""
-        _set_xyz(self._position, state.position)
-        _set_quaternion(self._orientation, state.orientation)
-        _set_xyz(self._linear, state.velocity)
-        _set_xyz(self._angular, state.angular_velocity)
-
-
-def fill_imu(message: Imu, robot: SimulatedRobot) -> None:
-    """Fill in what the IMU measures."""
-    _set_quaternion(message.orientation, robot.imu.orientation)
-    _set_xyz(message.angular_velocity, robot.imu.angular_velocity)
-    _set_xyz(message.linear_acceleration, robot.imu.acceleration)
+    def pack_truth(self, stamp: Stamp, state: RobotState) -> None:
+        """Pack the true pose and twist."""
+        self._stamp(*stamp)
+        self._pose(*state.position, *_xyzw(state.orientation))
+        self._twist(*state.velocity, *state.angular_velocity)
 
 
-def fill_joint_state(message: JointState, robot: SimulatedRobot) -> None:
-    """Fill in the wheels."""
-    message.position = robot.wheels.angles_rad
-    message.velocity = robot.wheels.speeds_rad_s
-    message.effort = robot.wheels.torques_n_m
+class ImuMessage(SerializedMessage):
+    """An IMU message with the variances of its noise, whether that is on or not."""
+
+    def __init__(self) -> None:
+        message = Imu()
+        message.header.frame_id = 'base_link'
+        message.orientation_covariance[::4] = IMU_VARIANCE
+        message.angular_velocity_covariance[::4] = IMU_VARIANCE
+        message.linear_acceleration_covariance[::4] = IMU_VARIANCE
+        super().__init__(message)
+        self._stamp = self.packer('iI', 'header.stamp.sec')
+        self._orientation = self.packer('4d', 'orientation.x')
+        self._rate = self.packer('3d', 'angular_velocity.x')
+        self._acceleration = self.packer('3d', 'linear_acceleration.x')
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack what the IMU measures."""
+        sample = robot.imu
+        self._stamp(*stamp)
+        self._orientation(*_xyzw(sample.orientation))
+        self._rate(*sample.angular_velocity)
+        self._acceleration(*sample.acceleration)
 
 
-def fill_command(message: Twist, controller: VelocityController) -> None:
-    """Fill in the command as the limits left it."""
-    message.linear.x = controller.speed_m_s
-    message.angular.z = controller.yaw_rate_rad_s
+class JointStateMessage(SerializedMessage):
+    """A message of the four wheels."""
+
+    def __init__(self) -> None:
+        zeros = [0.0] * len(JOINTS)
+        super().__init__(
+            JointState(name=list(JOINTS), position=zeros, velocity=zeros, effort=zeros)
+        )
+        self._stamp = self.packer('iI', 'header.stamp.sec')
+        self._angles = self.packer('4d', 'position.0')
+        self._speeds = self.packer('4d', 'velocity.0')
+        self._torques = self.packer('4d', 'effort.0')
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the wheels."""
+        wheels = robot.wheels
+        self._stamp(*stamp)
+        self._angles(*wheels.angles_rad)
+        self._speeds(*wheels.speeds_rad_s)
+        self._torques(*wheels.torques_n_m)
+
+
+class CommandMessage(SerializedMessage):
+    """A velocity command."""
+
+    def __init__(self) -> None:
+        super().__init__(Twist())
+        self._twist = self.packer('6d', 'linear.x')
+
+    def pack(self, controller: VelocityController) -> None:
+        """Pack the command as the limits left it."""
+        self._twist(controller.speed_m_s, 0.0, 0.0, 0.0, 0.0, controller.yaw_rate_rad_s)
+
+
+class FixMessage(SerializedMessage):
+    """What the satellite receiver says, with the variances of its noise."""
+
+    def __init__(self) -> None:
+        message = NavSatFix(position_covariance_type=NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN)
+        message.header.frame_id = 'base_link'
+        message.status.status = NavSatStatus.STATUS_FIX
+        message.status.service = NavSatStatus.SERVICE_GPS
+        message.position_covariance[::4] = VARIANCE_M2
+        super().__init__(message)
+        self._stamp = self.packer('iI', 'header.stamp.sec')
+        self._place = self.packer('3d', 'latitude')
+
+    def pack(self, stamp: Stamp, fix: Vector) -> None:
+        """Pack latitude and longitude in degrees, altitude in metres."""
+        self._stamp(*stamp)
+        self._place(*fix)
+
+
+class ClockMessage(SerializedMessage):
+    """The simulated time."""
+
+    def __init__(self) -> None:
+        super().__init__(Clock())
+        self._stamp = self.packer('iI', 'clock.sec')
+
+    def pack(self, stamp: Stamp) -> None:
+        """Pack the time."""
+        self._stamp(*stamp)
 
 
 def new_collision(touch: Touch) -> DiagnosticStatus:
@@ -125,9 +183,7 @@ def new_collision(touch: Touch) -> DiagnosticStatus:
     )
 
 
-def _set_xyz(message: Any, values: Vector) -> None:
-    message.x, message.y, message.z = values
-
-
-def _set_quaternion(message: Any, values: Quaternion) -> None:
-    message.w, message.x, message.y, message.z = values
+def _xyzw(orientation: Quaternion) -> tuple[float, float, float, float]:
+    """Order a quaternion as messages do."""
+    w, x, y, z = orientation
+    return x, y, z, w

@@ -14,7 +14,6 @@ import sys
 import time
 from typing import Any
 
-from builtin_interfaces.msg import Time
 from rcl_interfaces.msg import SetParametersResult
 import rclpy
 from rclpy.clock import Clock as RosClock
@@ -30,6 +29,7 @@ from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.diagnostics import DiagnosticsTopic, PaceWatch
 from husky_sim.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.errors import SettingError, SimulatorError
+from husky_sim.messages import ClockMessage
 from husky_sim.pacing import Pacer
 from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
 from husky_sim.record import RunRecord
@@ -82,7 +82,7 @@ class SimulatorNode(Node):
         ]
         self._by_name = {topics.robot.name: topics for topics in self._topics}
         self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
-        self._clock_message = Clock()
+        self._clock_message = ClockMessage()
         self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
@@ -191,12 +191,11 @@ class SimulatorNode(Node):
                 )
 
     def _publish(self) -> None:
-        seconds, nanoseconds = divmod(self._simulation.time_ns, 1_000_000_000)
-        stamp = Time(sec=seconds, nanosec=nanoseconds)
+        stamp = divmod(self._simulation.time_ns, 1_000_000_000)
         for topics in self._topics:
             topics.publish_filtered(stamp)
-        self._clock_message.clock = stamp
-        self._clock_publisher.publish(self._clock_message)
+        self._clock_message.pack(stamp)
+        self._clock_publisher.publish(bytes(self._clock_message))
         for topics in self._topics:
             topics.publish_rest(stamp)
         for touch in self._simulation.touches:

@@ -9,10 +9,11 @@ from builtin_interfaces.msg import Time
 import numpy as np
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
-from sensor_msgs.msg import CameraInfo, Image, LaserScan, NavSatFix, NavSatStatus
+from sensor_msgs.msg import CameraInfo, Image, LaserScan, NavSatFix
 
-from husky_sim import camera, lidar, navsat
+from husky_sim import camera, lidar
 from husky_sim.config import SensorConfig
+from husky_sim.messages import FixMessage, Stamp, time_message
 from husky_sim.sensors import Rate
 from husky_sim.simulation import SimulatedRobot, Simulation
 
@@ -44,7 +45,7 @@ class SensorTopics:
             self._scan = new_scan(config.lidar_rate_hz)
         if config.navsat_rate_hz > 0.0:
             self._fixes = node.create_publisher(NavSatFix, f'{namespace}navsat/fix', qos)
-            self._fix = new_fix()
+            self._fix = FixMessage()
         if config.camera_rate_hz > 0.0:
             self._camera = camera.Camera(robot.name, simulation.model, simulation.data)
             self._pictures = Rate(config.camera_rate_hz)
@@ -52,24 +53,23 @@ class SensorTopics:
             self._infos = node.create_publisher(CameraInfo, f'{namespace}camera/camera_info', qos)
             self._info = new_camera_info(self._camera.focal_length_px)
 
-    def publish(self, stamp: Time) -> None:
+    def publish(self, stamp: Stamp) -> None:
         """Publish the measurements of the control period that ended at stamp."""
         sensors = self._robot.sensors
         if sensors.scan is not None and self._scans.get_subscription_count():
-            self._scan.header.stamp = stamp
+            self._scan.header.stamp = time_message(stamp)
             self._scan.ranges = array('f', sensors.scan.tobytes())
             self._scans.publish(self._scan)
         if sensors.fix is not None and self._fixes.get_subscription_count():
-            self._fix.header.stamp = stamp
-            self._fix.latitude, self._fix.longitude, self._fix.altitude = sensors.fix
-            self._fixes.publish(self._fix)
+            self._fix.pack(stamp, sensors.fix)
+            self._fixes.publish(bytes(self._fix))
         if self._camera is None or not self._pictures.is_due(self._simulation.periods):
             return
         if self._infos.get_subscription_count():
-            self._info.header.stamp = stamp
+            self._info.header.stamp = time_message(stamp)
             self._infos.publish(self._info)
         if self._images.get_subscription_count():  # drawing costs more than all the rest
-            self._images.publish(new_image(self._camera.picture(), stamp))
+            self._images.publish(new_image(self._camera.picture(), time_message(stamp)))
 
     def close(self) -> None:
         """Let go of the camera; may be called twice."""
@@ -89,16 +89,6 @@ def new_scan(rate_hz: float) -> LaserScan:
         range_max=lidar.RANGE_MAX_M,
     )
     message.header.frame_id = lidar.FRAME
-    return message
-
-
-def new_fix() -> NavSatFix:
-    """Make a fix with everything but the place."""
-    message = NavSatFix(position_covariance_type=NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN)
-    message.header.frame_id = 'base_link'
-    message.status.status = NavSatStatus.STATUS_FIX
-    message.status.service = NavSatStatus.SERVICE_GPS
-    message.position_covariance[::4] = navsat.VARIANCE_M2
     return message
 
 

@@ -12,11 +12,11 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
-from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from husky_sim.husky import WHEELS
+from husky_sim.messages import Stamp, time_message
 from husky_sim.simulation import SimulatedRobot
 
 try:
@@ -54,20 +54,24 @@ class TransformTopics:
         moving = [self._base, *self._wheels] if localization else self._wheels
         self._message = TFMessage(transforms=moving)
 
-    def publish(self, filtered: Odometry, robot: SimulatedRobot) -> None:
+    def publish(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Publish where base_link and the wheels are."""
         if self._publisher is None:
             return
-        self._base.header.stamp = filtered.header.stamp
-        position = filtered.pose.pose.position
-        self._base.transform.translation.x = position.x
-        self._base.transform.translation.y = position.y
-        self._base.transform.rotation = filtered.pose.pose.orientation
+        time = time_message(stamp)
+        estimate, base = robot.filtered, self._base.transform
+        self._base.header.stamp = time
+        base.translation.x, base.translation.y = estimate.x, estimate.y
+        base.rotation.z, base.rotation.w = _half_turn(estimate.yaw)
         for wheel, angle_rad in zip(self._wheels, robot.wheels.angles_rad, strict=True):
-            wheel.header.stamp = filtered.header.stamp
-            wheel.transform.rotation.y = math.sin(angle_rad / 2.0)
-            wheel.transform.rotation.w = math.cos(angle_rad / 2.0)
+            wheel.header.stamp = time
+            wheel.transform.rotation.y, wheel.transform.rotation.w = _half_turn(angle_rad)
         self._publisher.publish(self._message)
+
+
+def _half_turn(angle_rad: float) -> tuple[float, float]:
+    """Return the two parts of a quaternion that turns about one axis."""
+    return math.sin(angle_rad / 2.0), math.cos(angle_rad / 2.0)
 
 
 def _camera() -> TransformStamped:

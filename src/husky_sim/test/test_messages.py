@@ -5,20 +5,24 @@
 from collections.abc import Callable
 import math
 from pathlib import Path
+from typing import Any
 
 from geometry_msgs.msg import Twist
 from husky_sim.navsat import VARIANCE_M2
-from husky_sim.sensor_topics import new_fix, new_scan
+from husky_sim.sensor_topics import new_scan
 from husky_sim.simulation import Simulation
 import mujoco
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import Imu, JointState, NavSatFix
 
 from husky_sim import messages
 from husky_sim.config import RobotStart, SimulationConfig
 
 Drive = Callable[..., None]
+STAMP = (2_000_000_000, 987_654_321)
 
 
 @pytest.fixture
@@ -28,6 +32,10 @@ def simulation(worlds: Path, drive: Drive) -> Simulation:
     driven = Simulation(SimulationConfig(world=str(worlds / 'empty.xml'), robots=(start,)))
     drive(driven, 0.6, 0.7, seconds=2.0)
     return driven
+
+
+def stamp_of(message: Any) -> tuple[int, int]:
+    return message.header.stamp.sec, message.header.stamp.nanosec
 
 
 def pose_of(message: Odometry) -> list[float]:
@@ -52,18 +60,21 @@ def true_twist(simulation: Simulation) -> list[float]:
 
 
 def test_ground_truth_is_pose_and_twist_of_the_body(simulation: Simulation) -> None:
-    message = messages.OdometryMessage('world', (0.0,) * 6)
-    message.fill_truth(simulation.robots[0].state)
+    packed = messages.OdometryMessage('world', (0.0,) * 6)
+    packed.pack_truth(STAMP, simulation.robots[0].state)
+    message = deserialize_message(bytes(packed), Odometry)
     twist = true_twist(simulation)  # brings the body's pose up to date
     body = simulation.data.body('husky/base_link')
-    assert pose_of(message.message) == pytest.approx([*body.xpos, *body.xquat], abs=1e-9)
-    assert twist_of(message.message) == pytest.approx(twist, abs=1e-9)
+    assert pose_of(message) == pytest.approx([*body.xpos, *body.xquat], abs=1e-9)
+    assert twist_of(message) == pytest.approx(twist, abs=1e-9)
     assert twist[3] == pytest.approx(0.6, rel=0.05)
 
 
 def test_joint_states_are_those_of_the_joints_of_that_name(simulation: Simulation) -> None:
-    message = messages.new_joint_state()
-    messages.fill_joint_state(message, simulation.robots[0])
+    packed = messages.JointStateMessage()
+    packed.pack(STAMP, simulation.robots[0])
+    message = deserialize_message(bytes(packed), JointState)
+    assert stamp_of(message) == STAMP
     for name, angle, speed, torque in zip(
         message.name, message.position, message.velocity, message.effort, strict=True
     ):
@@ -74,8 +85,10 @@ def test_joint_states_are_those_of_the_joints_of_that_name(simulation: Simulatio
 
 
 def test_without_noise_the_imu_says_what_the_physics_holds(simulation: Simulation) -> None:
-    message = messages.new_imu()
-    messages.fill_imu(message, simulation.robots[0])
+    packed = messages.ImuMessage()
+    packed.pack(STAMP, simulation.robots[0])
+    message = deserialize_message(bytes(packed), Imu)
+    assert (stamp_of(message), message.header.frame_id) == (STAMP, 'base_link')
     turn, rate = message.orientation, message.angular_velocity
     twist = true_twist(simulation)
     body = simulation.data.body('husky/base_link')
@@ -84,7 +97,11 @@ def test_without_noise_the_imu_says_what_the_physics_holds(simulation: Simulatio
     # On a circle nothing but gravity and the circle itself is felt.
     felt = message.linear_acceleration
     assert [felt.x, felt.y, felt.z] == pytest.approx([0.0, twist[2] * twist[3], 9.8], abs=0.05)
-    for covariance in (message.orientation_covariance, message.linear_acceleration_covariance):
+    for covariance in (
+        message.orientation_covariance,
+        message.angular_velocity_covariance,
+        message.linear_acceleration_covariance,
+    ):
         assert list(covariance[::4]) == [2.5e-5] * 3
 
 
@@ -93,9 +110,11 @@ def test_odometry_starts_at_its_own_origin_and_speaks_of_base_link(
 ) -> None:
     robot = simulation.robots[0]
     filtered = messages.OdometryMessage('odom', messages.ODOMETRY_VARIANCES)
-    filtered.fill_planar(robot.filtered)
-    filtered.fill_covariance(robot.filtered)
-    message = filtered.message
+    filtered.pack_planar(STAMP, robot.filtered)
+    filtered.pack_covariance(robot.filtered)
+    message = deserialize_message(bytes(filtered), Odometry)
+    assert stamp_of(message) == STAMP
+    assert (message.header.frame_id, message.child_frame_id) == ('odom', 'base_link')
     x, y, _ = robot.state.position
     cos, sin = math.cos(2.0), math.sin(2.0)
     travelled = [cos * (x - 2.0) + sin * (y + 1.0), cos * (y + 1.0) - sin * (x - 2.0)]
@@ -106,23 +125,29 @@ def test_odometry_starts_at_its_own_origin_and_speaks_of_base_link(
     covariance = np.array(message.pose.covariance).reshape(6, 6)
     assert (covariance[np.ix_([0, 1, 5], [0, 1, 5])] == robot.filtered.covariance[:3, :3]).all()
     assert (np.diag(covariance) > 0.0).all()
+    covariance = np.array(message.twist.covariance).reshape(6, 6)
+    assert (covariance[np.ix_([0, 1, 5], [0, 1, 5])] == robot.filtered.covariance[3:6, 3:6]).all()
 
 
 def test_the_command_out_is_what_the_limits_left(worlds: Path, drive: Drive) -> None:
     simulation = Simulation(SimulationConfig(world=str(worlds / 'empty.xml')))
     drive(simulation, 5.0, -9.0, seconds=0.02)
-    message = Twist()
-    messages.fill_command(message, simulation.robots[0].controller)
+    packed = messages.CommandMessage()
+    packed.pack(simulation.robots[0].controller)
+    message = deserialize_message(bytes(packed), Twist)
     assert (message.linear.x, message.angular.z) == pytest.approx((0.06, -0.12))
 
 
 def test_scan_and_fix_describe_themselves() -> None:
-    scan, fix = new_scan(10.0), new_fix()
+    scan, packed = new_scan(10.0), messages.FixMessage()
+    packed.pack(STAMP, (49.5, 8.5, 12.0))
+    fix = deserialize_message(bytes(packed), NavSatFix)
     assert scan.header.frame_id == 'front_laser'
     assert (scan.range_min, scan.range_max) == pytest.approx((0.1, 30.0))
     beams = 1 + round((scan.angle_max - scan.angle_min) / scan.angle_increment)
     assert beams == 720
     assert scan.scan_time == pytest.approx(0.1)
-    assert fix.header.frame_id == 'base_link'
+    assert (stamp_of(fix), fix.header.frame_id) == (STAMP, 'base_link')
+    assert (fix.latitude, fix.longitude, fix.altitude) == (49.5, 8.5, 12.0)
     assert list(fix.position_covariance[::4]) == [VARIANCE_M2] * 3
     assert fix.position_covariance_type == fix.COVARIANCE_TYPE_DIAGONAL_KNOWN

@@ -14,7 +14,6 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
-from husky_sim.messages import ODOMETRY_VARIANCES, OdometryMessage
 from husky_sim.simulation import Simulation
 import mujoco
 import numpy as np
@@ -57,10 +56,7 @@ def publish(simulation: Simulation, monkeypatch: pytest.MonkeyPatch) -> Callable
         monkeypatch.setattr(transforms, 'TFMessage', SimpleNamespace)
         recorder = Recorder()
         topics = transforms.TransformTopics(recorder, namespace, localization=localization)
-        filtered = OdometryMessage('odom', ODOMETRY_VARIANCES)
-        filtered.message.header.stamp = STAMP
-        filtered.fill_planar(simulation.robots[0].filtered)
-        topics.publish(filtered.message, simulation.robots[0])
+        topics.publish((STAMP.sec, STAMP.nanosec), simulation.robots[0])
         return recorder
 
     return once
