@@ -13,6 +13,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry as OdometryMsg
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -33,6 +34,7 @@ from husky_driver.waypoints import Course, load_course
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
+DELIVERY_SEC = 1.0  # how long the first command may take to whom it was sent
 STOP_WITHIN_SEC = 1.5  # how long a robot is waited for when the drive is broken off
 
 DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
@@ -110,6 +112,7 @@ class FollowPath(Node):
             if not self._listened:
                 self._pending = msg  # answered as soon as somebody listens
                 return
+        first = self._last_stamp == NO_STAMP
         self._pending = None
         self._last_stamp = stamp
         self._heard_sec = time.monotonic()
@@ -118,6 +121,8 @@ class FollowPath(Node):
         command = self._drive.step(odometry)
         if command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
+            if first:  # DDS may know a listener before the listener knows us
+                self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
         elif self._stopping is not None:
             self._finish(self._stopping)
         else:

@@ -9,6 +9,7 @@ import math
 from husky_driver.bump import Bump
 from husky_driver.motion import Command, Odometry, STANDING_M_S, STANDING_RAD_S
 
+UNHEARD_SEC = 0.2  # odometry that skips so much: a command may have come too late, or not at all
 STUCK_SEC = 4.0
 STUCK_MOVE_M = 0.02
 STUCK_TURN_RAD = 0.03
@@ -21,12 +22,18 @@ class Watchdog:
     """Compares commands with what odometry says came of them."""
 
     def __init__(self, start: Odometry) -> None:
-        self._moved = start
-        self._turning_well_sec = start.time_sec
+        self._judge_from(start)
         self.bump = Bump()
+
+    def _judge_from(self, odometry: Odometry) -> None:
+        self._heard_sec = self._turning_well_sec = odometry.time_sec
+        self._moved = odometry
 
     def complaint(self, odometry: Odometry, command: Command) -> str:
         """Return why the drive cannot go on, or nothing."""
+        if odometry.time_sec - self._heard_sec > UNHEARD_SEC:
+            self._judge_from(odometry)
+        self._heard_sec = odometry.time_sec
         place = f'({odometry.x_m:.2f}, {odometry.y_m:.2f})'
         if self._is_stuck(odometry, command):
             return (
