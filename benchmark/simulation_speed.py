@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
+import gc
 import multiprocessing
 import os
 import time
@@ -123,6 +124,7 @@ def node_speed(count: int, seconds: float, *, reads: bool = True, **parameters: 
     overrides = [Parameter(name, value=value) for name, value in given.items()]
     rclpy.init()
     node = SimulatorNode(parameter_overrides=overrides)
+    gc.freeze()  # as the node's own process does
     executor = EventsExecutor()
     executor.add_node(node)
     driver = multiprocessing.get_context('spawn').Process(

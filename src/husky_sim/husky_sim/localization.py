@@ -49,11 +49,12 @@ class PlanarFilter:
         self._jacobian = np.eye(8)
         for row, column in ((YAW, RATE), (VX, AX), (VY, AY)):
             self._jacobian[row, column] = period_sec
+        self._inverse = np.empty((3, 3))
         self.reset()
 
     def reset(self, imu_yaw: float = 0.0) -> None:
         """Start again at the origin, heading along x whatever the IMU says."""
-        self._state = np.zeros(8)
+        self._state = [0.0] * 8
         self.covariance: Array = np.eye(8) * INITIAL_VARIANCE
         self._imu_yaw = imu_yaw
         self._read_out()
@@ -72,44 +73,40 @@ class PlanarFilter:
         rates = (wheel_yaw_rate_rad_s, imu_yaw_rate_rad_s, turned_rad_s)
         rate = sum(w * each for w, each in zip(self._weights, rates, strict=True))
         self._predict()
-        self._correct(VX, wheel_speed_m_s, WHEEL_SPEED_VARIANCE)
-        self._correct(VY, 0.0, WHEEL_SPEED_VARIANCE)
-        self._correct(RATE, rate, self._rate_variance)
+        self._correct(wheel_speed_m_s, 0.0, rate)
         self._read_out()
 
     def _predict(self) -> None:
         t = self._period_sec
-        _, _, yaw, vx, vy, rate, ax, ay = self._state.tolist()
+        x, y, yaw, vx, vy, rate, ax, ay = self._state
         cos, sin = math.cos(yaw), math.sin(yaw)
         forward, left = vx * t + ax * t * t / 2.0, vy * t + ay * t * t / 2.0
-        self._state += (
-            forward * cos - left * sin,
-            forward * sin + left * cos,
-            rate * t,
-            ax * t,
-            ay * t,
-            0.0,
-            0.0,
-            0.0,
-        )
+        dx, dy = forward * cos - left * sin, forward * sin + left * cos
+        self._state = [x + dx, y + dy, yaw + rate * t, vx + ax * t, vy + ay * t, rate, ax, ay]
         half = t * t / 2.0
-        self._jacobian[X, 2:] = (
-            -forward * sin - left * cos, t * cos, -t * sin, 0.0, half * cos, -half * sin
-        )  # fmt: skip
-        self._jacobian[Y, 2:] = (
-            forward * cos - left * sin, t * sin, t * cos, 0.0, half * sin, half * cos
-        )  # fmt: skip
-        self.covariance = self._jacobian @ self.covariance @ self._jacobian.T + self._noise
+        jacobian = self._jacobian
+        jacobian[X, 2:] = (-dy, t * cos, -t * sin, 0.0, half * cos, -half * sin)
+        jacobian[Y, 2:] = (dx, t * sin, t * cos, 0.0, half * sin, half * cos)
+        self.covariance = jacobian.dot(self.covariance).dot(jacobian.T) + self._noise
 
-    def _correct(self, place: int, measured: float, variance: float) -> None:
-        """Take one measurement of one state."""
-        column = self.covariance[:, place].copy()
-        gain = column / (column[place] + variance)
-        self._state += gain * (measured - self._state[place])
-        self.covariance -= gain[:, None] * column
+    def _correct(self, speed_m_s: float, sideways_m_s: float, rate_rad_s: float) -> None:
+        """Take measurements of VX, VY and RATE, which stand side by side, at once."""
+        state, seen = self._state, self.covariance[VX : RATE + 1]
+        (a, b, c), (_, d, e), (_, _, f) = seen[:, VX : RATE + 1].tolist()
+        a, d, f = a + WHEEL_SPEED_VARIANCE, d + WHEEL_SPEED_VARIANCE, f + self._rate_variance
+        # The inverse of a symmetric matrix, by its cofactors.
+        aa, ab, ac = d * f - e * e, c * e - b * f, b * e - c * d
+        bb, bc, cc = a * f - c * c, b * c - a * e, a * d - b * b
+        size = a * aa + b * ab + c * ac
+        self._inverse[:] = (aa, ab, ac), (ab, bb, bc), (ac, bc, cc)
+        gain = self._inverse.dot(seen) / size
+        errors = speed_m_s - state[VX], sideways_m_s - state[VY], rate_rad_s - state[RATE]
+        change = np.dot(errors, gain).tolist()
+        self._state = [before + by for before, by in zip(state, change, strict=True)]
+        self.covariance -= gain.T.dot(seen)
 
     def _read_out(self) -> None:
         self.x, self.y, yaw, self.speed_m_s, self.sideways_m_s, self.yaw_rate_rad_s, _, _ = (
-            self._state.tolist()
+            self._state
         )
         self.yaw = wrapped(yaw)

@@ -18,8 +18,8 @@ from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
 
 from husky_sim.cdr import SerializedMessage
 from husky_sim.contacts import Touch
-from husky_sim.diff_drive import VelocityController, WheelOdometry
-from husky_sim.husky import JOINTS, Quaternion, RobotState, Vector
+from husky_sim.diff_drive import WheelOdometry
+from husky_sim.husky import JOINTS, Quaternion, Vector
 from husky_sim.imu import VARIANCE as IMU_VARIANCE
 from husky_sim.localization import PlanarFilter
 from husky_sim.navsat import VARIANCE_M2
@@ -50,30 +50,58 @@ class OdometryMessage(SerializedMessage):
         message.pose.covariance[::7] = variances
         message.twist.covariance[::7] = variances
         super().__init__(message)
-        self._stamp = self.packer('iI', 'header.stamp.sec')
-        self._pose = self.packer('7d', 'pose.pose.position.x')
-        self._twist = self.packer('6d', 'twist.twist.linear.x')
+        self.pack_stamp = self.packer('iI', 'header.stamp.sec')
+        self.pack_pose = self.packer('7d', 'pose.pose.position.x')
+        self.pack_twist = self.packer('6d', 'twist.twist.linear.x')
+
+    def pack_planar(self, estimate: WheelOdometry | PlanarFilter) -> None:
+        """Pack an estimate that lives in the plane."""
+        half = estimate.yaw / 2.0
+        self.pack_pose(estimate.x, estimate.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half))
+        self.pack_twist(estimate.speed_m_s, 0.0, 0.0, 0.0, 0.0, estimate.yaw_rate_rad_s)
+
+
+class WheelOdometryMessage(OdometryMessage):
+    """Where the wheels say the robot is."""
+
+    def __init__(self) -> None:
+        super().__init__('odom', ODOMETRY_VARIANCES)
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the wheel odometry."""
+        self.pack_stamp(*stamp)
+        self.pack_planar(robot.odometry)
+
+
+class FilteredOdometryMessage(OdometryMessage):
+    """Where the filter believes the robot is, and how sure it is."""
+
+    def __init__(self) -> None:
+        super().__init__('odom', ODOMETRY_VARIANCES)
         self._pose_covariance = self.doubles('pose.covariance', 36)
         self._twist_covariance = self.doubles('twist.covariance', 36)
 
-    def pack_planar(self, stamp: Stamp, estimate: WheelOdometry | PlanarFilter) -> None:
-        """Pack an estimate that lives in the plane."""
-        half = estimate.yaw / 2.0
-        self._stamp(*stamp)
-        self._pose(estimate.x, estimate.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half))
-        self._twist(estimate.speed_m_s, 0.0, 0.0, 0.0, 0.0, estimate.yaw_rate_rad_s)
-
-    def pack_covariance(self, estimate: PlanarFilter) -> None:
-        """Pack how sure the filter is: of x, y, yaw, and of their speeds in base_link."""
-        covariance = estimate.covariance
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the estimate; the covariances are of x, y, yaw, and of their speeds."""
+        self.pack_stamp(*stamp)
+        self.pack_planar(robot.filtered)
+        covariance = robot.filtered.covariance
         self._pose_covariance[_PLANE] = covariance[:3, :3].ravel()
         self._twist_covariance[_PLANE] = covariance[3:6, 3:6].ravel()
 
-    def pack_truth(self, stamp: Stamp, state: RobotState) -> None:
+
+class GroundTruthMessage(OdometryMessage):
+    """Where the robot is."""
+
+    def __init__(self) -> None:
+        super().__init__('world', (0.0,) * 6)
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Pack the true pose and twist."""
-        self._stamp(*stamp)
-        self._pose(*state.position, *_xyzw(state.orientation))
-        self._twist(*state.velocity, *state.angular_velocity)
+        state = robot.state
+        self.pack_stamp(*stamp)
+        self.pack_pose(*state.position, *_xyzw(state.orientation))
+        self.pack_twist(*state.velocity, *state.angular_velocity)
 
 
 class ImuMessage(SerializedMessage):
@@ -129,8 +157,9 @@ class CommandMessage(SerializedMessage):
         super().__init__(Twist())
         self._twist = self.packer('6d', 'linear.x')
 
-    def pack(self, controller: VelocityController) -> None:
+    def pack(self, _: Stamp, robot: SimulatedRobot) -> None:
         """Pack the command as the limits left it."""
+        controller = robot.controller
         self._twist(controller.speed_m_s, 0.0, 0.0, 0.0, 0.0, controller.yaw_rate_rad_s)
 
 

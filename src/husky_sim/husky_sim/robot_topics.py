@@ -3,6 +3,7 @@
 """The topics of one robot."""
 
 from collections.abc import Callable
+import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -23,6 +24,9 @@ from husky_sim.transforms import TransformTopics
 
 # Reliable and volatile: a reader that is slow for a moment loses nothing.
 QOS = QoSProfile(depth=10)
+
+LOOK_SEC = 0.005
+"""How often to look who reads, by the wall clock: each look costs as much as a message."""
 
 _COMMAND_TYPE = 'geometry_msgs/msg/Twist'
 
@@ -48,26 +52,25 @@ class RobotTopics:
         self._simulation = simulation
         self._on_command = on_command
         self._logger = node.get_logger()
-        variances = messages.ODOMETRY_VARIANCES
-        self._wheel = messages.OdometryMessage('odom', variances)
-        self._filtered = messages.OdometryMessage('odom', variances)
-        self._truth = messages.OdometryMessage('world', (0.0,) * 6)
-        self._imu = messages.ImuMessage()
-        self._joints = messages.JointStateMessage()
-        self._command_out = messages.CommandMessage()
         controller = f'{namespace}husky_velocity_controller'
+        self._filtered = messages.FilteredOdometryMessage()
         self.filtered_publisher: Any = None
         if simulation.config.sensors.localization:
             self.filtered_publisher = node.create_publisher(
                 Odometry, f'{namespace}odometry/filtered', QOS
             )
-        self._wheel_publisher = node.create_publisher(Odometry, f'{controller}/odom', QOS)
-        self._command_publisher = node.create_publisher(Twist, f'{controller}/cmd_vel_out', QOS)
-        self._truth_publisher = node.create_publisher(
-            Odometry, f'{namespace}ground_truth/odom', QOS
-        )
-        self._imu_publisher = node.create_publisher(Imu, f'{namespace}imu/data', QOS)
-        self._joint_publisher = node.create_publisher(JointState, f'{namespace}joint_states', QOS)
+        self._rest: list[tuple[Any, Publisher]] = [
+            (message, node.create_publisher(kind, topic, QOS))
+            for message, kind, topic in (
+                (messages.WheelOdometryMessage(), Odometry, f'{controller}/odom'),
+                (messages.CommandMessage(), Twist, f'{controller}/cmd_vel_out'),
+                (messages.ImuMessage(), Imu, f'{namespace}imu/data'),
+                (messages.JointStateMessage(), JointState, f'{namespace}joint_states'),
+                (messages.GroundTruthMessage(), Odometry, f'{namespace}ground_truth/odom'),
+            )
+        ]
+        self._read = self._rest  # those of them that somebody reads
+        self._look_again_sec = 0.0
         self._collision_publisher = node.create_publisher(
             DiagnosticStatus, f'{namespace}collisions', QOS
         )
@@ -123,36 +126,21 @@ class RobotTopics:
 
     def publish_filtered(self, stamp: Stamp) -> None:
         """Publish what a driver steers by: first of all, so that it works while we go on."""
-        if self.filtered_publisher is None:
-            return
-        self._filtered.pack_planar(stamp, self.robot.filtered)
-        self._filtered.pack_covariance(self.robot.filtered)
-        self.filtered_publisher.publish(bytes(self._filtered))
+        if self.filtered_publisher is not None:
+            self._filtered.pack(stamp, self.robot)
+            self.filtered_publisher.publish(bytes(self._filtered))
 
     def publish_rest(self, stamp: Stamp) -> None:
-        """
-        Publish everything else of a control period that somebody reads.
-
-        To find out costs less than to publish.
-        """
-        robot = self.robot
-        if _is_read(self._wheel_publisher):
-            self._wheel.pack_planar(stamp, robot.odometry)
-            self._wheel_publisher.publish(bytes(self._wheel))
-        if _is_read(self._command_publisher):
-            self._command_out.pack(robot.controller)
-            self._command_publisher.publish(bytes(self._command_out))
-        if _is_read(self._imu_publisher):
-            self._imu.pack(stamp, robot)
-            self._imu_publisher.publish(bytes(self._imu))
-        if _is_read(self._joint_publisher):
-            self._joints.pack(stamp, robot)
-            self._joint_publisher.publish(bytes(self._joints))
-        if _is_read(self._truth_publisher):
-            self._truth.pack_truth(stamp, robot.state)
-            self._truth_publisher.publish(bytes(self._truth))
+        """Publish everything else of a control period that somebody reads."""
+        now_sec = time.monotonic()
+        if now_sec >= self._look_again_sec:
+            self._look_again_sec = now_sec + LOOK_SEC
+            self._read = [each for each in self._rest if each[1].get_subscription_count()]
+        for message, publisher in self._read:
+            message.pack(stamp, self.robot)
+            publisher.publish(bytes(message))
         self._sensors.publish(stamp)
-        self._transforms.publish(stamp, robot)
+        self._transforms.publish(stamp, self.robot)
 
     def publish_collision(self, touch: Touch) -> None:
         """Publish one collision."""
@@ -168,7 +156,3 @@ class RobotTopics:
     def close(self) -> None:
         """Let go of what the node does not own; may be called twice."""
         self._sensors.close()
-
-
-def _is_read(publisher: Publisher) -> bool:
-    return bool(publisher.get_subscription_count())

@@ -60,8 +60,8 @@ def true_twist(simulation: Simulation) -> list[float]:
 
 
 def test_ground_truth_is_pose_and_twist_of_the_body(simulation: Simulation) -> None:
-    packed = messages.OdometryMessage('world', (0.0,) * 6)
-    packed.pack_truth(STAMP, simulation.robots[0].state)
+    packed = messages.GroundTruthMessage()
+    packed.pack(STAMP, simulation.robots[0])
     message = deserialize_message(bytes(packed), Odometry)
     twist = true_twist(simulation)  # brings the body's pose up to date
     body = simulation.data.body('husky/base_link')
@@ -109,9 +109,8 @@ def test_odometry_starts_at_its_own_origin_and_speaks_of_base_link(
     simulation: Simulation,
 ) -> None:
     robot = simulation.robots[0]
-    filtered = messages.OdometryMessage('odom', messages.ODOMETRY_VARIANCES)
-    filtered.pack_planar(STAMP, robot.filtered)
-    filtered.pack_covariance(robot.filtered)
+    filtered = messages.FilteredOdometryMessage()
+    filtered.pack(STAMP, robot)
     message = deserialize_message(bytes(filtered), Odometry)
     assert stamp_of(message) == STAMP
     assert (message.header.frame_id, message.child_frame_id) == ('odom', 'base_link')
@@ -133,7 +132,7 @@ def test_the_command_out_is_what_the_limits_left(worlds: Path, drive: Drive) -> 
     simulation = Simulation(SimulationConfig(world=str(worlds / 'empty.xml')))
     drive(simulation, 5.0, -9.0, seconds=0.02)
     packed = messages.CommandMessage()
-    packed.pack(simulation.robots[0].controller)
+    packed.pack(STAMP, simulation.robots[0])
     message = deserialize_message(bytes(packed), Twist)
     assert (message.linear.x, message.angular.z) == pytest.approx((0.06, -0.12))
 
