@@ -35,6 +35,7 @@ class Scene:
         self.client = next(iter(server.get_clients().values()))
         self._told = (np.zeros(3), np.zeros(3))
         self._before_sec = time.monotonic()
+        self._turn_again_sec = 0.0
 
         @self.client.camera.on_update
         async def _(camera: viser.CameraHandle) -> None:
@@ -57,6 +58,15 @@ class Scene:
             self.client, preset, robot=self.robot, yaw=0.0, now_sec=time.monotonic()
         )
 
+    def is_zoomed(self) -> bool:
+        """Turn the wheel as a person does, who sees whether the page has taken it."""
+        if self.away_m > 1.02 * BEHIND_M:
+            return True
+        if time.monotonic() > self._turn_again_sec:
+            self.tab.wheel(500, 350, 240)
+            self._turn_again_sec = time.monotonic() + 0.5
+        return False
+
     def wait(self, fact: Callable[[], bool], what: str) -> None:
         """Go on as the view's frames do, until the fact holds."""
 
@@ -68,7 +78,7 @@ class Scene:
             self._cameras.follow(self.robot, now_sec=now)
             return fact()
 
-        wait_until(frame, timeout_sec=20.0, what=lambda: f'{what}: {self._told}, {self.robot}')
+        wait_until(frame, timeout_sec=40.0, what=lambda: f'{what}: {self._told}, {self.robot}')
 
 
 @pytest.fixture(scope='module')
@@ -87,14 +97,13 @@ def distance(ones: Array, others: Array) -> float:
     return float(np.linalg.norm(ones - others))
 
 
-@pytest.mark.timeout(60)
+@pytest.mark.timeout(180)
 def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scene: Scene) -> None:
     scene.choose(FOLLOW)
     scene.driving = True
     scene.wait(lambda: scene.at[0] > 1.0, 'a camera that goes along')
     assert distance(scene.offset, BEHIND) < 0.02
-    scene.tab.wheel(500, 350, 240)
-    scene.wait(lambda: scene.away_m > 1.02 * BEHIND_M, 'a camera further away')
+    scene.wait(scene.is_zoomed, 'a camera further away')
     begun = scene.robot[0]
     scene.wait(
         lambda: scene.at[0] > begun + 1.5 and distance(scene.at, scene.robot) < 0.6,
@@ -110,7 +119,7 @@ def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scen
     assert scene.away_m == pytest.approx(zoomed_m, rel=0.05)
 
 
-@pytest.mark.timeout(60)
+@pytest.mark.timeout(180)
 def test_free_leaves_the_camera_where_it_is_and_top_looks_down(scene: Scene) -> None:
     scene.choose(FOLLOW)
     scene.driving = False

@@ -12,6 +12,7 @@ from array import array
 from collections.abc import Callable
 from dataclasses import dataclass
 import hashlib
+import time
 from typing import Any
 from uuid import uuid4
 
@@ -27,8 +28,8 @@ from husky_sim.world import World
 
 TOPIC = '~/scene'
 RATE_HZ = 30.0
-MOST_ROWS = 256
-"""Of a message's track; a faster simulation leaves out every second entry, as often as needed."""
+ROW_SEC = 0.004
+"""Wall time from one entry of a track to the next: a fast simulation has more than can be seen."""
 
 TRACK = ('x', 'y', 'yaw', 'odom_x', 'odom_y', 'odom_yaw', 'speed_m_s')
 """Of every robot, after the time: the true pose, the believed one, the true speed."""
@@ -66,7 +67,8 @@ class SceneTopic:
         self._is_paused = is_paused
         self._watched = False
         self._rows = array('d')
-        self._width = 1 + len(TRACK) * len(simulation.robots)
+        self._next_row_sec = 0.0
+        self._last_row = -1
         self._message = Float64MultiArray()
         self._message.layout.dim = [
             MultiArrayDimension(label='paused', size=1),
@@ -79,10 +81,12 @@ class SceneTopic:
 
     def append(self) -> None:
         """Take down where the robots are; call it after every control period."""
-        if self._watched:
+        if self._watched and time.monotonic() >= self._next_row_sec:
             self._append()
 
     def _append(self) -> None:
+        self._next_row_sec = time.monotonic() + ROW_SEC
+        self._last_row = self._simulation.periods
         rows = self._rows
         rows.append(self._simulation.time_sec)
         for robot in self._simulation.robots:
@@ -98,14 +102,12 @@ class SceneTopic:
                     state.velocity[0],
                 )
             )
-        if len(rows) > MOST_ROWS * self._width:
-            self._rows = _every_second(rows, self._width)
 
     def _on_timer(self) -> None:
         self._watched = self._publisher.get_subscription_count() > 0
         if not self._watched:
             return
-        if not self._rows:
+        if not self._rows or self._last_row != self._simulation.periods:
             self._append()
         data = array('d', [float(self._is_paused())])
         data.frombytes(self._simulation.data.qpos.tobytes())
@@ -115,12 +117,6 @@ class SceneTopic:
         self._message.data = data
         self._publisher.publish(self._message)
         self._rows = array('d')
-
-
-def _every_second(rows: 'array[float]', width: int) -> 'array[float]':
-    """Thin a track out, keeping its last entry."""
-    table = np.frombuffer(rows).reshape(-1, width)
-    return array('d', table[::-1][::2][::-1].tobytes())
 
 
 def world_key(world: World) -> str:

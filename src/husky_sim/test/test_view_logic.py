@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parts of the view that need neither a browser nor ROS."""
 
-from array import array
 import json
 import math
 from pathlib import Path
@@ -11,7 +10,6 @@ from typing import Any
 
 from husky_sim.pushed import loose_bodies, MOVED
 from husky_sim.record import RunRecord
-from husky_sim.scene_topic import _every_second
 from husky_sim.simulation import Simulation
 from husky_sim.view import course
 from husky_sim.view.draft import Draft
@@ -102,11 +100,6 @@ def test_a_playback_plays_stands_at_its_end_and_begins_again() -> None:
     playback.jump(99.0)
     assert playback.time_sec == 10.0
     assert playback.step(1.0)
-
-
-def test_a_thinned_track_keeps_its_last_entry() -> None:
-    rows = array('d', [float(value) for row in range(7) for value in (row, 10 * row)])
-    assert _every_second(rows, 2).tolist() == [0.0, 0.0, 2.0, 20.0, 4.0, 40.0, 6.0, 60.0]
 
 
 def test_a_taken_port_is_passed_over_and_a_foreign_host_is_refused() -> None:

@@ -20,6 +20,10 @@ GLIDE_SEC = 0.15
 HANDS_OFF_SEC = 0.3
 """How long the camera stands after a person turned or zoomed it."""
 
+ECHO_SEC = 0.2
+"""How long to wait until the page tells of the camera it was given, before it is given the next:
+what a person does meanwhile would be overridden unseen."""
+
 JUMP_M = 5.0
 """A robot further away than this did not drive there: it was reset, or a replay jumped."""
 
@@ -42,6 +46,7 @@ class Chase:
         self._hands_off_until_sec = -math.inf
         self._heard = False
         self._reported: Array | None = None
+        self._given_sec = -math.inf
         self._given = offset  # before a person changed it
         self._undone = False
 
@@ -51,8 +56,10 @@ class Chase:
 
     def step(self, robot: Array, *, now_sec: float) -> bool:
         """Go on; returns whether the camera is to be moved, to look at `at` from `offset`."""
-        elapsed_sec, self._before_sec = now_sec - self._before_sec, now_sec
         self._listen(now_sec)
+        if now_sec - self._given_sec < ECHO_SEC:
+            return False
+        elapsed_sec, self._before_sec = now_sec - self._before_sec, now_sec
         if now_sec < self._hands_off_until_sec:
             return False
         lag = robot - self.at
@@ -61,6 +68,7 @@ class Chase:
             undone, self._undone = self._undone, False
             return undone or not self._heard
         self._undone = False
+        self._given_sec = now_sec
         glide = 1.0 - math.exp(-elapsed_sec / GLIDE_SEC)
         self.at = robot.copy() if distance_m > JUMP_M else self.at + glide * lag
         return True
@@ -70,6 +78,7 @@ class Chase:
         self._heard = self._heard or now_sec - self._begun_sec > _HEARD_SEC
         if offset is None or not np.any(offset):
             return
+        self._given_sec = -math.inf
         if _same(offset, self.offset):
             self._heard = True
             self._given = self.offset
