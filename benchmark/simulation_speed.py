@@ -134,7 +134,7 @@ def node_speed(count: int, seconds: float, *, reads: bool = True, **parameters: 
     try:
         return _measured(node, executor, seconds)
     finally:
-        driver.kill()
+        driver.terminate()  # softly: who is killed leaves shared memory behind
         driver.join()
         executor.remove_node(node)
         executor.shutdown()
