@@ -13,7 +13,7 @@ import sys
 import time
 
 from husky_driver.classroom import Classroom, write_csv
-from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.command_line import BAD_INPUT, nobody_reads, Parser
 from husky_driver.courses import default_course
 from husky_driver.grading import grade_file, Graded
 from husky_driver.progress import Tally
@@ -78,21 +78,29 @@ def main(args: Sequence[str] | None = None) -> int:
     if options.jobs < 0:
         parser.error(f'--jobs {options.jobs}: give a number above 0')
     try:
-        if options.record:
-            return _grade_record(options)
-        if options.controller:
-            return _grade_controller(options)
-        if options.lab:
-            return _grade_lab(options)
-        if len(options.files) == 1:
-            return _grade_one(options)
-        return _grade_many(options)
+        status = _grade(options)
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        return nobody_reads()
     except (ValueError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT
     except KeyboardInterrupt:
         print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
         return INTERRUPTED
+
+
+def _grade(options: argparse.Namespace) -> int:
+    if options.record:
+        return _grade_record(options)
+    if options.controller:
+        return _grade_controller(options)
+    if options.lab:
+        return _grade_lab(options)
+    if len(options.files) == 1:
+        return _grade_one(options)
+    return _grade_many(options)
 
 
 def _grade_record(options: argparse.Namespace) -> int:

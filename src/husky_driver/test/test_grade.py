@@ -4,6 +4,8 @@
 
 import json
 from pathlib import Path
+import subprocess
+import sys
 from typing import Any
 
 from husky_driver.check import main as check
@@ -44,6 +46,20 @@ def test_the_central_barrier_is_passed_within_the_lab_s_own_limits(
     page = (tmp_path / 'report.html').read_text()
     assert 'http' not in page.replace('http://www.w3.org', '')
     assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
+
+
+def test_whoever_has_read_enough_of_it_is_not_told_of_a_broken_pipe(
+    courses: Path, tmp_path: Path
+) -> None:
+    course = str(courses / 'straight.yaml')
+    command = [sys.executable, '-m', 'husky_driver.grade', course, '--report', str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+        assert run.stdout is not None
+        assert run.stderr is not None
+        run.stdout.close()
+        assert run.stderr.read() == b''
+    assert run.returncode == 141
+    assert (tmp_path / 'report.html').exists()
 
 
 @pytest.mark.parametrize(
