@@ -18,6 +18,7 @@ from typing import Any
 from geometry_msgs.msg import Twist
 import rclpy
 from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
@@ -29,6 +30,7 @@ from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, spl
 from husky_driver.motion import Command, STOP
 
 PERIOD_SEC = 0.05
+DELIVERY_SEC = 0.5  # how long the last command, a stop, may take to whoever listens
 ENDINGS = ('\x03', '\x1b', '')  # Ctrl-C, Esc, and a terminal that is gone
 
 
@@ -77,6 +79,10 @@ class Teleop(Node):
         message = Twist()
         message.linear.x, message.angular.z = command
         self._commands.publish(message)
+
+    def deliver(self) -> None:
+        """Wait until the last command has arrived: with the node goes what it has not sent."""
+        self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
 
     def end(self) -> None:
         """Stop the robot and finish."""
@@ -128,6 +134,7 @@ def main(args: Sequence[str] | None = None) -> int:
             while not node.finished.done():
                 executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
     finally:
+        node.deliver()
         executor.remove_node(node)
         node.destroy_node()
         rclpy.try_shutdown()
