@@ -19,6 +19,8 @@ FLAGS = (
     *('--disable-background-networking', '--disable-component-update', '--disable-sync'),
     *('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'),
     *('--disable-extensions', '--mute-audio', '--remote-debugging-port=0'),
+    # Drawing without a graphics processor may take long, but it has not hung.
+    '--disable-gpu-watchdog',
 )
 START_SEC = 30.0
 
@@ -73,6 +75,8 @@ class Browser:
         self._tabs.append(tab)
         tab.visit(url)
         tab.wait_for(number('time'), what='the panel of the view')
+        if drawn:
+            tab.wait_for_picture()
         return tab
 
     def close_tabs(self) -> None:

@@ -4,11 +4,16 @@
 
 import base64
 from collections.abc import Callable
+import io
 import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from PIL import Image
+
 from playpen_testing.devtools import DevTools
+from playpen_testing.page import number
 from playpen_testing.waiting import wait_until
 
 # What viser's own code makes Chromium say about itself, without harm.
@@ -26,6 +31,13 @@ _DRAW_SELDOM = """
 const soon = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 100);
 """
+
+_IS_CANVAS_LOST = """(() => {
+  const canvas = document.querySelector('canvas');
+  const drawing = canvas && canvas.getContext("webgl2");
+  return Boolean(drawing && drawing.isContextLost());
+})()"""
+_ASPHALT = np.array([75, 75, 77])
 
 
 class Tab:
@@ -174,6 +186,24 @@ class Tab:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
         return data
+
+    def wait_for_picture(self) -> None:
+        """
+        Wait until the asphalt is drawn.
+
+        Chromium may take the canvas away from a page that loads on a busy machine (a lost WebGL
+        context, which it does not give back in time); a person would load the page again.
+        """
+
+        def is_drawn() -> bool:
+            if self.run(_IS_CANVAS_LOST):
+                self.call('Page.reload')
+                self.wait_for(number('time'), what='the panel of the view, loaded again')
+            png = base64.b64decode(self.call('Page.captureScreenshot', format='png')['data'])
+            pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
+            return bool((np.abs(pixels - _ASPHALT).max(axis=2) < 20).mean() > 0.05)
+
+        wait_until(is_drawn, timeout_sec=60.0, what=lambda: f'asphalt on the page; {self.errors}')
 
     def still(self, path: Path) -> bytes:
         """Take a picture as soon as nothing moves any more, such as labels that come late."""
