@@ -78,7 +78,7 @@ class Scene:
             self._cameras.follow(self.robot, now_sec=now)
             return fact()
 
-        wait_until(frame, timeout_sec=40.0, what=lambda: f'{what}: {self._told}, {self.robot}')
+        wait_until(frame, timeout_sec=20.0, what=lambda: f'{what}: {self._told}, {self.robot}')
 
 
 @pytest.fixture(scope='module')
@@ -97,7 +97,7 @@ def distance(ones: Array, others: Array) -> float:
     return float(np.linalg.norm(ones - others))
 
 
-@pytest.mark.timeout(180)
+@pytest.mark.timeout(60)
 def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scene: Scene) -> None:
     scene.choose(FOLLOW)
     scene.driving = True
@@ -119,7 +119,7 @@ def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scen
     assert scene.away_m == pytest.approx(zoomed_m, rel=0.05)
 
 
-@pytest.mark.timeout(180)
+@pytest.mark.timeout(60)
 def test_free_leaves_the_camera_where_it_is_and_top_looks_down(scene: Scene) -> None:
     scene.choose(FOLLOW)
     scene.driving = False

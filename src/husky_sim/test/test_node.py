@@ -204,15 +204,15 @@ def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
         )
         return time.monotonic() - begin
 
-    assert taken_sec(1.0) > 1.9, 'it ran ahead'
+    assert 1.9 < taken_sec(1.0) < 3.0
     refused, changed = run.simulator.set_parameters(
         [Parameter('real_time_factor', value=-1.0), Parameter('real_time_factor', value=2.0)]
     )
     assert not refused.successful
     assert changed.successful
-    twice_sec = taken_sec(3.0)
-    assert twice_sec > 1.4, 'it ran ahead'
-    assert twice_sec < 3.0, 'it stayed far behind'
+    assert 1.4 < taken_sec(3.0) < 3.0
+    run.simulator.set_parameters([Parameter('real_time_factor', value=6.0)])
+    assert 0.45 < taken_sec(3.0) < 1.4
 
 
 def test_the_scene_of_a_fast_run_leaves_out_what_nobody_could_see(
