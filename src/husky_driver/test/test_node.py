@@ -31,7 +31,6 @@ from std_srvs.srv import SetBool
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
 NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
-FIRST_DOMAIN = 71
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 
 
@@ -70,13 +69,6 @@ class PlantNode(Node):
         msg.pose.pose.orientation.w = math.cos(now.yaw_rad / 2)
         msg.twist.twist.linear.x, msg.twist.twist.angular.z = now.speed_m_s, now.yaw_rate_rad_s
         self._odometry.publish(msg)
-
-
-@pytest.fixture
-def domain(request: pytest.FixtureRequest) -> int:
-    """Give each test of this module a domain of its own."""
-    names = [item.name for item in request.session.items if item.path == request.node.path]
-    return FIRST_DOMAIN + names.index(request.node.name) % 13
 
 
 @pytest.fixture

@@ -28,7 +28,9 @@ from std_srvs.srv import Empty, SetBool, Trigger
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.diagnostics import DiagnosticsTopic, PaceWatch
 from husky_sim.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
+from husky_sim.domains import lock_simulator
 from husky_sim.errors import SettingError, SimulatorError
+from husky_sim.interference import Interference, InterferenceWatch
 from husky_sim.messages import ClockMessage
 from husky_sim.pacing import Pacer
 from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
@@ -60,8 +62,11 @@ class SimulatorNode(Node):
         Read the parameters and load the world.
 
         :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
-        :raises SimulatorError: if a parameter, the world or a start pose cannot be used.
+        :raises SimulatorError: if a parameter, the world or a start pose cannot be used, or if
+            another simulator runs in the domain.
         """
+        context = arguments.get('context') or rclpy.get_default_context()
+        self._lock = lock_simulator(context.get_domain_id())
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)
@@ -83,6 +88,15 @@ class SimulatorNode(Node):
         self._by_name = {topics.robot.name: topics for topics in self._topics}
         self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
         self._clock_message = ClockMessage()
+        self._interference = InterferenceWatch(
+            self,
+            ours=[
+                self._clock_publisher.topic_name,
+                *(name for topics in self._topics for name in topics.odometry_topics),
+            ],
+            commands=[topics.command_subscription.topic_name for topics in self._topics],
+            on_found=self._on_interference,
+        )
         self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
@@ -201,6 +215,11 @@ class SimulatorNode(Node):
         for touch in self._simulation.touches:
             self._by_name[touch.robot].publish_collision(touch)
 
+    def _on_interference(self, found: Interference) -> None:
+        self.get_logger().error(str(found))
+        if self._record is not None:
+            self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
+
     def _on_diagnose(self) -> None:
         status = self._watch.look(
             self._pacer,
@@ -273,6 +292,7 @@ class SimulatorNode(Node):
         for topics in self._topics:
             topics.close()
         super().destroy_node()
+        self._lock.close()
 
 
 def main(args: list[str] | None = None) -> int:

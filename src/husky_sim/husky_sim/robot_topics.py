@@ -69,6 +69,11 @@ class RobotTopics:
                 (messages.GroundTruthMessage(), Odometry, f'{namespace}ground_truth/odom'),
             )
         ]
+        self.odometry_topics = [
+            publisher.topic_name
+            for message, publisher in ((self._filtered, self.filtered_publisher), *self._rest)
+            if publisher is not None and isinstance(message, messages.OdometryMessage)
+        ]
         self._read = self._rest  # those of them that somebody reads
         self._look_again_sec = 0.0
         self._collision_publisher = node.create_publisher(
