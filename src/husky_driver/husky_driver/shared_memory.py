@@ -23,14 +23,14 @@ def clean_shared_memory() -> None:
     if not Path('/proc/self/maps').exists():  # not Linux
         return
     deadline = time.monotonic() + 2 * _MADE_SEC
-    while (files := _unused()) and time.monotonic() < deadline:
+    while (files := unused_files()) and time.monotonic() < deadline:
         for file, age_sec in files.items():
             if age_sec > _MADE_SEC:
                 file.unlink(missing_ok=True)
         time.sleep(_MADE_SEC / 10)
 
 
-def _unused() -> dict[Path, float]:
+def unused_files() -> dict[Path, float]:
     """Return the age of every file of this user that is in nobody's memory."""
     ages: dict[Path, float] = {}
     for file in _FOLDER.glob(f'*{_MARK}*'):
