@@ -27,6 +27,7 @@ import sys, rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
+from husky_sim.domains import in_own_domain
 rclpy.init()
 node = Node(sys.argv[1])
 publisher = node.create_publisher(String, f'{sys.argv[1]}/text', 10)
@@ -105,4 +106,5 @@ def _children_cpu() -> float:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    with in_own_domain():
+        sys.exit(main())

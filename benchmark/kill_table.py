@@ -12,7 +12,6 @@ Exit status 1 if anything stayed, took longer than 3 s, or drove otherwise.
 import argparse
 from dataclasses import dataclass, field
 import json
-import os
 from pathlib import Path
 import random
 import subprocess
@@ -22,7 +21,7 @@ import time
 
 from husky_driver.processes import adopt_orphans
 from husky_driver.shared_memory import clean_shared_memory, unused_files
-from husky_sim.domains import OwnDomain
+from husky_sim.domains import in_own_domain
 import psutil
 
 LAB = str(Path(__file__).resolve().parent.parent / 'lab')
@@ -123,8 +122,7 @@ def main() -> int:
     chance = random.Random(options.seed)
     adopt_orphans()
     rows: dict[str, Row] = {}
-    with tempfile.TemporaryDirectory() as name, OwnDomain() as domain:
-        os.environ['ROS_DOMAIN_ID'] = str(domain.number)
+    with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         right = drive_fast(folder)
         for process in options.names or PROCESSES:
@@ -144,4 +142,5 @@ def main() -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    with in_own_domain():
+        sys.exit(main())

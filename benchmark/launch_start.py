@@ -41,6 +41,7 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
+from husky_sim.domains import in_own_domain
 
 def nodes(context):
     folder = LaunchConfiguration('folder').perform(context)
@@ -137,4 +138,5 @@ def main() -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    with in_own_domain():
+        sys.exit(main())

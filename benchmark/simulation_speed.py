@@ -21,6 +21,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
+from husky_sim.domains import in_own_domain
 from husky_sim.node import SimulatorNode
 from husky_sim.world import default_worlds, load_world
 import mujoco
@@ -185,4 +186,5 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    main()
+    with in_own_domain():
+        main()

@@ -9,6 +9,8 @@ file behind, and counts for every user of the machine, but only in one network n
 where DDS participants hear each other. Where there is no such namespace, a locked file stands in.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import FileIO
 import os
 from pathlib import Path
@@ -24,6 +26,7 @@ from husky_sim.errors import DomainError
 # ports are those that Linux gives to any program (ip_local_port_range).
 DOMAINS = (*range(30, 102), *range(215, 233))
 
+_VARIABLE = 'ROS_DOMAIN_ID'
 _PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.3, 9.6.1.1: PB, DG
 _MOST_PARTICIPANTS = 20  # of a domain that are looked for
 _WAITING = 4096  # connections that nobody accepts: each asks who holds the lock
@@ -89,6 +92,20 @@ class OwnDomain:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+@contextmanager
+def in_own_domain() -> Iterator[int]:
+    """Put this process, and what it starts meanwhile, into a domain of its own."""
+    with OwnDomain() as domain:
+        before = os.environ.get(_VARIABLE)
+        os.environ[_VARIABLE] = str(domain.number)
+        try:
+            yield domain.number
+        finally:
+            os.environ.pop(_VARIABLE)
+            if before is not None:
+                os.environ[_VARIABLE] = before
 
 
 def lock_simulator(domain: int) -> Lock:
