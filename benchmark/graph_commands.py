@@ -22,12 +22,13 @@ import subprocess
 import sys
 import time
 
+from husky_sim.domains import in_own_domain
+
 _NODE = """
 import sys, rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
-from husky_sim.domains import in_own_domain
 rclpy.init()
 node = Node(sys.argv[1])
 publisher = node.create_publisher(String, f'{sys.argv[1]}/text', 10)

@@ -24,6 +24,8 @@ import sys
 import tempfile
 import time
 
+from husky_sim.domains import in_own_domain
+
 _NODE = """
 import sys, time, rclpy
 from rclpy.executors import ExternalShutdownException
@@ -41,7 +43,6 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
-from husky_sim.domains import in_own_domain
 
 def nodes(context):
     folder = LaunchConfiguration('folder').perform(context)
