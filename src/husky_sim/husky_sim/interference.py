@@ -15,6 +15,10 @@ from rclpy.node import Node
 LOOK_SEC = 0.1
 """Wall time between two looks at the graph."""
 
+PATIENCE_LOOKS = 20
+"""So long the name of a node may take to arrive; it comes by a message of its own."""
+
+_UNKNOWN = '_NODE_NAME_UNKNOWN_'  # rmw_dds_common, until that message is there
 _PARTICIPANT = 12
 """Bytes of an endpoint's GUID that name its participant (OMG DDSI-RTPS 2.3, 9.3.1)."""
 
@@ -63,6 +67,7 @@ class InterferenceWatch:
         ]
         self._on_found = on_found
         self._found: set[Interference] = set()
+        self._nameless_looks = 0
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(LOOK_SEC, self.look, clock=steady)
 
@@ -72,6 +77,9 @@ class InterferenceWatch:
             if self._node.count_publishers(topic) < 2:
                 continue
             others = _publishers(self._node, topic)
+            if any(_UNKNOWN in name for name in others) and self._nameless_looks < PATIENCE_LOOKS:
+                self._nameless_looks += 1
+                continue
             me = self._node.get_fully_qualified_name()
             if ours and me in others:
                 others.remove(me)
