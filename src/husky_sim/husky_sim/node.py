@@ -31,8 +31,9 @@ from husky_sim.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.domains import lock_simulator
 from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.interference import Interference, InterferenceWatch
-from husky_sim.messages import ClockMessage
+from husky_sim.messages import ClockMessage, packed_messages
 from husky_sim.pacing import Pacer
+from husky_sim.packed_message import proven_form
 from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
 from husky_sim.record import RunRecord
 from husky_sim.robot_topics import QOS, RobotTopics
@@ -79,9 +80,15 @@ class SimulatorNode(Node):
         self._answered = False  # lockstep: and was answered
         self._sent_at_sec = 0.0
         many = len(config.robots) > 1
+        self._form = proven_form(packed_messages(), self.get_logger())
         self._topics = [
             RobotTopics(
-                self, self._simulation, robot, f'{robot.name}/' if many else '', self._on_command
+                self,
+                self._simulation,
+                robot,
+                f'{robot.name}/' if many else '',
+                self._on_command,
+                self._form,
             )
             for robot in self._simulation.robots
         ]
@@ -209,7 +216,7 @@ class SimulatorNode(Node):
         for topics in self._topics:
             topics.publish_filtered(stamp)
         self._clock_message.pack(stamp)
-        self._clock_publisher.publish(bytes(self._clock_message))
+        self._clock_publisher.publish(self._form(self._clock_message))
         for topics in self._topics:
             topics.publish_rest(stamp)
         for touch in self._simulation.touches:
