@@ -77,7 +77,7 @@ class Referee:
         return self._now_sec - self._resting_since_sec
 
     def _at_rest(self, place: tuple[float, float], *, running: bool) -> str:
-        """Return why a robot that stands will not go on; where it is to dwell, that may be long."""
+        """Return why a robot that stands will not go on; one that is to dwell may stand long."""
         rest_sec, dwell_sec = self._rest_sec, self._dwell_sec(place)
         if not running and rest_sec > REST_ALONE_SEC:
             return 'the controller has ended'
