@@ -14,7 +14,8 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from husky_driver.command_line import BAD_INPUT, Parser
-from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.distance_drive import DistanceDrive
+from husky_driver.drive import Drive
 from husky_driver.executor import make_executor
 from husky_driver.node import FollowPath, INTERRUPTED, TERMINATED
 from husky_driver.prompt import ask_move

@@ -150,7 +150,9 @@ def _watch(
             if now - looked_sec > LOOK_SEC:
                 looked_sec = now
                 watcher.look()
-            if watcher.count != seen:
+            if watcher.nonsense:
+                ending = watcher.nonsense
+            elif watcher.count != seen:
                 seen, heard_sec = watcher.count, now
                 ending = referee.over(**watcher.state(), running=controller.exit_code is None)
                 if not referee.started and watcher.hinting_sec(now) > HOPELESS_SEC:

@@ -26,8 +26,6 @@ from husky_driver.slip import NO_SLIP
 from husky_driver.waypoints import Course
 from husky_sim.config import RobotStart, SimulationConfig
 
-MAX_SIM_SEC = 3600.0
-
 Pose = tuple[float, float, float]
 Controller = Callable[[Odometry], Command | None]
 Feel = Callable[[float, float], None]
@@ -59,12 +57,13 @@ def drive_with(
     world: str = '',
     start: Pose = (0.0, 0.0, 0.0),
     odometry: str = 'filtered',
-    limit_sec: float = MAX_SIM_SEC,
+    limit_sec: float = math.inf,
 ) -> dict[str, Any]:
     """
     Let a controller answer each odometry until it answers None; return the record.
 
     :param feel: called with the time and the forward acceleration of each sample of the IMU.
+    :param limit_sec: for a controller that never answers None; a `Drive` has a limit of its own.
     """
     x, y, yaw = start
     config = SimulationConfig(
