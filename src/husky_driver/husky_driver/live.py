@@ -33,6 +33,7 @@ SILENCE_SEC = 10.0  # wall time: a simulator that says nothing for so long has d
 DISCOVERY_SEC = 6.0  # wall time: so long nodes may need to find each other
 HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
 LOOK_SEC = 0.5  # between two looks at the graph
 
 
@@ -86,7 +87,7 @@ def drive_live(
             Process(simulator, {**os.environ, **graph}, log, '') as running,
         ):
             _await_simulator(watcher, executor, running, folder)
-            theirs = {**(environment or os.environ), **graph}
+            theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
             controller = _start(command, theirs, folder, answers)
             patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
             referee = Referee(course, start_within_sec=patience_sec)
