@@ -37,6 +37,7 @@ SILENCE_SEC = 10.0  # wall time: a simulator that says nothing for so long has d
 DISCOVERY_SEC = 6.0  # wall time: so long nodes may need to find each other
 HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
 LOOK_SEC = 0.5  # between two looks at the graph
 
 
@@ -84,7 +85,8 @@ def drive_live(
         Process(simulator, {**os.environ, **graph}, log) as running,
     ):
         _await_simulator(watcher, executor, running, folder)
-        controller = _start(command, {**(environment or os.environ), **graph}, folder, answers)
+        theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
+        controller = _start(command, theirs, folder, answers)
         referee = Referee(course, start_within_sec=patience_sec)
         run = _watch(watcher, executor, running, controller, referee, folder)
     if not record.is_file():
