@@ -19,6 +19,7 @@ import struct
 import sys
 import tempfile
 from types import TracebackType
+import weakref
 
 from husky_sim.errors import DomainError
 
@@ -42,15 +43,14 @@ class Lock:
         :raises BlockingIOError: if another process holds it.
         """
         try:
-            self._held: socket.socket | FileIO = (
-                _bind(name) if sys.platform == 'linux' else _lock_file(name)
-            )
+            held = _bind(name) if sys.platform == 'linux' else _lock_file(name)
         except OSError:
             raise BlockingIOError(f'{name} is held by another process') from None
+        self._let_go = weakref.finalize(self, held.close)  # also when its owner is dropped
 
     def close(self) -> None:
         """Let go; may be called twice."""
-        self._held.close()
+        self._let_go()
 
 
 class OwnDomain:
@@ -124,7 +124,7 @@ def lock_simulator(domain: int) -> Lock:
         ) from None
 
 
-def _bind(name: str) -> socket.socket:
+def _bind(name: str) -> socket.socket | FileIO:
     holder = socket.socket(socket.AF_UNIX)
     try:
         holder.bind(f'\0{name}')
@@ -135,7 +135,7 @@ def _bind(name: str) -> socket.socket:
     return holder
 
 
-def _lock_file(name: str) -> FileIO:
+def _lock_file(name: str) -> socket.socket | FileIO:
     import fcntl  # not on every system
 
     file = FileIO(Path(tempfile.gettempdir(), f'{name}.lock'), 'w')
