@@ -18,13 +18,13 @@ import sys
 import time
 from typing import Any
 
+from husky_sim.record import FILE_NAME, read_record, Record
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 
 from husky_driver.executor import make_executor
 from husky_driver.processes import free_domain, Process, tail_of
 from husky_driver.referee import Referee, START_WITHIN_SEC
-from husky_driver.run_record import load_record
 from husky_driver.watcher import Watcher
 from husky_driver.waypoints import Course
 
@@ -44,7 +44,7 @@ class LiveRunFailed(ValueError):
 class LiveRun:
     """What came of a run: the record, why it ended, and what was noticed on the way."""
 
-    record: dict[str, Any]
+    record: Record
     ending: str
     notes: list[str] = field(default_factory=list)
 
@@ -70,7 +70,7 @@ def drive_live(
     domain = free_domain()
     graph = {'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
     graph[RANGE] = os.environ.get(RANGE, 'LOCALHOST')
-    record = folder / 'record.json'
+    record = folder / FILE_NAME
     record.unlink(missing_ok=True)
     simulator = [sys.executable, '-m', 'husky_sim.node', '--ros-args', '-p', f'record:={record}']
     simulator += ['-p', f'real_time_factor:={float(real_time_factor)}']
@@ -90,16 +90,14 @@ def drive_live(
             controller = _start(command, theirs, folder, answers)
             patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
             referee = Referee(course, start_within_sec=patience_sec)
-            run = _watch(watcher, executor, running, controller, referee, folder)
+            ending, notes = _watch(watcher, executor, running, controller, referee, folder)
     finally:
         executor.remove_node(watcher)
         watcher.destroy_node()
         rclpy.shutdown(context=context)
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')
-    run.record = load_record(record)
-    record.unlink()
-    return run
+    return LiveRun(read_record(record), ending, notes)
 
 
 def _await_simulator(watcher: Watcher, executor: Any, simulator: Process, folder: Path) -> None:
@@ -126,7 +124,7 @@ def _watch(
     controller: Process,
     referee: Referee,
     folder: Path,
-) -> LiveRun:
+) -> tuple[str, list[str]]:
     ending, seen = '', watcher.count
     heard_sec = looked_sec = time.monotonic()
     with controller:
@@ -150,4 +148,4 @@ def _watch(
         how = f'exit code {exit_code}' if exit_code > 0 else signal.Signals(-exit_code).name
         tail = tail_of(folder / 'controller.log', 1)
         notes.insert(0, f'it crashed ({how})' + (f': {tail}' if tail else ''))
-    return LiveRun({}, ending, notes)
+    return ending, notes
