@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator and the driver together, over DDS: whole courses, and what goes wrong."""
 
-import json
 import math
 from pathlib import Path
 import signal
@@ -14,6 +13,7 @@ from husky_driver.node import FollowPath
 from husky_driver.scoring import score
 from husky_driver.waypoints import load_course
 from husky_sim.node import SimulatorNode
+from husky_sim.record import read_record, Record
 from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Processes
@@ -39,7 +39,7 @@ CRATE = """\
 
 def drive(
     nodes: SpunNodes, course: Path, record: Path, *, timeout_sec: float, **time: Any
-) -> tuple[int, dict[str, object]]:
+) -> tuple[int, Record]:
     """Drive a course with real nodes; return the driver's exit code and the run's record."""
     simulator = nodes.start(SimulatorNode, record=str(record), **time)
     driver = nodes.start(
@@ -52,7 +52,7 @@ def drive(
     nodes.close(simulator)
     exit_code = driver.finished.result()
     assert exit_code is not None
-    return exit_code, json.loads(record.read_text())
+    return exit_code, read_record(record)
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_the_central_barrier_is_driven_round_without_a_touch(
     nodes: SpunNodes, tmp_path: Path, time: dict[str, Any]
 ) -> None:
     course = COURSES / 'central_barrier.yaml'
-    exit_code, record = drive(nodes, course, tmp_path / 'record.json', timeout_sec=90, **time)
+    exit_code, record = drive(nodes, course, tmp_path / 'run.record', timeout_sec=90, **time)
     report = score(record, load_course(str(course)))
     assert exit_code == 0
     assert report.completed
@@ -86,7 +86,7 @@ def test_a_course_through_the_central_barrier_reports_the_collision(
     exit_code, record = drive(
         nodes,
         course,
-        tmp_path / 'record.json',
+        tmp_path / 'run.record',
         timeout_sec=60,
         lockstep=True,
         real_time_factor=0.0,
@@ -105,7 +105,7 @@ def test_a_course_through_the_central_barrier_reports_the_collision(
 def test_with_the_laser_on_it_stops_before_what_no_map_knows_and_drives_on_when_it_is_gone(
     nodes: SpunNodes, tmp_path: Path
 ) -> None:
-    world, course, record = (tmp_path / name for name in ('w.xml', 'c.yaml', 'record.json'))
+    world, course, record = (tmp_path / name for name in ('w.xml', 'c.yaml', 'run.record'))
     playpen = (ROOT / 'worlds' / 'playpen.xml').read_text()
     world.write_text(playpen.replace('</worldbody>', CRATE))
     course.write_text('speed: 0.8\nwaypoints: [[0, 0], [2, 0], [4, 0]]\n')
@@ -143,7 +143,7 @@ def test_with_the_laser_on_it_stops_before_what_no_map_knows_and_drives_on_when_
     assert lines()[1] == 'the way is free: driving on'
     assert lines()[2].startswith('done: 3 of 3 waypoints')
     nodes.close(simulator)
-    assert json.loads(record.read_text())['collisions'] == []
+    assert read_record(record).collisions == ()
 
 
 def test_lost_commands_stop_the_wheels_within_the_timeout(nodes: SpunNodes) -> None:

@@ -12,7 +12,7 @@ import os
 from pathlib import Path
 import shutil
 
-from husky_sim.record import RunRecord
+from husky_sim.recorder import RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.view import palette
 from husky_sim.world import default_worlds
@@ -154,13 +154,13 @@ def test_a_replay_shows_the_collision_in_red(
     browser: Browser, tmp_path: Path, pictures: Path, processes: Processes
 ) -> None:
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
-    record = RunRecord(simulation)
+    record = RunRecorder(simulation, tmp_path / 'run.record')
     for step in range(400):
         turn = 0.25 if step > 40 else 0.0
         simulation.robots[0].controller.command(0.6, turn, time_sec=simulation.time_sec)
         simulation.advance()
         record.append()
-    record.write(str(tmp_path / 'record.json'))
+    record.close()
     shutil.copy(COURSE, tmp_path / 'waypoints.yaml')
     replay = processes.start('ros2', 'run', 'husky_sim', 'replay', str(tmp_path))
     replay.wait_for_text('look at http://')

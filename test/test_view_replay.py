@@ -7,7 +7,7 @@ from pathlib import Path
 import signal
 import time
 
-from husky_sim.record import RunRecord
+from husky_sim.recorder import RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
 from playpen_testing.browser import Browser
@@ -26,12 +26,12 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Drive into the barrier in the middle, and keep the record as a report does."""
     folder = tmp_path_factory.mktemp('report')
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
-    record = RunRecord(simulation)
+    record = RunRecorder(simulation, folder / 'run.record')
     for _ in range(round(SECONDS / 0.02)):
         simulation.robots[0].controller.command(0.6, 0.0, time_sec=simulation.time_sec)
         simulation.advance()
         record.append()
-    record.write(str(folder / 'record.json'))
+    record.close()
     return folder
 
 

@@ -11,6 +11,7 @@ import sys
 
 from husky_driver.clearance import Pose, Survey, survey
 from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.foreign_text import printable
 from husky_driver.path import Point
 from husky_driver.route import plan_route
 from husky_driver.time_limit import par_time_sec
@@ -51,11 +52,11 @@ def _check(name: str, options: argparse.Namespace) -> int:
         if options.draw:
             _draw(course, found, (x, y, yaw), Path(options.draw))
     except (ValueError, OSError) as error:
-        print(error, file=sys.stderr)
+        print(printable(str(error), keep='\n'), file=sys.stderr)
         return BAD_INPUT
     for near in found.near:
-        print(f'{name}: {near}', file=sys.stderr)
-    print(f'{name}: {describe(course, found)}')
+        print(printable(f'{name}: {near}'), file=sys.stderr)
+    print(printable(f'{name}: {describe(course, found)}'))
     return TOO_NEAR if found.near and options.refuse else 0
 
 
@@ -65,11 +66,12 @@ def describe(course: Course, found: Survey) -> str:
     length = sum(leg.curve.length_m for leg in legs)
     places = 'one place' if len(found.near) == 1 else f'{len(found.near)} places'
     verdict = f'too near in {places}' if found.near else 'ok'
+    back = ' (the last is the first again)' if course.loop else ''
     nearest = ''
     if found.least_m is not None:
         nearest = f', nearest obstacle {found.nearest} at {found.least_m:.2f} m'
     return (
-        f'{verdict}: {len(course.waypoints)} waypoints, {length:.2f} m, '
+        f'{verdict}: {len(course.stops)} waypoints{back}, {length:.2f} m, '
         f'about {par_time_sec(legs):.0f} s{nearest}'
     )
 

@@ -8,14 +8,13 @@ from dataclasses import dataclass
 import math
 
 from husky_sim.errors import SimulatorError
+from husky_sim.outline import clearances, Outline
 from husky_sim.world import default_worlds, load_world
 import numpy as np
 
 from husky_driver.path import Curve
 from husky_driver.route import Leg, plan_route
-from husky_driver.run_record import Outline
 from husky_driver.waypoints import Course
-from husky_sim import outline
 from husky_sim.config import RobotStart
 
 ENOUGH_M = 0.15  # what a good drive may be off the path, and a little
@@ -67,14 +66,13 @@ def survey(course: Course, *, world: str = '', start: Pose = (0.0, 0.0, 0.0)) ->
         found = load_world(file, (RobotStart(x=start[0], y=start[1], yaw=start[2]),)).obstacles
     except SimulatorError as error:
         raise ValueError(str(error)) from None
-    outlines = tuple(Outline(o.name, o.type, o.x, o.y, o.yaw, o.size) for o in found)
     if not found:
-        return Survey(outlines, (), None, '')
+        return Survey(found, (), None, '')
     poses, numbers = _poses(course, start)
-    table = np.array([outline.clearances(poses, [obstacle]) for obstacle in found])
+    table = np.array([clearances(poses, [obstacle]) for obstacle in found])
     nearest = int(table.min(axis=1).argmin())
     return Survey(
-        obstacles=outlines,
+        obstacles=found,
         near=tuple(_near_passes(course, poses, numbers, table, [o.name for o in found])),
         least_m=float(table.min()),
         nearest=found[nearest].name,

@@ -8,6 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 import math
 
+import numpy as np
+import numpy.typing as npt
+
 from husky_driver.alignment import align
 from husky_driver.path import Curve
 from husky_driver.run_record import RunRecord
@@ -21,7 +24,8 @@ DEGREES_RAD_S = 6.3  # nobody means a whole turn a second
 ROUNDS = 2.0
 ORDER_SHARE = 0.8  # of the waypoints but the first, where every run begins
 
-Turn = Callable[[float, float], tuple[float, float]]
+Array = npt.NDArray[np.float64]
+Turn = Callable[[Array, Array], tuple[Array, Array]]
 
 MISTAKES: tuple[tuple[str, Turn], ...] = (
     ('mirrored: y is to the left of the Husky, not to its right', lambda x, y: (x, -y)),
@@ -49,24 +53,26 @@ def _order(run: RunRecord, course: Course) -> list[str]:
 
 
 def _units(run: RunRecord) -> list[str]:
-    fastest = max(run.command_yaw_rate_rad_s, key=abs)
+    fastest = _greatest(run.command_yaw_rate_rad_s)
     if abs(fastest) > DEGREES_RAD_S:
         return [
             f'it commanded angular.z = {fastest:g}: that is rad/s, not degrees; '
             'the Husky turns 2 rad/s at most'
         ]
-    speed = max(run.command_speed_m_s, key=abs)
+    speed = _greatest(run.command_speed_m_s)
     if abs(speed) > 3.0:
         return [f'it commanded linear.x = {speed:g}: that is m/s; the Husky drives 1 m/s at most']
     return []
 
 
+def _greatest(values: Array) -> float:
+    return float(values[np.abs(values).argmax()])
+
+
 def _rounds(run: RunRecord, curve: Curve) -> list[str]:
     """Tell of a robot that turned round and round, as one does that takes degrees for radians."""
-    turned = sum(
-        abs(math.remainder(after - before, 2 * math.pi))
-        for before, after in zip(run.yaw, run.yaw[1:], strict=False)
-    )
+    turns = np.diff(run.yaw)
+    turned = float(np.abs(turns - 2 * math.pi * np.rint(turns / (2 * math.pi))).sum())
     needed = sum(
         abs(after - before)
         for before, after in zip(curve.heading, curve.heading[1:], strict=False)
@@ -85,9 +91,8 @@ def _frame(run: RunRecord, curve: Curve, rms_m: float, driven_m: float) -> list[
         return []
     best, what = rms_m / 2, ''
     for name, turn in MISTAKES:
-        places = [turn(x, y) for x, y in zip(run.x, run.y, strict=True)]
-        _, offsets = align(curve, [p[0] for p in places], [p[1] for p in places])
-        rms = math.sqrt(sum(offset * offset for offset in offsets) / len(offsets))
+        _, offsets = align(curve, *turn(run.x, run.y))
+        rms = math.sqrt(float(np.mean(offsets**2)))
         if rms < min(best, NEAR_M):
             best, what = rms, name
     return [f'it drove the course {what}'] if what else []

@@ -15,13 +15,14 @@ import time
 
 from husky_sim.domains import OwnDomain
 from husky_sim.errors import DomainError
+from husky_sim.record import FILE_NAME
 
 from husky_driver import check, grade
 from husky_driver.command_line import BAD_INPUT, Parser
 from husky_driver.courses import default_course
 from husky_driver.processes import run_to_end
 
-RECORD, WAYPOINTS = 'run.record', 'waypoints.yaml'
+WAYPOINTS = 'waypoints.yaml'
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -52,17 +53,17 @@ def main(args: Sequence[str] | None = None) -> int:
     except (OSError, DomainError) as error:
         print(f'lab drive: {error}', file=sys.stderr)
         return BAD_INPUT
-    if not (folder / RECORD).is_file():
+    if not (folder / FILE_NAME).is_file():
         print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
         return BAD_INPUT
-    record = ['--record', str(folder / RECORD), '--waypoints', options.waypoints]
+    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints]
     return grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
 
 
 def _prepare(folder: Path, waypoints: Path) -> None:
     """Make the report's folder, without the record of an earlier run."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / RECORD).unlink(missing_ok=True)
+    (folder / FILE_NAME).unlink(missing_ok=True)
     # For `./lab view`: the path that was to be driven, as it was. Unless it is that very file.
     driven = folder / WAYPOINTS
     if not (driven.exists() and driven.samefile(waypoints)):
@@ -82,7 +83,7 @@ def _environment(stack: ExitStack) -> Mapping[str, str]:
 def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
     arguments = {
         'waypoints': str(Path(options.waypoints).resolve()),
-        'record': str(folder.resolve() / RECORD),
+        'record': str(folder.resolve() / FILE_NAME),
         'real_time_factor': '0.0' if options.fast else '1.0',
         'lockstep': str(options.fast).lower(),
         'viewer': str(not options.no_view).lower(),

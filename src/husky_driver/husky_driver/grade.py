@@ -12,13 +12,16 @@ from pathlib import Path
 import sys
 import time
 
+from husky_sim.record import read_record
+
 from husky_driver.classroom import Classroom, write_csv
 from husky_driver.command_line import BAD_INPUT, nobody_reads, Parser
 from husky_driver.courses import default_course
+from husky_driver.foreign_text import printable
 from husky_driver.grading import grade_file, Graded
 from husky_driver.progress import Tally
 from husky_driver.report import as_json, summary, write_report
-from husky_driver.run_record import load_record, read_run
+from husky_driver.run_record import read_run
 from husky_driver.score_parts import FORMULA
 from husky_driver.scoring import judge
 from husky_driver.waypoints import load_course
@@ -83,8 +86,12 @@ def main(args: Sequence[str] | None = None) -> int:
         return status
     except BrokenPipeError:
         return nobody_reads()
-    except (ValueError, OSError) as error:
-        print(error, file=sys.stderr)
+    except ValueError as error:
+        print(printable(str(error), keep='\n'), file=sys.stderr)
+        return BAD_INPUT
+    except OSError as error:
+        print(printable(_why(error)), file=sys.stderr)
+        nobody_reads()  # what could not be written before cannot be at the end either
         return BAD_INPUT
     except KeyboardInterrupt:
         print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
@@ -105,7 +112,7 @@ def _grade(options: argparse.Namespace) -> int:
 
 def _grade_record(options: argparse.Namespace) -> int:
     course = load_course(options.waypoints)
-    run = read_run(load_record(options.record), options.robot)
+    run = read_run(read_record(options.record), options.robot)
     report = judge(run, course, wall_time_sec=options.wall_time)
     write_report(Path(options.report), report, run, course)
     return _show_one(Graded(options.waypoints, as_json(report), summary(report)), options)
@@ -166,13 +173,13 @@ def _grade_one(options: argparse.Namespace) -> int:
 
 def _show_one(graded: Graded, options: argparse.Namespace) -> int:
     if graded.report is None:
-        print(graded.text, file=sys.stderr)
+        print(printable(graded.text, keep='\n'), file=sys.stderr)
         return BAD_INPUT
     if options.json:
         print(json.dumps(graded.report, indent=2))
     else:
         print(graded.text)
-        print(f'  report: {Path(options.report) / "report.html"}')
+        print(printable(f'  report: {Path(options.report) / "report.html"}'))
     return PASSED if graded.passed else NOT_PASSED
 
 
@@ -191,7 +198,6 @@ def _grade_many(options: argparse.Namespace) -> int:
         results = room.grade()
     finally:
         tally.close()
-    write_csv(folder / 'grades.csv', results)
     if options.json:
         entries = [
             {'file': graded.file, 'refused': graded.refused or None, 'report': graded.report}
@@ -200,8 +206,32 @@ def _grade_many(options: argparse.Namespace) -> int:
         print(json.dumps(entries, indent=2))
     else:
         print(table(room.names, results))
-        print(f'grades: {folder / "grades.csv"}')
+    if missing := _unwritten(folder, room, results):
+        print(printable(missing), file=sys.stderr)
+        return BAD_INPUT
+    if not options.json:
+        print(printable(f'grades: {folder / "grades.csv"}'))
     return PASSED if all(graded.passed for graded in results) else NOT_PASSED
+
+
+def _unwritten(folder: Path, room: Classroom, results: Sequence[Graded]) -> str:
+    """Write the table; return in one line what of the class could not be written."""
+    lost = [graded.refused for graded in results if graded.unwritten]
+    try:
+        write_csv(folder / 'grades.csv', results)
+    except OSError as error:
+        lost.append(f'grades.csv: {error.strerror}')
+    if room.unsealed:
+        lost.append(f'what was graded cannot be remembered: {room.unsealed}')
+    if not lost:
+        return ''
+    more = f' (and {len(lost) - 1} more)' if len(lost) > 1 else ''
+    return f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest'
+
+
+def _why(error: OSError) -> str:
+    where = f'{error.filename}: ' if error.filename else ''
+    return f'{where}{error.strerror or error}'
 
 
 def table(names: Sequence[str], results: Sequence[Graded]) -> str:
@@ -212,10 +242,11 @@ def table(names: Sequence[str], results: Sequence[Graded]) -> str:
         refused = [line.removeprefix(f'{graded.file}: ') for line in graded.refused.splitlines()]
         reasons = refused or (graded.report or {})['reasons']
         verdict = 'passed' if graded.passed else 'refused' if graded.refused else 'not passed'
+        verdict = 'unwritten' if graded.unwritten else verdict
         more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
         reason = reasons[0] + more if reasons else ''
         lines.append(f'{name:<{width}}  {graded.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
-    return '\n'.join(lines)
+    return '\n'.join(map(printable, lines))
 
 
 if __name__ == '__main__':

@@ -1,25 +1,28 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Grade one waypoint file, and remember what was graded so that it is not done twice."""
+"""Grade one waypoint file, and name all that its grade depends on."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 import hashlib
 import importlib.util
-import json
 from pathlib import Path
 from threading import Thread
 import time
 from typing import Any
+
+from husky_sim.record import FILE_NAME
 
 from husky_driver.report import as_json, summary, write_report
 from husky_driver.run_record import read_run
 from husky_driver.scoring import judge
 from husky_driver.waypoints import load_course
 
-KEY_FILE = '.graded'
+COURSE_FILE = 'waypoints.yaml'
 
 
 @dataclass(frozen=True)
@@ -30,10 +33,11 @@ class Graded:
     report: dict[str, Any] | None
     text: str  # for the terminal
     refused: str = ''
+    unwritten: bool = False  # the report could not be kept, which is no fault of the file
 
     @property
     def passed(self) -> bool:
-        return self.report is not None and self.report['completed'] and not self.collisions
+        return self.report is not None and bool(self.report['passed'])
 
     @property
     def collisions(self) -> int:
@@ -44,10 +48,17 @@ class Graded:
         return 0.0 if self.report is None else float(self.report['score'])
 
 
-def grade_file(file: str, folder: Path, *, world: str = '') -> Graded:
+def grade_file(
+    file: str,
+    folder: Path,
+    *,
+    world: str = '',
+    each_second: Callable[[], object] = lambda: None,
+) -> Graded:
     """
     Drive the course of a file in the simulator and write the report on it.
 
+    :param each_second: called with every second of simulated time.
     :raises OSError: when the report cannot be written.
     """
     from husky_driver.rehearsal import drive_course  # the simulator takes its time
@@ -56,31 +67,31 @@ def grade_file(file: str, folder: Path, *, world: str = '') -> Graded:
     try:
         course = load_course(file)
         # To load matplotlib takes as long as to drive, and the physics leaves Python alone.
-        Thread(target=importlib.import_module, args=('husky_driver.path_png',)).start()
-        record, drive = drive_course(course, world=world)
+        Thread(target=_load_pictures, daemon=True).start()
+        record, drive = drive_course(
+            course, world=world, record=folder / FILE_NAME, each_second=each_second
+        )
+        run = read_run(record)
     except ValueError as error:
         return Graded(file, None, str(error), refused=str(error))
-    run = read_run(record)
     report = judge(run, course, wall_time_sec=time.monotonic() - begun)
     if drive.failure:
         report = replace(report, reasons=(*report.reasons, f'gave up: {drive.failure}'))
     write_report(folder, report, run, course)
+    keep_course(Path(file), folder)
     return Graded(file, as_json(report), summary(report))
 
 
-def graded_before(file: str, folder: Path, key: str) -> Graded | None:
-    """Return the result of an earlier run on the same content, if there is one."""
-    try:
-        if (folder / KEY_FILE).read_text(encoding='utf-8') != key:
-            return None
-        report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
-        return Graded(file, report, '') if isinstance(report, dict) else None
-    except (OSError, ValueError):
-        return None
+def _load_pictures() -> None:
+    with suppress(Exception):  # who draws hears of it
+        importlib.import_module('husky_driver.path_png')
 
 
-def remember(folder: Path, key: str) -> None:
-    (folder / KEY_FILE).write_text(key, encoding='utf-8')
+def keep_course(file: Path, folder: Path) -> None:
+    """Keep the file beside the record of its run, for `./lab view`."""
+    kept = folder / COURSE_FILE
+    if not (kept.exists() and kept.samefile(file)):
+        kept.write_bytes(file.read_bytes())
 
 
 def key_of(file: str, world: str = '') -> str:

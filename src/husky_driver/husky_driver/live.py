@@ -21,6 +21,7 @@ from typing import Any
 
 from husky_sim.domains import OwnDomain
 from husky_sim.errors import DomainError
+from husky_sim.record import FILE_NAME, read_record, Record
 import rclpy
 from rclpy.executors import Executor
 from rclpy.signals import SignalHandlerOptions
@@ -28,7 +29,6 @@ from rclpy.signals import SignalHandlerOptions
 from husky_driver.executor import make_executor
 from husky_driver.processes import adopt_orphans, Process, tail_of
 from husky_driver.referee import Referee, START_WITHIN_SEC
-from husky_driver.run_record import load_record
 from husky_driver.watcher import Watcher
 from husky_driver.waypoints import Course
 
@@ -49,7 +49,7 @@ class LiveRunFailed(ValueError):
 class LiveRun:
     """What came of a run: the record, why it ended, and what was noticed on the way."""
 
-    record: dict[str, Any]
+    record: Record
     ending: str
     notes: list[str] = field(default_factory=list)
 
@@ -73,7 +73,7 @@ def drive_live(
     """
     folder.mkdir(parents=True, exist_ok=True)
     adopt_orphans()
-    record = folder / 'record.json'
+    record = folder / FILE_NAME
     record.unlink(missing_ok=True)
     simulator = [sys.executable, '-m', 'husky_sim.node', '--ros-args', '-p', f'record:={record}']
     simulator += ['-p', f'real_time_factor:={float(real_time_factor)}']
@@ -88,12 +88,10 @@ def drive_live(
         theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
         controller = _start(command, theirs, folder, answers)
         referee = Referee(course, start_within_sec=patience_sec)
-        run = _watch(watcher, executor, running, controller, referee, folder)
+        ending, notes = _watch(watcher, executor, running, controller, referee, folder)
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')
-    run.record = load_record(record)
-    record.unlink()
-    return run
+    return LiveRun(read_record(record), ending, notes)
 
 
 @contextmanager
@@ -142,7 +140,7 @@ def _watch(
     controller: Process,
     referee: Referee,
     folder: Path,
-) -> LiveRun:
+) -> tuple[str, list[str]]:
     ending, seen = '', watcher.count
     heard_sec = looked_sec = time.monotonic()
     with controller:
@@ -168,4 +166,4 @@ def _watch(
         how = f'exit code {exit_code}' if exit_code > 0 else signal.Signals(-exit_code).name
         tail = tail_of(folder / 'controller.log', 1)
         notes.insert(0, f'it crashed ({how})' + (f': {tail}' if tail else ''))
-    return LiveRun({}, ending, notes)
+    return ending, notes

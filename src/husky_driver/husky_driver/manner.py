@@ -6,11 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-import math
+
+import numpy as np
+import numpy.typing as npt
 
 from husky_driver.route import Leg
 from husky_driver.run_record import RunRecord
+
+Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
 
 TOO_FAST = 1.10  # times the asked speed, plus 2 cm/s
 ENOUGH_M = 0.3  # a shorter way in the wrong direction is a correction
@@ -36,32 +40,44 @@ class Piece:
     reverse: bool
 
 
-def pieces_of(legs: Sequence[Leg], along_m: Sequence[float]) -> list[Piece]:
-    """Return the piece of the path for each place along it; the places never go back."""
-    pieces, number, result = _pieces(legs), 0, []
-    for along in along_m:
-        while number < len(pieces) - 1 and along > pieces[number].end_m:
-            number += 1
-        result.append(pieces[number])
-    return result
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """How the course wants each entry of a run driven."""
+
+    speed_m_s: Array
+    reverse: npt.NDArray[np.bool_]
+    cusps_m: Array  # where along the path the direction changes
 
 
-def manner_of(
-    run: RunRecord, pieces: Sequence[Piece], along_m: Sequence[float], judged: Sequence[int]
-) -> Manner:
-    """Look at the entries of a run that are judged; `pieces` and `along_m` are of all entries."""
-    cusps = {a.end_m for a, b in pairwise(pieces) if a.reverse != b.reverse}
-    fast, wrong_m, driven_m = 0, {True: 0.0, False: 0.0}, 0.0
-    for i in judged:
-        asked, speed = pieces[i], run.speed_m_s[i]
-        fast += abs(speed) > TOO_FAST * asked.speed_m_s + 0.02
-        step_m = _step_m(run, i)
-        driven_m += step_m
-        if (speed < 0.0) != asked.reverse and all(abs(along_m[i] - s) > CUSP_M for s in cusps):
-            wrong_m[speed < 0.0] += step_m
-    share = sum(wrong_m.values()) / driven_m if sum(wrong_m.values()) > ENOUGH_M else 0.0
-    count = max(len(judged), 1)
-    return Manner(fast / count, share, wrong_m[True], wrong_m[False])
+def asked_of(legs: Sequence[Leg], along_m: Array) -> Asked:
+    """Return what is asked at each place along the path; the places are in order of time."""
+    pieces = _pieces(legs)
+    ends = np.array([piece.end_m for piece in pieces])
+    reverse = np.array([piece.reverse for piece in pieces])
+    number = np.minimum(np.searchsorted(ends, along_m), len(pieces) - 1)
+    number = np.maximum.accumulate(number)  # who is past a waypoint is not before it again
+    before, after = number[:-1], number[1:]
+    return Asked(
+        np.array([piece.speed_m_s for piece in pieces])[number],
+        reverse[number],
+        np.unique(ends[before[reverse[before] != reverse[after]]]),
+    )
+
+
+def manner_of(run: RunRecord, asked: Asked, along_m: Array, judged: Indices) -> Manner:
+    """Look at the entries of a run that are judged; `asked` and `along_m` are of all entries."""
+    speed = run.speed_m_s[judged]
+    fast = np.abs(speed) > TOO_FAST * asked.speed_m_s[judged] + 0.02
+    steps_m = np.hypot(np.diff(run.x, prepend=run.x[0]), np.diff(run.y, prepend=run.y[0]))[judged]
+    wrong = (speed < 0.0) != asked.reverse[judged]
+    for cusp_m in asked.cusps_m:
+        wrong &= np.abs(along_m[judged] - cusp_m) > CUSP_M
+    backwards_m = float(steps_m[wrong & (speed < 0.0)].sum())
+    forwards_m = float(steps_m[wrong & (speed >= 0.0)].sum())
+    wrong_m = backwards_m + forwards_m
+    share = wrong_m / float(steps_m.sum()) if wrong_m > ENOUGH_M else 0.0
+    too_fast = float(fast.mean()) if len(judged) else 0.0
+    return Manner(too_fast, share, backwards_m, forwards_m)
 
 
 def _pieces(legs: Sequence[Leg]) -> list[Piece]:
@@ -74,7 +90,3 @@ def _pieces(legs: Sequence[Leg]) -> list[Piece]:
         ]
         begin += leg.curve.length_m
     return pieces
-
-
-def _step_m(run: RunRecord, i: int) -> float:
-    return math.hypot(run.x[i] - run.x[i - 1], run.y[i] - run.y[i - 1]) if i else 0.0

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
+from husky_driver.foreign_text import printable
 from husky_driver.path import Point
 from husky_driver.scene import corners, Scene
 
@@ -54,7 +55,7 @@ def map_svg(scene: Scene) -> str:
 
 
 def _obstacle(name: str, points: Sequence[Point]) -> str:
-    title = f'<title>{escape(name)}</title>'
+    title = f'<title>{escape(printable(name))}</title>'
     return _line('polygon', 'obstacle', points).replace('/>', f'>{title}</polygon>')
 
 

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
+from husky_driver.foreign_text import printable
 from husky_driver.path import Point
 from husky_driver.scene import corners, Scene
 
@@ -36,7 +37,7 @@ def draw(scene: Scene, path: Path) -> None:
     axes.plot(*scene.start[:2], marker='o', color='black', ms=5, label='start')
     low_x, high_x, low_y, high_y = scene.bounds()
     axes.set(xlim=(low_x, high_x), ylim=(low_y, high_y), xlabel='x [m]', ylabel='y [m]')
-    axes.set_title(scene.title, parse_math=False)
+    axes.set_title(printable(scene.title), parse_math=False)
     axes.set_aspect('equal')
     axes.grid(True, lw=0.3)
     axes.legend(loc='upper right', fontsize=7)

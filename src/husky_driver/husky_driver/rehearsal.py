@@ -12,10 +12,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 import math
-from typing import Any
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from husky_sim.errors import SimulatorError
-from husky_sim.record import RunRecord
+from husky_sim.record import FILE_NAME, read_record, Record
+from husky_sim.recorder import RunRecorder
 from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world import default_worlds
 
@@ -24,7 +26,9 @@ from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry, relative, yaw_of
 from husky_driver.slip import NO_SLIP
 from husky_driver.waypoints import Course
-from husky_sim.config import RobotStart, SimulationConfig
+from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
+
+PERIODS_A_SECOND = round(1.0 / CONTROL_PERIOD_SEC)
 
 Pose = tuple[float, float, float]
 Controller = Callable[[Odometry], Command | None]
@@ -37,17 +41,30 @@ def drive_course(
     world: str = '',
     start: Pose = (0.0, 0.0, 0.0),
     odometry: str = 'filtered',
-) -> tuple[dict[str, Any], Drive]:
+    record: Path | None = None,
+    each_second: Callable[[], object] = lambda: None,
+) -> tuple[Record, Drive]:
     """
     Drive the course to its end; return the simulator's record and the drive.
 
     :param world: MJCF file; empty: the playpen.
     :param odometry: which pose to follow: filtered, wheel or ground_truth.
+    :param record: the file to keep the record in; None keeps none.
+    :param each_second: called with every second of simulated time.
     :raises ValueError: when the world or the start cannot be used.
+    :raises OSError: when the record cannot be written.
     """
     drive = Drive(course, slip=NO_SLIP if odometry == 'ground_truth' else None)
-    record = drive_with(drive.step, feel=drive.feel, world=world, start=start, odometry=odometry)
-    return record, drive
+    driven = drive_with(
+        drive.step,
+        feel=drive.feel,
+        world=world,
+        start=start,
+        odometry=odometry,
+        record=record,
+        each_second=each_second,
+    )
+    return driven, drive
 
 
 def drive_with(
@@ -58,13 +75,34 @@ def drive_with(
     start: Pose = (0.0, 0.0, 0.0),
     odometry: str = 'filtered',
     limit_sec: float = math.inf,
-) -> dict[str, Any]:
+    record: Path | None = None,
+    each_second: Callable[[], object] = lambda: None,
+) -> Record:
     """
     Let a controller answer each odometry until it answers None; return the record.
 
     :param feel: called with the time and the forward acceleration of each sample of the IMU.
     :param limit_sec: for a controller that never answers None; a `Drive` has a limit of its own.
     """
+    simulation = _at_start(world, start)
+    with TemporaryDirectory() as folder:
+        file = record or Path(folder) / FILE_NAME
+        with RunRecorder(simulation, file) as recorder:
+            (robot,) = simulation.robots
+            while simulation.time_sec < limit_sec:
+                command = controller(_heard(simulation.time_ns, robot, odometry))
+                if command is None:
+                    break
+                robot.controller.command(*command, time_sec=simulation.time_sec)
+                simulation.advance()
+                feel(_time_sec(simulation.time_ns), _acceleration(robot))
+                recorder.append()
+                if simulation.periods % PERIODS_A_SECOND == 0:
+                    each_second()
+        return read_record(file)
+
+
+def _at_start(world: str, start: Pose) -> Simulation:
     x, y, yaw = start
     config = SimulationConfig(
         world=world or str(default_worlds() / 'playpen.xml'),
@@ -75,17 +113,7 @@ def drive_with(
     except SimulatorError as error:
         raise ValueError(str(error)) from None
     simulation.reset()
-    (robot,) = simulation.robots
-    record = RunRecord(simulation)
-    while simulation.time_sec < limit_sec:
-        command = controller(_heard(simulation.time_ns, robot, odometry))
-        if command is None:
-            break
-        robot.controller.command(*command, time_sec=simulation.time_sec)
-        simulation.advance()
-        feel(_time_sec(simulation.time_ns), _acceleration(robot))
-        record.append()
-    return record.as_dict()
+    return simulation
 
 
 @lru_cache(maxsize=1)

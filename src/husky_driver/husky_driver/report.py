@@ -9,14 +9,17 @@ import json
 from pathlib import Path
 from typing import Any
 
+from husky_driver.foreign_text import printable
 from husky_driver.report_html import page
 from husky_driver.run_record import RunRecord
 from husky_driver.scene import run_scene
 from husky_driver.scoring import Report
 from husky_driver.waypoints import Course
 
+REPORT_FILES = ('report.json', 'report.html', 'path.png')
 JSON_KEYS = (
-    *('course', 'completed', 'waypoints_reached', 'waypoints_total', 'collisions'),
+    *('course', 'passed', 'completed', 'ended_early', 'waypoints_reached', 'waypoints_total'),
+    *('collisions', 'disturbances'),
     *('cross_track_rms_m', 'cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m'),
     *('sim_time_sec', 'wall_time_sec', 'acceleration_rms_m_s2', 'yaw_acceleration_rms_rad_s2'),
     *('trajectory_sha256', 'score', 'parts', 'reasons'),
@@ -25,10 +28,26 @@ JSON_KEYS = (
 
 def as_json(report: Report) -> dict[str, Any]:
     """Return what report.json holds."""
-    content = asdict(report)
+    content = {key: getattr(report, key) for key in JSON_KEYS}
+    for key in ('collisions', 'disturbances', 'parts'):
+        content[key] = [asdict(entry) for entry in content[key]]
     # Through JSON, so that it is the same whether it was written and read, or not.
-    chosen: dict[str, Any] = json.loads(json.dumps({key: content[key] for key in JSON_KEYS}))
-    return chosen
+    read: dict[str, Any] = json.loads(json.dumps(content))
+    return read
+
+
+def is_report(content: object) -> bool:
+    """Tell whether what was read has the shape of report.json."""
+    if not isinstance(content, dict) or set(content) != set(JSON_KEYS):
+        return False
+    lists = ('collisions', 'disturbances', 'parts', 'reasons')
+    return (
+        all(isinstance(content[key], list) for key in lists)
+        and all(isinstance(reason, str) for reason in content['reasons'])
+        and all(isinstance(content[key], bool) for key in ('passed', 'completed', 'ended_early'))
+        and isinstance(content['score'], (int, float))
+        and isinstance(content['course'], str)
+    )
 
 
 def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -> None:
@@ -61,7 +80,8 @@ def summary(report: Report) -> str:
         f'  {part.name:<11} x {part.factor:.3f}  costs {part.cost_points:4.1f}: {part.why}'
         for part in report.parts
     ]
-    return '\n'.join([*lines, *(f'  ! {reason}' for reason in report.reasons)])
+    lines += [f'  ! {reason}' for reason in report.reasons]
+    return '\n'.join(map(printable, lines))
 
 
 def _write(path: Path, text: str) -> None:

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 from html import escape
 
+from husky_driver.foreign_text import printable
 from husky_driver.map_svg import map_svg
-from husky_driver.plot_svg import Plot
+from husky_driver.plot_svg import MAX_POINTS, Plot
 from husky_driver.report_style import STYLE
 from husky_driver.run_record import RunRecord
 from husky_driver.scene import Scene
@@ -22,22 +23,27 @@ def page(report: Report, run: RunRecord, scene: Scene) -> str:
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f'<title>{escape(report.course)}: {report.score:.1f}</title>'
+        f'<title>{_shown(report.course)}: {report.score:.1f}</title>'
         f'<style>{STYLE}</style></head><body>'
-        f'<h1>{escape(report.course)}</h1>'
+        f'<h1>{_shown(report.course)}</h1>'
         f'<div><span class="score">{report.score:.1f}</span> of 100, '
         f'<span class="{css}">{verdict}</span></div>'
         f'{_reasons(report)}{_map(scene)}{_parts(report)}{_figures(report)}'
-        f'{_collisions(report)}{_plots(report, run)}'
+        f'{_collisions(report)}{_disturbances(report)}{_plots(report, run)}'
         f'{_formula()}'
         f'<p class="soft hash">trajectory SHA-256 {report.trajectory_sha256}</p></body></html>\n'
     )
 
 
+def _shown(text: str) -> str:
+    """Return text of others as it can stand on a page."""
+    return escape(printable(text))
+
+
 def _reasons(report: Report) -> str:
     if not report.reasons:
         return ''
-    items = ''.join(f'<li>{escape(reason)}</li>' for reason in report.reasons)
+    items = ''.join(f'<li>{_shown(reason)}</li>' for reason in report.reasons)
     return f'<h2>What went wrong</h2><ul class="bad">{items}</ul>'
 
 
@@ -65,7 +71,7 @@ def _map(scene: Scene) -> str:
 def _parts(report: Report) -> str:
     rows = ''.join(
         f'<tr><td>{part.name}</td><td class="n">x {part.factor:.3f}</td>'
-        f'<td class="n">{part.cost_points:.1f}</td><td>{escape(part.why)}</td></tr>'
+        f'<td class="n">{part.cost_points:.1f}</td><td>{_shown(part.why)}</td></tr>'
         for part in report.parts
     )
     head = '<tr><th>part</th><th>factor</th><th>points lost</th><th>why</th></tr>'
@@ -100,27 +106,39 @@ def _collisions(report: Report) -> str:
         return ''
     head = '<tr><th></th><th>obstacle</th><th>part</th><th>time</th><th>force</th></tr>'
     rows = ''.join(
-        f'<tr><td>{number}</td><td>{escape(touch.obstacle)}</td>'
-        f'<td>{escape(touch.part.replace("_", " "))}</td>'
+        f'<tr><td>{number}</td><td>{_shown(touch.obstacle)}</td>'
+        f'<td>{_shown(touch.part.replace("_", " "))}</td>'
         f'<td class="n">{touch.time_sec:.2f} s</td><td class="n">{touch.force_n:.0f} N</td></tr>'
         for number, touch in enumerate(report.collisions, 1)
     )
     return f'<h2>Collisions</h2><table>{head}{rows}</table>'
 
 
+def _disturbances(report: Report) -> str:
+    if not report.disturbances:
+        return ''
+    head = '<tr><th>time</th><th>topic</th><th>also published by</th></tr>'
+    rows = ''.join(
+        f'<tr><td class="n">{entry.time_sec:.2f} s</td><td>{_shown(entry.topic)}</td>'
+        f'<td>{_shown(", ".join(entry.nodes))}</td></tr>'
+        for entry in report.disturbances
+    )
+    return f'<h2>Disturbances</h2><table>{head}{rows}</table>'
+
+
 def _plots(report: Report, run: RunRecord) -> str:
     begin, end = report.begin, report.end + 1
     if end - begin < 2:
         return ''
-    times = run.time_sec[begin:end]
+    shown = slice(begin, end, max(1, (end - begin) // MAX_POINTS))
+    times = run.time_sec[shown].tolist()
     touched = [touch.time_sec for touch in report.collisions]
-    touched = [time for time in touched if times[0] <= time <= times[-1]]
     full = (-FULL_TRACKING_M, FULL_TRACKING_M)
-    errors = {'true': report.errors_m[begin:end]}
+    errors = {'true': report.errors_m[shown].tolist()}
     speeds = {
-        'asked': report.asked_m_s[begin:end],
-        'commanded': run.command_speed_m_s[begin:end],
-        'true': run.speed_m_s[begin:end],
+        'asked': report.asked_m_s[shown].tolist(),
+        'commanded': run.command_speed_m_s[shown].tolist(),
+        'true': run.speed_m_s[shown].tolist(),
     }
     error = Plot('metres off the path over seconds', times, errors, full, touched)
     speed = Plot('metres per second over seconds', times, speeds, None, touched)

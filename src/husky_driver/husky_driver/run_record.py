@@ -1,169 +1,110 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator's record of a run, checked, seen in the robot's own frame `odom`."""
+"""
+The record of a run as a judge sees it: one robot, in the robot's own frame `odom`.
+
+Its time begins with the drive, which begins with the first command: what the robot waited before
+has negative times.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import hashlib
-import json
 import math
-from pathlib import Path
-import struct
-from typing import Any
 
-FORMAT, VERSION = 'husky_playpen_record', 1
-COLUMNS = (
-    *('time_sec', 'x', 'y', 'yaw', 'odom_x', 'odom_y', 'odom_yaw', 'speed_m_s'),
-    *('yaw_rate_rad_s', 'command_speed_m_s', 'command_yaw_rate_rad_s'),
-)
+from husky_sim.outline import Outline
+from husky_sim.record import COLUMNS, Disturbance, Record, RecordRefused
+from husky_sim.touch import Touch as Collision
+import numpy as np
+import numpy.typing as npt
 
+__all__ = ['Collision', 'Outline', 'RecordRefused', 'RunRecord', 'read_run']
 
-class RecordRefused(ValueError):
-    """A record that cannot be judged."""
+Array = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Collision:
-    """One touch: what was touched with which part of the robot, when, how hard and where."""
-
-    obstacle: str
-    part: str
-    time_sec: float
-    force_n: float
-    position: tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Outline:
-    """An obstacle seen from above: a circle of one size or a rectangle of two, world frame."""
-
-    name: str
-    type: str
-    x: float
-    y: float
-    yaw: float
-    size: tuple[float, ...]
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RunRecord:
-    """One robot's run; every list has one entry a control period."""
+    """One robot's run; every array has one entry a control period."""
 
-    time_sec: list[float]
-    x: list[float]  # true pose in the frame the robot's odometry started in
-    y: list[float]
-    yaw: list[float]
-    odom_x: list[float]
-    odom_y: list[float]
-    odom_yaw: list[float]
-    speed_m_s: list[float]
-    yaw_rate_rad_s: list[float]
-    command_speed_m_s: list[float]
-    command_yaw_rate_rad_s: list[float]
+    time_sec: Array  # since the drive began
+    x: Array  # true pose in the frame the robot's odometry started in
+    y: Array
+    yaw: Array
+    odom_x: Array
+    odom_y: Array
+    odom_yaw: Array
+    speed_m_s: Array
+    yaw_rate_rad_s: Array
+    command_speed_m_s: Array
+    command_yaw_rate_rad_s: Array
+    begin: int  # the entry at which the drive began
     start: tuple[float, float, float]  # in the frame world
     collisions: tuple[Collision, ...]
+    disturbances: tuple[Disturbance, ...]
     obstacles: tuple[Outline, ...]
     min_clearance_m: float | None
     trajectory_sha256: str
+    complete: bool  # false: the simulator ended before it could say so
 
-    def to_world(self, x: float, y: float) -> tuple[float, float]:
+    def to_world(self, x: Array, y: Array) -> tuple[Array, Array]:
         x0, y0, yaw0 = self.start
         cos, sin = math.cos(yaw0), math.sin(yaw0)
         return x0 + cos * x - sin * y, y0 + sin * x + cos * y
 
-    def to_odom(self, x: float, y: float) -> tuple[float, float]:
-        x0, y0, yaw0 = self.start
-        cos, sin = math.cos(yaw0), math.sin(yaw0)
-        return cos * (x - x0) + sin * (y - y0), cos * (y - y0) - sin * (x - x0)
 
-
-def load_record(path: str | Path) -> dict[str, Any]:
-    """
-    Return the content of a record file.
-
-    :raises RecordRefused: when it is no record.
-    """
-    try:
-        record = json.loads(Path(path).read_text(encoding='utf-8'))
-    except OSError as error:
-        raise RecordRefused(f'{path}: cannot be read: {error.strerror}') from None
-    except (ValueError, RecursionError) as error:
-        raise RecordRefused(f'{path}: not JSON: {error}') from None
-    if not isinstance(record, dict) or record.get('format') != FORMAT:
-        raise RecordRefused(
-            f"{path}: not a record of the simulator; give what its parameter 'record' wrote"
-        )
-    if record.get('version') != VERSION:
-        raise RecordRefused(f'{path}: version {record.get("version")!r}; this one reads {VERSION}')
-    return record
-
-
-def read_run(record: Mapping[str, Any], robot: str | None = None) -> RunRecord:
+def read_run(record: Record, robot: str | None = None) -> RunRecord:
     """
     Return one robot's run.
 
     :param robot: its name; None takes the only one.
-    :raises RecordRefused: when the robot or a part of the record is missing.
+    :raises RecordRefused: when the robot is not in the record.
     """
-    try:
-        name = robot or _only_robot(record['robots'])
-        if name not in record['robots']:
-            names = ', '.join(record['robots'])
-            raise RecordRefused(f'robot {name!r} is not in the record; it has: {names}')
-        table = {column: _column(record['robots'][name][column]) for column in COLUMNS}
-        if len({len(column) for column in table.values()}) != 1 or not table['x']:
-            raise RecordRefused('the columns of the record differ in length or are empty')
-        start = tuple(_column(record['start'][name]))
-        return _assemble(record, name, table, (start[0], start[1], start[2]))
-    except (KeyError, IndexError, TypeError, AttributeError) as error:
-        raise RecordRefused(f'the record lacks {error}') from None
-
-
-def _assemble(
-    record: Mapping[str, Any],
-    name: str,
-    table: dict[str, list[float]],
-    start: tuple[float, float, float],
-) -> RunRecord:
-    world = list(zip(table['time_sec'], table['x'], table['y'], table['yaw'], strict=True))
-    digest = hashlib.sha256(b''.join(struct.pack('<4d', *entry) for entry in world)).hexdigest()
-    cos, sin = math.cos(start[2]), math.sin(start[2])
-    moved = [(x - start[0], y - start[1]) for _, x, y, _ in world]
-    table['x'] = [cos * x + sin * y for x, y in moved]
-    table['y'] = [cos * y - sin * x for x, y in moved]
-    table['yaw'] = [math.remainder(yaw - start[2], 2 * math.pi) for *_, yaw in world]
-    clearance = record.get('min_clearance_m', {}).get(name)
+    place = _place_of(record, robot)
+    start = record.robots[place]
+    begin = record.begin(place)
+    begin_sec = float(record.rows[begin, place, 0])
+    table = {column: record.column(place, column) for column in COLUMNS}
+    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
+    moved_x, moved_y = table['x'] - start.x, table['y'] - start.y
+    yaw = table['yaw'] - start.yaw
+    table |= {
+        'time_sec': table['time_sec'] - begin_sec,
+        'x': cos * moved_x + sin * moved_y,
+        'y': cos * moved_y - sin * moved_x,
+        'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
+    }
     return RunRecord(
         **table,
-        start=start,
+        begin=begin,
+        start=(start.x, start.y, start.yaw),
         collisions=tuple(
-            _collision(entry) for entry in record['collisions'] if entry['robot'] == name
+            replace(touch, time_sec=touch.time_sec - begin_sec)
+            for touch in record.collisions
+            if touch.robot == start.name
         ),
-        obstacles=tuple(
-            Outline(o['name'], o['type'], o['x'], o['y'], o['yaw'], tuple(o['size']))
-            for o in record['obstacles']
+        # What was there before the drive was there when it began.
+        disturbances=tuple(
+            replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
+            for entry in record.disturbances
         ),
-        min_clearance_m=None if clearance is None else float(clearance),
-        trajectory_sha256=digest,
+        obstacles=record.obstacles,
+        min_clearance_m=record.min_clearance_m(place),
+        trajectory_sha256=_digest(record, place),
+        complete=record.complete,
     )
 
 
-def _collision(entry: Mapping[str, Any]) -> Collision:
-    x, y, z = _column(entry['position'])
-    return Collision(
-        entry['obstacle'], entry['part'], entry['time_sec'], entry['force_n'], (x, y, z)
-    )
+def _digest(record: Record, place: int) -> str:
+    """Hash time and true pose of every period, as they are: four little-endian doubles each."""
+    return hashlib.sha256(record.rows[:, place, :4].astype('<f8').tobytes()).hexdigest()
 
 
-def _only_robot(robots: Mapping[str, Any]) -> str:
-    if len(robots) != 1:
-        raise RecordRefused(
-            f'the record has {len(robots)} robots; name one of: {", ".join(robots)}'
-        )
-    return next(iter(robots))
-
-
-def _column(values: Sequence[float]) -> list[float]:
-    return [float(value) for value in values]
+def _place_of(record: Record, robot: str | None) -> int:
+    names = [start.name for start in record.robots]
+    if robot is None and len(names) > 1:
+        raise RecordRefused(f'the record has {len(names)} robots; name one of: {", ".join(names)}')
+    if robot is not None and robot not in names:
+        raise RecordRefused(f'robot {robot!r} is not in the record; it has: {", ".join(names)}')
+    return 0 if robot is None else names.index(robot)

@@ -8,11 +8,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 import math
 
+import numpy as np
+import numpy.typing as npt
+
+from husky_driver.alignment import spread
 from husky_driver.path import joined, Point
 from husky_driver.route import plan_route
 from husky_driver.run_record import Outline, RunRecord
 from husky_driver.scoring import Report
 from husky_driver.waypoints import Course
+
+Array = npt.NDArray[np.float64]
 
 MAX_POINTS = 1500
 MARGIN_M = 0.8
@@ -108,17 +114,24 @@ def course_scene(
 def run_scene(run: RunRecord, course: Course, report: Report) -> Scene:
     """Return the map of a run that was judged."""
     scene = course_scene(course, run.obstacles, run.start)
-    true = [run.to_world(x, y) for x, y in zip(run.x, run.y, strict=True)]
-    believed = [run.to_world(x, y) for x, y in zip(run.odom_x, run.odom_y, strict=True)]
+    seen = spread(run.x, run.y, MAX_POINTS)
     curve = joined([leg.curve for leg in plan_route(course)])
-    driven = range(report.begin, report.end + 1)
-    asked = [run.to_world(*curve.point_at(report.along_m[i])) for i in driven]
+    driven = slice(report.begin, report.end + 1)
+    beside = spread(run.x[driven], run.y[driven], MAX_POINTS) + report.begin
+    asked = np.array([curve.point_at(along) for along in report.along_m[beside]])
     missed = [i for i, got in enumerate(report.visits) if not got]  # a loop's last is its first
     return replace(
         scene,
-        true=thinned(true),
-        believed=thinned(believed),
+        true=_points(*run.to_world(run.x[seen], run.y[seen])),
+        believed=_points(*run.to_world(run.odom_x[seen], run.odom_y[seen])),
         marks=[touch.position[:2] for touch in run.collisions],
         missed=frozenset(i % len(course.waypoints) for i in missed),
-        error=[*thinned([true[i] for i in driven]), *thinned(asked[::-1])],
+        error=[
+            *_points(*run.to_world(run.x[beside], run.y[beside])),
+            *_points(*run.to_world(asked[:, 0], asked[:, 1]))[::-1],
+        ],
     )
+
+
+def _points(x: Array, y: Array) -> list[Point]:
+    return list(zip(x.tolist(), y.tolist(), strict=True))

@@ -4,14 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 import math
-from typing import Any
+
+from husky_sim.record import Disturbance, Record
+import numpy as np
+import numpy.typing as npt
 
 from husky_driver import diagnosis, score_parts, verdict
 from husky_driver.alignment import align
-from husky_driver.manner import manner_of, pieces_of
+from husky_driver.manner import asked_of, manner_of
 from husky_driver.path import joined
 from husky_driver.route import plan_route
 from husky_driver.run_record import Collision, read_run, RunRecord
@@ -20,19 +22,23 @@ from husky_driver.time_limit import par_time_sec
 from husky_driver.visits import waypoints_in_order
 from husky_driver.waypoints import Course
 
+Array = npt.NDArray[np.float64]
+
 STANDING_M_S = 0.02
 STANDING_RAD_S = 0.05
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Report:
     """What a run is worth; `along_m`, `errors_m`, `asked_m_s` have one entry a period."""
 
     course: str
     completed: bool
+    ended_early: bool  # the simulator was gone before the run was over
     waypoints_reached: int
     waypoints_total: int
     collisions: tuple[Collision, ...]
+    disturbances: tuple[Disturbance, ...]
     cross_track_rms_m: float
     cross_track_max_m: float
     min_clearance_m: float | None
@@ -48,18 +54,19 @@ class Report:
     reasons: tuple[str, ...]  # what went wrong, in words; empty for a good run
     begin: int  # first and last entry of the drive
     end: int
-    along_m: tuple[float, ...]
-    errors_m: tuple[float, ...]
-    asked_m_s: tuple[float, ...]
+    along_m: Array
+    errors_m: Array
+    asked_m_s: Array
     visits: tuple[bool, ...]  # of `Course.stops`
 
     @property
     def passed(self) -> bool:
-        return self.completed and not self.collisions
+        trouble = self.collisions or self.disturbances or self.ended_early
+        return self.completed and not trouble
 
 
 def score(
-    record: Mapping[str, Any],
+    record: Record,
     course: Course,
     *,
     wall_time_sec: float | None = None,
@@ -76,25 +83,20 @@ def score(
 def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None) -> Report:
     legs = plan_route(course)
     curve = joined([leg.curve for leg in legs])
-    begin, end = _span(run)
+    end = _end(run)
     along, errors = align(curve, run.x, run.y)
-    visits = waypoints_in_order(course, run.x[begin:], run.y[begin:])
-    at_end = math.dist((run.x[-1], run.y[-1]), _place(course)) <= course.tolerance_m
-    stands = abs(run.speed_m_s[-1]) < STANDING_M_S and abs(run.yaw_rate_rad_s[-1]) < STANDING_RAD_S
-    judged = _judged(run, course, begin, end)
-    rms = math.sqrt(sum(errors[i] ** 2 for i in judged) / len(judged)) if judged else 0.0
-    worst = max((abs(errors[i]) for i in judged), default=0.0)
-    needed = run.time_sec[end] - run.time_sec[begin]
-    progress = max((along[i] for i in judged), default=0.0) / curve.length_m
-    pieces = pieces_of(legs, along)
-    manner = manner_of(run, pieces, along, judged)
-    reached = sum(visits)
+    visits = waypoints_in_order(course, run.x[run.begin :], run.y[run.begin :])
+    stands = _stands_at_end(run, course)
+    judged = _judged(run, course, end)
+    rms = math.sqrt(float(np.mean(errors[judged] ** 2))) if len(judged) else 0.0
+    worst = float(np.abs(errors[judged]).max(initial=0.0))
+    asked = asked_of(legs, along)
+    manner = manner_of(run, asked, along, judged)
+    reached, needed = sum(visits), float(run.time_sec[end])
+    progress = float(along[judged].max(initial=0.0)) / curve.length_m
     points, parts = score_parts.total(
         [
-            (
-                'completion',
-                score_parts.completion(reached, len(visits), stands_at_end=stands and at_end),
-            ),
+            ('completion', score_parts.completion(reached, len(visits), stands_at_end=stands)),
             ('collisions', score_parts.collisions([c.obstacle for c in run.collisions])),
             ('time', score_parts.time(needed, progress * par_time_sec(legs), manner.too_fast)),
             ('tracking', score_parts.tracking(rms, manner.wrong_way)),
@@ -103,13 +105,15 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
     guessed = []
     if reached < len(visits):
         guessed = diagnosis.guesses(run, course, curve, rms_m=rms, driven_m=_driven(run))
-    accelerations = _accelerations(run, begin, end)
+    accelerations = _accelerations(run, end)
     return Report(
         course=course.name,
-        completed=reached == len(visits) and stands and at_end,
+        completed=reached == len(visits) and stands,
+        ended_early=not run.complete,
         waypoints_reached=reached,
         waypoints_total=len(visits),
         collisions=run.collisions,
+        disturbances=run.disturbances,
         cross_track_rms_m=rms,
         cross_track_max_m=worst,
         min_clearance_m=run.min_clearance_m,
@@ -123,63 +127,55 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
         score=points,
         parts=parts,
         reasons=(*verdict.reasons(run, course, visits, manner), *guessed),
-        begin=begin,
+        begin=run.begin,
         end=end,
-        along_m=tuple(along),
-        errors_m=tuple(errors),
-        asked_m_s=tuple(piece.speed_m_s for piece in pieces),
+        along_m=along,
+        errors_m=errors,
+        asked_m_s=asked.speed_m_s,
         visits=tuple(visits),
     )
 
 
-def _span(run: RunRecord) -> tuple[int, int]:
-    """Return the entries at the first command and at the last motion."""
-    count = len(run.x)
-    begin = next(
-        (i for i in range(count) if run.command_speed_m_s[i] or run.command_yaw_rate_rad_s[i]),
-        1,
-    )
-    begin = max(begin - 1, 0)  # an entry holds the command of the period that it ends
-    end = next((i for i in range(count - 1, begin, -1) if _moves(run, i)), begin)
-    return begin, end
+def _end(run: RunRecord) -> int:
+    """Return the entry at the last motion, or at the last touch where something touched it."""
+    moves = np.abs(run.speed_m_s) > STANDING_M_S
+    moves |= np.abs(run.yaw_rate_rad_s) > STANDING_RAD_S
+    last = np.flatnonzero(moves[run.begin + 1 :])
+    end = run.begin + 1 + int(last[-1]) if len(last) else run.begin
+    touched_sec = max((touch.time_sec for touch in run.collisions), default=0.0)
+    touched = int(np.searchsorted(run.time_sec, touched_sec - 1e-9))
+    return min(max(end, touched), len(run.x) - 1)
 
 
-def _moves(run: RunRecord, i: int) -> bool:
-    return abs(run.speed_m_s[i]) > STANDING_M_S or abs(run.yaw_rate_rad_s[i]) > STANDING_RAD_S
-
-
-def _place(course: Course) -> tuple[float, float]:
+def _stands_at_end(run: RunRecord, course: Course) -> bool:
     last = course.stops[-1]
-    return last.x_m, last.y_m
+    away_m = math.hypot(run.x[-1] - last.x_m, run.y[-1] - last.y_m)
+    stands = abs(run.speed_m_s[-1]) < STANDING_M_S and abs(run.yaw_rate_rad_s[-1]) < STANDING_RAD_S
+    return bool(stands and away_m <= course.tolerance_m)
 
 
-def _judged(run: RunRecord, course: Course, begin: int, end: int) -> list[int]:
+def _judged(run: RunRecord, course: Course, end: int) -> npt.NDArray[np.int64]:
     """Return the entries where the robot drove, from when it was at the first waypoint."""
-    first = course.waypoints[0]
-    near = (
-        i
-        for i in range(begin, end + 1)
-        if math.hypot(run.x[i] - first.x_m, run.y[i] - first.y_m) <= course.tolerance_m
-    )
-    start = next(near, begin)
-    return [i for i in range(start, end + 1) if abs(run.speed_m_s[i]) > STANDING_M_S]
+    first, drive = course.waypoints[0], slice(run.begin, end + 1)
+    away_m = np.hypot(run.x[drive] - first.x_m, run.y[drive] - first.y_m)
+    start = int((away_m <= course.tolerance_m).argmax())  # 0 where it was never there
+    moves = np.abs(run.speed_m_s[drive]) > STANDING_M_S
+    moves[:start] = False
+    return np.flatnonzero(moves) + run.begin
 
 
 def _driven(run: RunRecord) -> float:
-    return sum(
-        math.hypot(run.x[i + 1] - run.x[i], run.y[i + 1] - run.y[i]) for i in range(len(run.x) - 1)
-    )
+    return float(np.hypot(np.diff(run.x), np.diff(run.y)).sum())
 
 
-def _accelerations(run: RunRecord, begin: int, end: int) -> tuple[float, float]:
+def _accelerations(run: RunRecord, end: int) -> tuple[float, float]:
     """Return the RMS of acceleration and yaw acceleration: how smoothly it was driven."""
-    pairs = [
-        (run.time_sec[i + 1] - run.time_sec[i], i) for i in range(begin, min(end, len(run.x) - 2))
-    ]
-    if not pairs:
+    drive = slice(run.begin, min(end, len(run.x) - 2) + 1)
+    steps_sec = np.diff(run.time_sec[drive])
+    if not len(steps_sec):
         return 0.0, 0.0
-    sums = [0.0, 0.0]
-    for dt, i in pairs:
-        sums[0] += ((run.speed_m_s[i + 1] - run.speed_m_s[i]) / dt) ** 2
-        sums[1] += ((run.yaw_rate_rad_s[i + 1] - run.yaw_rate_rad_s[i]) / dt) ** 2
-    return math.sqrt(sums[0] / len(pairs)), math.sqrt(sums[1] / len(pairs))
+    linear, angular = (
+        math.sqrt(float(np.mean((np.diff(values[drive]) / steps_sec) ** 2)))
+        for values in (run.speed_m_s, run.yaw_rate_rad_s)
+    )
+    return linear, angular

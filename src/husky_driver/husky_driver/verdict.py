@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
+import numpy as np
+
 from husky_driver.manner import ENOUGH_M, Manner
 from husky_driver.run_record import RunRecord
 from husky_driver.waypoints import Course
@@ -20,27 +22,45 @@ def reasons(
     run: RunRecord, course: Course, reached: Sequence[bool], manner: Manner
 ) -> tuple[str, ...]:
     """Return one line for each thing that went wrong; none for a good run."""
+    first = [*_disturbances(run), *_early_end(run)]
     if not _moved(run):
-        return (_why_still(run),)
+        return (*first, _why_still(run))
     wrong_way = _wrong_way(manner)
     lines = [*_collisions(run), *_missed(run, course, reached)]
     lines += _ending(run, course, all(reached))
-    return tuple([*wrong_way, *lines] if manner.wrong_way > 0.5 else [*lines, *wrong_way])
+    found = [*wrong_way, *lines] if manner.wrong_way > 0.5 else [*lines, *wrong_way]
+    return (*first, *found)
+
+
+def _disturbances(run: RunRecord) -> list[str]:
+    lines = [
+        f'disturbed at {entry.time_sec:.2f} s: {" and ".join(entry.nodes)} also '
+        f'{"publishes" if len(entry.nodes) == 1 else "publish"} {entry.topic}'
+        for entry in run.disturbances
+    ]
+    return _shortened(lines, 'disturbances')
+
+
+def _early_end(run: RunRecord) -> list[str]:
+    if run.complete:
+        return []
+    return [
+        f'the run ended early: its record breaks off at {run.time_sec[-1]:.2f} s, as when the '
+        'simulator is killed or the disk is full'
+    ]
 
 
 def _moved(run: RunRecord) -> bool:
-    x0, y0 = run.x[0], run.y[0]
-    pairs = zip(run.x, run.y, strict=True)
-    return any(math.hypot(x - x0, y - y0) > MOVED_M for x, y in pairs)
+    return bool(np.hypot(run.x - run.x[0], run.y - run.y[0]).max() > MOVED_M)
 
 
 def _why_still(run: RunRecord) -> str:
-    if not any(run.command_speed_m_s) and not any(run.command_yaw_rate_rad_s):
+    if not run.command_speed_m_s.any() and not run.command_yaw_rate_rad_s.any():
         return (
             'it never moved: no command but zero arrived on husky_velocity_controller/cmd_vel; '
             'check the topic name and the message type'
         )
-    if not any(run.command_speed_m_s):
+    if not run.command_speed_m_s.any():
         return 'it never moved from its place: it was only told to turn (linear.x was always 0)'
     return 'it never moved, although it was told to; was it told again every 0.25 s?'
 
@@ -59,8 +79,7 @@ def _missed(run: RunRecord, course: Course, reached: Sequence[bool]) -> list[str
     for number, (point, got) in enumerate(zip(course.stops, reached, strict=True)):
         if got:
             continue
-        pairs = zip(run.x, run.y, strict=True)
-        nearest = min(math.hypot(x - point.x_m, y - point.y_m) for x, y in pairs)
+        nearest = float(np.hypot(run.x - point.x_m, run.y - point.y_m).min())
         name = f'waypoint {number + 1} at ({point.x_m:g}, {point.y_m:g})'
         if nearest > course.tolerance_m:
             lines.append(

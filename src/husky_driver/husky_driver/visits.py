@@ -8,11 +8,14 @@ from bisect import bisect_left
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from husky_driver.waypoints import Course
 
+Array = npt.NDArray[np.float64]
 
-def waypoints_in_order(course: Course, x: Sequence[float], y: Sequence[float]) -> list[bool]:
+
+def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
     """
     Tell for each of `course.stops` whether the run reached it.
 
@@ -20,16 +23,30 @@ def waypoints_in_order(course: Course, x: Sequence[float], y: Sequence[float]) -
     (longest increasing subsequence): one that was left out costs itself, not all that follow.
     The last stop of a loop counts when the run ends there and reached half of the others.
     """
-    px, py = np.asarray(x), np.asarray(y)
-    away = [np.hypot(px - point.x_m, py - point.y_m) for point in course.waypoints]
-    within = [np.nonzero(distance <= course.tolerance_m)[0] for distance in away]
-    visits = sorted((int(i), number) for number, at in enumerate(within) for i in at)
+    stays = [
+        _stays(np.hypot(x - point.x_m, y - point.y_m) <= course.tolerance_m)
+        for point in course.waypoints
+    ]
+    # As long as the same waypoints are near, one entry tells as much as all of them.
+    changes = np.unique(np.concatenate(stays))
+    visits = sorted(
+        (int(change), number)
+        for number, ends in enumerate(stays)
+        for begin, end in ends
+        for change in changes[(changes >= begin) & (changes < end)]
+    )
     counted = _longest_increasing([number for _, number in visits])
     reached = [number in counted for number in range(len(course.waypoints))]
     if course.loop:
-        back = len(px) > 0 and bool(away[0][-1] <= course.tolerance_m)
+        back = bool(stays[0].size) and bool(stays[0][-1, 1] == len(x))
         reached.append(back and 2 * sum(reached) >= len(reached))
     return reached
+
+
+def _stays(near: npt.NDArray[np.bool_]) -> npt.NDArray[np.int64]:
+    """Return rows of the first entry of each stay near a waypoint, and of that after its last."""
+    edges = np.diff(near.astype(np.int8), prepend=0, append=0)
+    return np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=1)
 
 
 def _longest_increasing(numbers: Sequence[int]) -> set[int]:

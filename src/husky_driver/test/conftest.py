@@ -14,7 +14,11 @@ from typing import Any
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_sim.domains import OwnDomain
+from husky_sim.record import COLUMNS, Record
+import numpy as np
 import pytest
+
+from husky_sim.config import RobotStart
 
 PERIOD_SEC = 0.02
 
@@ -96,10 +100,10 @@ def courses() -> Path:
 
 
 @pytest.fixture
-def make_record() -> Callable[..., dict[str, Any]]:
+def make_record() -> Callable[..., Record]:
     """Make the simulator's record of a run along given places, 20 ms apart."""
 
-    def make(places: list[tuple[float, float]], **more: Any) -> dict[str, Any]:
+    def make(places: list[tuple[float, float]], **more: Any) -> Record:
         x, y = [place[0] for place in places], [place[1] for place in places]
         steps = list(zip(x, y, x[1:] + x[-1:], y[1:] + y[-1:], strict=True))
         speed = [math.hypot(b - a, d - c) / PERIOD_SEC for a, c, b, d in steps]
@@ -114,16 +118,16 @@ def make_record() -> Callable[..., dict[str, Any]]:
             'command_yaw_rate_rad_s': [0.0] * len(x),
         }
         table |= {column: values for column, values in more.items() if column in table}
-        return {
-            'format': 'husky_playpen_record',
-            'version': 1,
-            'world': 'test',
-            'control_period_sec': PERIOD_SEC,
-            'robots': {'husky': table},
-            'start': {'husky': more.get('start', [0.0, 0.0, 0.0])},
-            'collisions': more.get('collisions', []),
-            'obstacles': [],
-            'min_clearance_m': {'husky': None},
-        }
+        start_x, start_y, start_yaw = more.get('start', [0.0, 0.0, 0.0])
+        return Record(
+            file='test',
+            world='test',
+            robots=(RobotStart(x=start_x, y=start_y, yaw=start_yaw),),
+            obstacles=(),
+            rows=np.array([table[column] for column in COLUMNS]).T[:, None, :],
+            collisions=tuple(more.get('collisions', ())),
+            disturbances=tuple(more.get('disturbances', ())),
+            complete=more.get('complete', True),
+        )
 
     return make

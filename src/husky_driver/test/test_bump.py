@@ -68,5 +68,5 @@ def test_a_drive_straight_against_a_wall_is_given_up(speed_m_s: float, reverse: 
     record, drive = drive_course(course, start=(x, y, -yaw if reverse else yaw))
     assert drive.failure.startswith('the wheels drive ')
     assert 'm/s, but the IMU has felt the robot stop: something holds it near' in drive.failure
-    touched_sec = record['collisions'][0]['time_sec']
+    touched_sec = record.collisions[0].time_sec
     assert drive.elapsed_sec - touched_sec < 1.5, 'it went on pushing'

@@ -13,11 +13,21 @@ from husky_driver.grade import main as grade
 from husky_driver.rehearsal import drive_course
 from husky_driver.scoring import score
 from husky_driver.waypoints import load_course
+from husky_sim.record import read_record
 import pytest
 
 THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'
 KEYS = (
-    *('completed', 'waypoints_reached', 'waypoints_total', 'collisions', 'cross_track_rms_m'),
+    *(
+        'passed',
+        'completed',
+        'ended_early',
+        'disturbances',
+        'waypoints_reached',
+        'waypoints_total',
+        'collisions',
+        'cross_track_rms_m',
+    ),
     *('cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m', 'sim_time_sec'),
     *('wall_time_sec', 'trajectory_sha256', 'score'),
 )
@@ -123,11 +133,11 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
     ('arguments', 'expected'),
     [
         ([], 'give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER'),
-        (['--record', 'x.json'], '--record needs --waypoints FILE'),
+        (['--record', 'x.record'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: line 1, column 1: no such file'),
         (['{course}', '--world', 'no.xml'], 'no.xml'),
-        (['--record', 'no.json', '--waypoints', '{course}'], 'no.json: cannot be read'),
-        (['--record', '{course}', '--waypoints', '{course}'], 'not JSON'),
+        (['--record', 'no.record', '--waypoints', '{course}'], 'no.record: cannot be read'),
+        (['--record', '{course}', '--waypoints', '{course}'], 'not the record of a run'),
     ],
 )
 def test_bad_input_is_refused_with_one_line(
@@ -159,6 +169,51 @@ def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
     warned = capsys.readouterr().err.splitlines()[0]
     assert 'through.yaml: line 4: on the way to waypoint 2 the robot touches' in warned
     assert 'jersey_barrier_15' in warned
+
+
+def test_a_check_counts_the_waypoints_as_the_report_does(
+    courses: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = load_course(courses / 'central_barrier.yaml')
+    assert check([course.file]) == 0
+    said = f'{len(course.stops)} waypoints (the last is the first again), '
+    assert said in capsys.readouterr().out
+
+
+def test_escape_codes_in_names_do_not_reach_the_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'a\x1b[2J\u202e.yaml'
+    course.write_text('speed: 0.8\nwaypoints: [[0, 0], [-1, 0]]\n')
+    broken = tmp_path / 'b\x1b]0;title\x07.yaml'
+    broken.write_text('speed: fast\n')
+    assert check([str(course)]) == 0
+    assert grade([str(course), '--report', str(tmp_path / 'r\x1b[31m')]) == 0
+    assert grade([str(broken), '--report', str(tmp_path / 'report')]) == 2
+    said = capsys.readouterr()
+    assert {char for char in said.out + said.err if not char.isprintable()} == {'\n'}
+    assert r'a\x1b[2J\u202e: passed' in said.out
+    assert r'b\x1b]0;title\x07.yaml: line 1' in said.err
+
+
+def test_a_report_that_cannot_be_written_is_one_line(
+    courses: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / 'report').touch()
+    course = str(courses / 'straight.yaml')
+    assert grade([course, '--report', str(tmp_path / 'report' / 'deep')]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line == f'{tmp_path / "report" / "deep"}: Not a directory'
+
+
+def test_a_graded_run_can_be_replayed(courses: Path, tmp_path: Path) -> None:
+    course = courses / 'straight.yaml'
+    assert grade([str(course), '--report', str(tmp_path)]) == 0
+    assert read_record(tmp_path).complete
+    assert (tmp_path / 'waypoints.yaml').read_bytes() == course.read_bytes()
+    kept = tmp_path / 'waypoints.yaml'  # and what was kept can be graded into its own folder
+    assert grade([str(kept), '--report', str(tmp_path)]) == 0
+    assert kept.read_bytes() == course.read_bytes()
 
 
 @pytest.mark.parametrize(('name', 'magic'), [('a.png', b'\x89PNG'), ('a.svg', b'<?xml')])

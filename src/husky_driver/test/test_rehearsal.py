@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Driving in one process against driving as nodes over DDS."""
 
-import json
 import os
 from pathlib import Path
 import signal
@@ -13,6 +12,7 @@ import time
 from husky_driver.rehearsal import drive_course
 from husky_driver.scoring import score
 from husky_driver.waypoints import load_course
+from husky_sim.record import read_record
 import pytest
 
 
@@ -25,7 +25,7 @@ def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep
     if name == 'through':  # into the barrier: the driver gives up
         file = tmp_path / 'through.yaml'
         file.write_text('speed: 0.6\nwaypoints: [[0, 0], [4.5, 0]]\n')
-    course, record = load_course(file), tmp_path / 'record.json'
+    course, record = load_course(file), tmp_path / 'run.record'
     environment = {
         **os.environ,
         'ROS_DOMAIN_ID': str(domain),
@@ -50,7 +50,7 @@ def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep
     while not record.exists():
         assert time.monotonic() < deadline, 'the simulator left no record'
         time.sleep(0.01)
-    over_dds = score(json.loads(record.read_text()), course)
+    over_dds = score(read_record(record), course)
     in_process = score(drive_course(course)[0], course)
     assert over_dds.trajectory_sha256 == in_process.trajectory_sha256
     assert over_dds.score == in_process.score

@@ -3,31 +3,40 @@
 from collections.abc import Callable
 from pathlib import Path
 import re
-from typing import Any
 
 from husky_driver.map_svg import map_svg, SIZE
 from husky_driver.plot_svg import Plot, ticks
-from husky_driver.report import write_report
-from husky_driver.run_record import read_run
+from husky_driver.report import as_json, is_report, summary, write_report
+from husky_driver.run_record import read_run, RunRecord
 from husky_driver.scene import run_scene, Scene
 from husky_driver.scoring import judge
 from husky_driver.waypoints import parse_course
+from husky_sim.record import Disturbance, Record
+from husky_sim.touch import Touch
 import pytest
 
 COURSE = parse_course('tolerance: 0.2\nwaypoints: [[0, 0], [2, 0], [4, 0]]')
-TOUCH = {'robot': 'husky', 'obstacle': 'a <cone>', 'part': 'front_left_wheel', 'time_sec': 0.6}
-TOUCH |= {'force_n': 12.0, 'position': [1.0, 0.5, 0.1]}
+TOUCH = Touch(
+    robot='husky',
+    obstacle='a <cone>',
+    part='front_left_wheel',
+    time_sec=0.6,
+    force_n=12.0,
+    position=(1.0, 0.5, 0.1),
+)
+OTHER = Disturbance(time_sec=1.0, topic='odometry/filtered', nodes=('/<other>\x1b[2J',))
 
 
 @pytest.fixture
-def run(make_record: Callable[..., dict[str, Any]]) -> Any:
+def run(make_record: Callable[..., Record]) -> RunRecord:
     """Return a run that leaves the path by half a metre in its middle, and touches a cone."""
     places = [(k / 50, min(k, 200 - k, 50) / 100) for k in range(201)]
-    return read_run(make_record(places + [places[-1]] * 10, collisions=[TOUCH]))
+    record = make_record(places + [places[-1]] * 10, collisions=[TOUCH], disturbances=[OTHER])
+    return read_run(record)
 
 
 @pytest.fixture
-def scene(run: Any) -> Scene:
+def scene(run: RunRecord) -> Scene:
     return run_scene(run, COURSE, judge(run, COURSE))
 
 
@@ -54,7 +63,7 @@ def test_missed_waypoints_and_collisions_bear_the_numbers_of_the_text(scene: Sce
     assert re.findall(r'<text class="hit"[^>]*>(\d+)<', drawing) == ['1']
 
 
-def test_the_page_holds_everything_and_loads_nothing(run: Any, tmp_path: Path) -> None:
+def test_the_page_holds_everything_and_loads_nothing(run: RunRecord, tmp_path: Path) -> None:
     write_report(tmp_path, judge(run, COURSE), run, COURSE)
     page = (tmp_path / 'report.html').read_text()
     for part in ('given path', 'true path', 'believed path', 'error', 'collision', 'Speed'):
@@ -62,7 +71,31 @@ def test_the_page_holds_everything_and_loads_nothing(run: Any, tmp_path: Path) -
     assert 'a &lt;cone&gt;' in page
     assert 'front left wheel' in page
     assert page.count('class="moment"') == 2  # the touch, in both plots
+    assert '/&lt;other&gt;\\x1b[2J' in page
+    assert '\x1b' not in page
     assert re.findall(r'(?:src|href)=|<script|@import|url\(', page) == []
+
+
+def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
+    report = judge(run, COURSE)
+    assert as_json(report)['disturbances'] == [
+        {'time_sec': 1.0, 'topic': 'odometry/filtered', 'nodes': ['/<other>\x1b[2J']}
+    ]
+    said = '  ! disturbed at 1.00 s: /<other>\\x1b[2J also publishes odometry/filtered'
+    assert said in summary(report).splitlines()
+    assert 'NOT PASSED' in summary(report)
+
+
+@pytest.mark.parametrize(
+    'change', [{'score': 'all'}, {'reasons': [1]}, {'passed': 1}, {'parts': None}, {'more': 1}]
+)
+def test_what_has_not_the_shape_of_a_report_is_none(
+    run: RunRecord, change: dict[str, object]
+) -> None:
+    content = as_json(judge(run, COURSE))
+    assert is_report(content)
+    assert not is_report({**content, **change})
+    assert not is_report({})
 
 
 @pytest.mark.parametrize(

@@ -89,7 +89,7 @@ class RunConfig:
     lockstep: bool = setting(
         False, 'Wait for a command after each odometry message, then advance one control period.'
     )
-    record: str = setting('', 'File for the record of the run, written at the end; empty: none.')
+    record: str = setting('', 'File for the record of the run, written as it goes; empty: none.')
 
 
 @dataclass(frozen=True, kw_only=True)

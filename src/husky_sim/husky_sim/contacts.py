@@ -13,23 +13,12 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from husky_sim.touch import Touch as Touch
 from husky_sim.world import World
 
 PEAK_SEC = 0.1
 RELEASE_SEC = 0.5
 _REMEMBERED = 10000
-
-
-@dataclass(frozen=True, kw_only=True)
-class Touch:
-    """One collision: when and where it began, and how hard it was."""
-
-    robot: str
-    obstacle: str
-    part: str
-    time_sec: float
-    force_n: float
-    position: tuple[float, float, float]
 
 
 @dataclass

@@ -35,7 +35,7 @@ from husky_sim.messages import ClockMessage, packed_messages
 from husky_sim.pacing import Pacer
 from husky_sim.packed_message import proven_form
 from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
-from husky_sim.record import RunRecord
+from husky_sim.recorder import open_recorder
 from husky_sim.robot_topics import QOS, RobotTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
@@ -72,7 +72,7 @@ class SimulatorNode(Node):
         self._run = read_run(self)
         config = read_simulation(self, self._run)
         self._simulation = Simulation(config)
-        self._record = RunRecord(self._simulation) if self._run.record else None
+        self._record = open_recorder(self._simulation, self._run.record, self.get_logger().error)
         factor = self._run.real_time_factor
         self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
         self._paused = False
@@ -292,10 +292,9 @@ class SimulatorNode(Node):
         return f'{self._simulation.time_sec:.2f} s of simulated time'
 
     def destroy_node(self) -> None:
-        """Write the record, then let go of everything; may be called twice."""
-        record, self._record = self._record, None
-        if record is not None:
-            record.write(self._run.record)
+        """End the record, then let go of everything; may be called twice."""
+        if self._record is not None:
+            self._record.close()
         for topics in self._topics:
             topics.close()
         super().destroy_node()

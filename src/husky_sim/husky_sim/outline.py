@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-import mujoco
 import numpy as np
 import numpy.typing as npt
 
@@ -19,9 +18,7 @@ from husky_sim.config import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 
 Array = npt.NDArray[np.float64]
 
-_DIRECTIONS = 72
-_ROUND = 0.02  # how far a circle may be from round, as a part of its radius
-_UPRIGHT_RAD = 0.15  # a body tilted less than this is seen along its own axis
+_CHUNK = 20_000  # poses at a time: a day of them would take gigabytes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,67 +37,24 @@ class Outline:
         return 'circle' if len(self.size) == 1 else 'rect'
 
 
-def outline_of(
-    name: str, model: mujoco.MjModel, data: mujoco.MjData, geoms: Sequence[int], *, body: int
-) -> Outline:
-    """Measure the outline of some geoms that stand in data as they do in the world."""
-    origin = data.xpos[body].copy()
-    turn = data.xmat[body].reshape(3, 3)
-    yaw = math.atan2(turn[1, 0], turn[0, 0])
-    tilted = math.acos(max(-1.0, min(1.0, float(turn[2, 2])))) > _UPRIGHT_RAD
-    frame = _about_z(yaw) if tilted else turn
-    directions = _circle_of_directions() @ frame[:, :2].T
-    reach = np.max([_reach(model, data, geom, origin, directions) for geom in geoms], axis=0)
-    if reach.max() - reach.min() <= _ROUND * reach.max():
-        return Outline(
-            name=name, x=float(origin[0]), y=float(origin[1]), yaw=yaw, size=(float(reach.max()),)
-        )
-    quarter = _DIRECTIONS // 4
-    front, left, back, right = (float(reach[i * quarter]) for i in range(4))
-    middle = _about_z(yaw)[:2, :2] @ np.array([(front - back) / 2.0, (left - right) / 2.0])
-    return Outline(
-        name=name,
-        x=float(origin[0] + middle[0]),
-        y=float(origin[1] + middle[1]),
-        yaw=yaw,
-        size=(front + back, left + right),
-    )
+def least_clearance(poses: Array, outlines: Sequence[Outline]) -> float:
+    """
+    Return the least of the clearances of all poses, without measuring those that are far away.
 
-
-def _about_z(angle_rad: float) -> Array:
-    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
-    return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-
-
-def _circle_of_directions() -> Array:
-    angles = np.arange(_DIRECTIONS) * (math.tau / _DIRECTIONS)
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
-
-
-def _reach(
-    model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array, directions: Array
-) -> Array:
-    """Return how far a geom reaches from origin along each of the unit vectors (n, 3)."""
-    kind = mujoco.mjtGeom
-    size = model.geom_size[geom]
-    local = directions @ data.geom_xmat[geom].reshape(3, 3)
-    middle: Array = directions @ (data.geom_xpos[geom] - origin)
-    shape = int(model.geom_type[geom])
-    if shape == kind.mjGEOM_SPHERE:
-        return middle + size[0]
-    if shape == kind.mjGEOM_CAPSULE:
-        return middle + size[0] + size[1] * np.abs(local[:, 2])
-    if shape == kind.mjGEOM_CYLINDER:
-        across = np.hypot(local[:, 0], local[:, 1])
-        return middle + size[0] * across + size[1] * np.abs(local[:, 2])
-    if shape == kind.mjGEOM_ELLIPSOID:
-        return middle + np.linalg.norm(local * size, axis=1)
-    if shape == kind.mjGEOM_MESH:
-        mesh = model.geom_dataid[geom]
-        first = model.mesh_vertadr[mesh]
-        points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
-        return middle + (local @ points.T).max(axis=1)
-    return middle + np.abs(local) @ size
+    :param poses: one row for every pose: x, y, yaw.
+    """
+    least = math.inf
+    robot_m = math.hypot(ROBOT_LENGTH_M, ROBOT_WIDTH_M) / 2.0
+    for outline in outlines:
+        reach_m = robot_m + math.hypot(*outline.size) / (1.0 if outline.type == 'circle' else 2.0)
+        at_least = np.hypot(poses[:, 0] - outline.x, poses[:, 1] - outline.y) - reach_m
+        likely = int(at_least.argmin())
+        least = min(least, float(_clearance(poses[likely : likely + 1], outline)[0]))
+        near = np.flatnonzero(at_least < least + 1e-9)
+        for first in range(0, len(near), _CHUNK):
+            chunk = poses[near[first : first + _CHUNK]]
+            least = min(least, float(_clearance(chunk, outline).min()))
+    return least
 
 
 def clearances(poses: Array, outlines: Sequence[Outline]) -> Array:

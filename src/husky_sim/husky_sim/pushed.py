@@ -7,8 +7,6 @@ Loose is every body outside the robots that has a joint. Its pose is noted only 
 so that a run that touches nothing notes nothing.
 """
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
@@ -46,22 +44,17 @@ class PushedBodies:
         self.restart()
 
     def restart(self) -> None:
-        """Drop everything; what stands where it stands now was not pushed."""
+        """Take it that what stands where it stands now was not pushed."""
         self._noted = self._simulation.data.qpos.copy()
-        self._poses: dict[str, dict[str, list[Any]]] = {}
 
-    def look(self) -> None:
-        """Note what has moved; call it after every control period."""
+    def look(self) -> list[tuple[str, list[float]]]:
+        """Return name and joint coordinates of what has moved; call it after every period."""
         qpos, places = self._simulation.data.qpos, self._places
         if not (np.abs(qpos[places] - self._noted[places]) > MOVED).any():
-            return
+            return []
+        moved = []
         for name, part in self._loose.items():
             if (np.abs(qpos[part] - self._noted[part]) > MOVED).any():
                 self._noted[part] = qpos[part]
-                poses = self._poses.setdefault(name, {'time_sec': [], 'qpos': []})
-                poses['time_sec'].append(self._simulation.time_sec)
-                poses['qpos'].append([round(value, _DIGITS) for value in qpos[part].tolist()])
-
-    def as_dict(self) -> dict[str, dict[str, list[Any]]]:
-        """Return the times and joint coordinates of every body that was pushed."""
-        return self._poses
+                moved.append((name, [round(value, _DIGITS) for value in qpos[part].tolist()]))
+        return moved

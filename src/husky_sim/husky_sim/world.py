@@ -21,7 +21,8 @@ import numpy.typing as npt
 
 from husky_sim.config import RobotStart
 from husky_sim.errors import StartPoseError, WorldError
-from husky_sim.outline import Outline, outline_of
+from husky_sim.outline import Outline
+from husky_sim.silhouette import outline_of
 from husky_sim.world_file import check_settings, line_of, refused, steps_per_period
 
 GROUND_NAMES = ('ground', 'floor', 'asphalt', 'ramp')

@@ -19,7 +19,7 @@ PARAMETERS = (
     ('real_time_factor', '1.0', float, 'Simulated seconds a second; 0.0: as fast as possible'),
     ('lockstep', 'false', bool, 'true: advance one control period for each command'),
     ('slip', 'asphalt', str, 'How the tyres grip: ideal, asphalt or gravel'),
-    ('record', '', str, 'File for the record of the run, written at the end; empty: none'),
+    ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )
 
 

@@ -4,7 +4,6 @@
 
 from collections.abc import Callable, Iterator
 from itertools import pairwise
-import json
 import math
 from pathlib import Path
 import signal
@@ -17,6 +16,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, TwistStamped
 from husky_sim.errors import SettingError, StartPoseError, WorldError
 from husky_sim.node import SimulatorNode
+from husky_sim.record import read_record
 from husky_sim.scene_topic import QOS as SCENE_QOS
 from husky_sim.scene_topic import read_scene
 from nav_msgs.msg import Odometry
@@ -32,7 +32,7 @@ from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
 from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import Empty, SetBool, Trigger
 
-from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart
 
 COMMANDS = 'husky_velocity_controller/cmd_vel'
 TOPICS = {
@@ -386,17 +386,17 @@ def test_two_runs_of_the_same_commands_are_the_same_bit_for_bit(
     bench: Callable[..., Bench], tmp_path: Path
 ) -> None:
     records = []
-    for name in ('one.json', 'two.json'):
+    for name in ('one', 'two'):
         path = tmp_path / name
         run = bench(real_time_factor=0.0, lockstep=True, record=str(path))
         run.begun()
         for step in range(150):
             run.answer(0.6, 0.8 * math.sin(step / 20.0))
         run.close()
-        records.append(json.loads(path.read_text()))
-    assert records[0]['robots'] == records[1]['robots']
-    assert len(records[0]['robots']['husky']['x']) == 151
-    assert records[0]['start'] == {'husky': [0.0, 0.0, 0.0]}
+        records.append(read_record(path))
+    assert records[0].rows.tobytes() == records[1].rows.tobytes()
+    assert len(records[0].rows) == 151
+    assert records[0].robots == (RobotStart(),)
 
 
 def test_each_of_many_robots_has_its_own_topics(domain_id: int) -> None:
@@ -482,7 +482,7 @@ def test_a_signal_ends_it_soon_and_the_record_is_whole(
     domain_id: int, tmp_path: Path, number: signal.Signals
 ) -> None:
     del domain_id
-    path = tmp_path / 'deep' / 'record.json'
+    path = tmp_path / 'deep' / 'run.record'
     process = run_process('-p', f'record:={path}', '-p', 'real_time_factor:=0.0')
     assert process.stderr is not None
     assert 'obstacles' in process.stderr.readline()
@@ -492,7 +492,7 @@ def test_a_signal_ends_it_soon_and_the_record_is_whole(
     assert time.monotonic() - begin < 2.0
     assert process.returncode == 0
     assert 'Traceback' not in said
-    record = json.loads(path.read_text())
-    assert record['format'] == 'husky_playpen_record'
-    assert len(record['obstacles']) == 34
-    assert record['min_clearance_m']['husky'] == pytest.approx(0.73, abs=0.02)
+    record = read_record(path)
+    assert record.complete
+    assert len(record.obstacles) == 34
+    assert record.min_clearance_m(0) == pytest.approx(0.73, abs=0.02)

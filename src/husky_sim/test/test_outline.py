@@ -4,7 +4,8 @@
 
 import math
 
-from husky_sim.outline import clearances, Outline, outline_of
+from husky_sim.outline import clearances, least_clearance, Outline
+from husky_sim.silhouette import outline_of
 from hypothesis import given
 from hypothesis import strategies as st
 import mujoco
@@ -105,3 +106,14 @@ def test_it_is_the_distance_of_the_nearest_points(
     assert near(x, y, yaw, outline) <= sampled + 1e-9
     if near(x, y, yaw, outline) > 0.0:
         assert near(x, y, yaw, outline) >= sampled - 0.05
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_least_clearance_is_the_least_of_all(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    outlines = [
+        Outline(name='o', x=x, y=y, yaw=yaw, size=(0.4,) if round_ else (1.5, 0.3))
+        for x, y, yaw, round_ in zip(*random.uniform(-9, 9, (3, 5)), (1, 0, 1, 0, 1), strict=True)
+    ]
+    poses = random.uniform(-9, 9, (200, 3))
+    assert least_clearance(poses, outlines) == clearances(poses, outlines).min()

@@ -3,14 +3,12 @@
 """A run is a function of its files and commands alone, bit for bit."""
 
 import hashlib
-import json
 import math
 from pathlib import Path
 import struct
 import subprocess
 import sys
 
-from husky_sim.record import RunRecord
 from husky_sim.simulation import Simulation
 import pytest
 
@@ -114,26 +112,6 @@ def test_time_is_exact_whatever_its_length() -> None:
     simulation.periods = 12_345_678
     assert simulation.time_ns == 246_913_560_000_000
     assert simulation.time_sec == 246913.56
-
-
-def test_the_record_has_one_entry_a_period_and_the_start(tmp_path: Path) -> None:
-    simulation = new_simulation()
-    record = RunRecord(simulation)
-    for _ in range(200):
-        simulation.robots[0].controller.command(0.6, 0.0, time_sec=simulation.time_sec)
-        simulation.advance()
-        record.append()
-    path = tmp_path / 'new' / 'record.json'
-    record.write(str(path))
-    written = json.loads(path.read_text())
-    columns = written['robots']['husky']
-    assert {len(values) for values in columns.values()} == {201}
-    assert columns['time_sec'][:3] == [0.0, 0.02, 0.04]
-    assert columns['x'][0] == 0.0
-    assert columns['x'][-1] == simulation.robots[0].state.position[0]
-    assert [touch['obstacle'] for touch in written['collisions']] == ['jersey_barrier_15']
-    assert written['min_clearance_m']['husky'] == 0.0
-    assert [path.name for path in path.parent.iterdir()] == ['record.json']
 
 
 def test_a_minute_of_driving_gives_no_physics_warning() -> None:

@@ -15,6 +15,7 @@ import numpy as np
 import viser
 
 from husky_sim.errors import SimulatorError
+from husky_sim.record import RecordRefused
 from husky_sim.scene_topic import TRACK
 from husky_sim.view.course import CourseRefused, is_available, path_of
 from husky_sim.view.ending import end_soon
@@ -22,7 +23,7 @@ from husky_sim.view.picture import Picture
 from husky_sim.view.planar import to_world
 from husky_sim.view.playback import Playback
 from husky_sim.view.replay_panel import ReplayPanel, SLIDER_HZ
-from husky_sim.view.run import load_run, Poser, Run, RunRefused
+from husky_sim.view.run import load_run, Poser, Run
 from husky_sim.view.server import address_of, AddressError, close_server, open_server
 from husky_sim.view.work import Work
 from husky_sim.world import load_world
@@ -40,7 +41,7 @@ class Replay:
         Put the run's world on the page.
 
         :raises SimulatorError: if the world is gone.
-        :raises RunRefused: if it is not the same any more.
+        :raises RecordRefused: if it is not the same any more.
         """
         self._server = server
         self._run = run
@@ -143,7 +144,7 @@ def main(args: Sequence[str] | None = None) -> int:
     try:
         run = load_run(options.record)
         server = open_server(options.host, options.port, title='Husky replay')
-    except (RunRefused, AddressError) as error:
+    except (RecordRefused, AddressError) as error:
         print(f'replay: {error}', file=sys.stderr)
         return BAD_INPUT
     try:
@@ -153,7 +154,7 @@ def main(args: Sequence[str] | None = None) -> int:
             replay.show_course(Path(options.waypoints or beside))
         print(f'replay of {run.file}: look at {address_of(server)} (Ctrl-C ends)', flush=True)
         _play(replay, ended)
-    except (SimulatorError, RunRefused, CourseRefused) as error:
+    except (SimulatorError, RecordRefused, CourseRefused) as error:
         print(f'replay: {error}', file=sys.stderr)
         return BAD_INPUT
     finally:
