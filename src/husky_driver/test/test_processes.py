@@ -12,8 +12,10 @@ import time
 
 from husky_driver.processes import adopt_orphans, Process
 from husky_driver.shared_memory import clean_shared_memory
+from husky_sim.domains import OwnDomain
 import psutil
-import pytest
+
+RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 
 # A daemon: neither in the session of its child, nor below it.
 DAEMON = """
@@ -99,32 +101,32 @@ def test_a_child_ends_with_its_killed_parent() -> None:
     wait_for(lambda: not is_running(child), 'the end of the child')
 
 
-def test_the_shared_memory_of_the_dead_goes(
-    domain: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    dead, alive = (
-        subprocess.Popen(
-            [sys.executable, '-c', PARTICIPANT], stdin=subprocess.PIPE, stdout=subprocess.PIPE
-        )
-        for _ in range(2)
-    )
-    files = []
-    for process in (dead, alive):
-        assert process.stdout is not None
-        assert process.stdout.readline() == b'here\n'
-        files.append(mapped_by(process.pid))
-    dead.kill()
-    dead.communicate()
-    clean_shared_memory()
-    try:
-        assert [file for file in files[0] - files[1] if Path(file).exists()] == []
-        assert files[0] - files[1]
-        assert [file for file in files[1] if not Path(file).exists()] == []
-        assert files[1]
-    finally:
+def test_the_shared_memory_of_the_dead_goes() -> None:
+    with OwnDomain() as one, OwnDomain() as another:
+        dead, alive = participant(one.number), participant(another.number)
+        files = {process: mapped_by(process.pid) for process in (dead, alive)}
+        assert all(files.values()), 'no shared memory is used'
+        dead.kill()
+        dead.communicate()
+        clean_shared_memory()
+        left = {
+            process: [f for f in names if Path(f).exists()] for process, names in files.items()
+        }
         alive.communicate(b'', timeout=10.0)
+    assert left[dead] == []
+    assert set(left[alive]) == files[alive]
+
+
+def participant(domain: int) -> 'subprocess.Popen[bytes]':
+    """Start a node in a domain, and wait until it is there."""
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain), RANGE: 'LOCALHOST'}
+    command = [sys.executable, '-c', PARTICIPANT]
+    started = subprocess.Popen(
+        command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    assert started.stdout is not None
+    assert started.stdout.readline() == b'here\n'
+    return started
 
 
 def mapped_by(pid: int) -> set[str]:
