@@ -136,8 +136,8 @@ def drive(prefixes: Sequence[str], lockstep: bool, reads: bool) -> None:
     rclpy.shutdown()
 
 
-def node_speed(row: Row, seconds: float, ending: Ending) -> float:
-    """Run the simulator's node."""
+def node_speed(row: Row, seconds: float, ending: Ending) -> tuple[float, float]:
+    """Run the simulator's node; return simulated seconds a second, and a second of its CPU."""
     parameters, prefixes = dict(row.parameters), ['']
     if row.robots > 1:
         robots = robots_named(row.robots)
@@ -168,7 +168,9 @@ def node_speed(row: Row, seconds: float, ending: Ending) -> float:
         rclpy.try_shutdown()
 
 
-def _measured(node: SimulatorNode, executor: Any, seconds: float, ending: Ending) -> float:
+def _measured(
+    node: SimulatorNode, executor: Any, seconds: float, ending: Ending
+) -> tuple[float, float]:
     simulation = node.simulation
     deadline = time.perf_counter() + 20.0
     while not all(abs(robot.odometry.speed_m_s) > 0.4 for robot in simulation.robots):
@@ -177,10 +179,13 @@ def _measured(node: SimulatorNode, executor: Any, seconds: float, ending: Ending
         executor.spin_once(timeout_sec=0.1)
         _stop_if(ending)
     begin, begin_sec = time.perf_counter(), simulation.time_sec
+    begin_cpu_sec = time.process_time()
     while time.perf_counter() - begin < seconds:
         executor.spin_once(timeout_sec=0.1)
         _stop_if(ending)
-    return float((simulation.time_sec - begin_sec) / (time.perf_counter() - begin))
+    passed_sec = simulation.time_sec - begin_sec
+    wall_sec, cpu_sec = time.perf_counter() - begin, time.process_time() - begin_cpu_sec
+    return passed_sec / wall_sec, passed_sec / cpu_sec
 
 
 def _stop_if(ending: Ending) -> None:
@@ -193,14 +198,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('row', type=int, choices=range(len(ROWS)), help='which one')
     parser.add_argument('--seconds', type=float, default=5.0, help='of every measurement')
+    parser.add_argument('--without-bare', action='store_true', help='the node alone')
     given = parser.parse_args()
     row = ROWS[given.row]
-    alone = bare(row.robots, given.seconds / 2.0)
-    factor = node_speed(row, given.seconds, Ending())
+    alone = 0.0 if given.without_bare else bare(row.robots, given.seconds / 2.0)
+    factor, cpu_factor = node_speed(row, given.seconds, Ending())
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    alone = (alone + bare(row.robots, given.seconds / 2.0)) / 2.0
+    if not given.without_bare:
+        alone = (alone + bare(row.robots, given.seconds / 2.0)) / 2.0
     package = str(Path(husky_sim_node.__file__).resolve().parent)
-    print(json.dumps({'factor': factor, 'bare': alone, 'package': package}))
+    print(
+        json.dumps({'factor': factor, 'cpu_factor': cpu_factor, 'bare': alone, 'package': package})
+    )
 
 
 if __name__ == '__main__':

@@ -222,9 +222,12 @@ def _pack(code: str, count: int, values: Any) -> bytes:
     try:
         if count == 1 or code in '?c':
             return struct.pack(f'<{count}{code}', *values)
-        numbers = array(code, values)  # copies an array as it is, and judges anything else
-        return np.asarray(numbers).astype(f'<{code}').tobytes()
-    except (struct.error, TypeError, OverflowError):
+        if isinstance(values, bytes | bytearray) and code != 'B':
+            values = list(values)  # array() would take them for its memory
+        numbers = array('d' if code == 'f' else code, values)  # refuses what is of another kind
+        with np.errstate(over='raise'):
+            return np.asarray(numbers).astype(f'<{code}').tobytes()
+    except (struct.error, TypeError, ArithmeticError):
         what = repr(values[0]) if count == 1 else f'a row of {count}'
         raise ValueError(f'{what} is not of {_NAMES[code]}') from None
 

@@ -102,14 +102,14 @@ def prove(message: PackedMessage) -> None:
     """
     kind = f'{message.kind.__module__.partition(".")[0]}/{message.kind.__name__}'
     copy = PackedMessage(message.unpacked())
-    head = bytes(serialize_message(message.unpacked()))[:2]
-    if head != HEADER[:2]:
-        raise ValueError(f'{kind}: it begins with {head.hex(" ")} and not {HEADER[:2].hex(" ")}')
     numbers = count(1)
     for _, place in copy.places.leaves():
         if place.code != TEXT:
             copy.packer(place)(*(_like(place.code, next(numbers)) for _ in range(place.count)))
     try:
+        head = bytes(serialize_message(message.unpacked()))[:2]
+        if head != HEADER[:2]:
+            raise ValueError(f'{kind}: it begins with {head.hex(" ")}, not {HEADER[:2].hex(" ")}')
         heard = PackedMessage(deserialize_message(bytes(copy), message.kind))
     except RuntimeError as error:  # rclpy's RMWError
         raise ValueError(f'{kind}: {error}') from error

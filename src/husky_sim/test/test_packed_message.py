@@ -158,7 +158,7 @@ def shorten(data: bytes, kind: Any) -> Any:
             Point(),
             'serialize_message',
             lambda message: b'\0\7' + serialize_message(message)[2:],
-            'geometry_msgs/Point: it begins with 00 07 and not 00 01',
+            'geometry_msgs/Point: it begins with 00 07, not 00 01',
         ),
     ],
 )
