@@ -62,7 +62,8 @@ ROWS = (
 def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str, Any]:
     """Return what speed_row.py prints of the simulator of a clone."""
     script = Path(__file__).resolve().with_name('speed_row.py')
-    command = [clone / 'lab', 'exec', 'python3', script, str(index), f'--seconds={seconds}']
+    command = [str(clone / 'lab'), 'exec', 'python3', str(script), str(index)]
+    command.append(f'--seconds={seconds}')
     command += options
     # In a group of its own: Ctrl-C reaches only us, and we end all of it.
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
