@@ -11,6 +11,7 @@ from importlib import import_module
 import os
 import signal
 import sys
+from types import FrameType
 from typing import NoReturn
 
 from husky_sim.parent_death import die_with_parent
@@ -32,6 +33,11 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
 
     # No window of MuJoCo's is opened here; to look for one starts a second Python.
     os.environ.setdefault('MUJOCO_GL', 'disabled')
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        if _imports(frame):
+            leave()
+        signal.default_int_handler(number, frame)
+
     for number in _SIGNALS:
         signal.signal(number, leave)
     # Who started this process may have held signals back until it can take them.
@@ -40,7 +46,7 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
         main = import_module(module).main
         if catches:
             for number in _SIGNALS:
-                signal.signal(number, signal.default_int_handler)
+                signal.signal(number, interrupt)
         return int(main())
     except KeyboardInterrupt:
         return interrupted
@@ -48,6 +54,14 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
         # While Python takes itself apart, an interrupt would kill it.
         for number in _SIGNALS:
             signal.signal(number, signal.SIG_IGN)
+
+
+def _imports(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if '<frozen importlib' in frame.f_code.co_filename:
+            return True
+        frame = frame.f_back
+    return False
 
 
 def run_node(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
