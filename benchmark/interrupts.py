@@ -76,7 +76,8 @@ def interrupt(command: Sequence[str], *, after_sec: float, folder: Path) -> Endi
             took_sec = time.monotonic() - begun
         except subprocess.TimeoutExpired:
             pass
-        left = _session(child.pid)
+        while (left := _session(child.pid)) and time.monotonic() < begun + END_WITHIN_SEC:
+            time.sleep(0.005)
         for pid in left:
             os.kill(pid, signal.SIGKILL)
         child.wait()
@@ -112,8 +113,11 @@ def main() -> int:
                 for moment in moments
             }
             unclean = {moment: end for moment, end in endings.items() if not end.is_clean}
-            longest = max(end.took_sec or END_WITHIN_SEC for end in endings.values())
-            print(f'{name:16} {len(unclean)} of {len(moments)} unclean, longest {longest:.2f} s')
+            slowest = max(moments, key=lambda moment: endings[moment].took_sec or END_WITHIN_SEC)
+            print(
+                f'{name:16} {len(unclean)} of {len(moments)} unclean, '
+                f'{endings[slowest].took_sec or END_WITHIN_SEC:.2f} s at most, at {slowest:.2f} s'
+            )
             for moment, ending in unclean.items():
                 print(f'--- at {moment:.2f} s: {ending.took_sec} s, left {ending.left}')
                 print(ending.output[-1500:])

@@ -22,6 +22,9 @@ DATA_FILES = {
 }
 
 
+SCRIPTS = ['bin/ros2', 'bin/python_held_back']
+
+
 class Distribution(setuptools.Distribution):
     """Has the method by which setuptools' editable_wheel asks whether there are data files.
 
@@ -32,4 +35,4 @@ class Distribution(setuptools.Distribution):
         return self.has_data_files()
 
 
-setuptools.setup(distclass=Distribution, data_files=list(DATA_FILES.items()), scripts=['bin/ros2'])
+setuptools.setup(distclass=Distribution, data_files=list(DATA_FILES.items()), scripts=SCRIPTS)

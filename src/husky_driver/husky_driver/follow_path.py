@@ -66,8 +66,9 @@ def _run(node: FollowPath, waypoints: str) -> int:
     node.start(drive)
     _stop_on_signals(node)
     while not node.finished.done():
-        # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up.
-        executor.spin_until_future_complete(node.finished, timeout_sec=1.0)
+        # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up. A short
+        # one, for it sees signals only between two spins.
+        executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
     executor.remove_node(node)
     return int(node.finished.result())
 
@@ -81,7 +82,8 @@ def _checked(node: FollowPath, course: Course) -> Drive:
     settings, log = node.settings, node.get_logger()
     if settings.check != 'off':
         try:
-            from husky_driver.clearance import survey
+            with signals_held_back():
+                from husky_driver.clearance import survey
         except ImportError:  # on a real robot there is no simulator that knows the obstacles
             return node.new_drive(course)
         x, y, yaw = settings.start

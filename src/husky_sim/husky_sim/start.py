@@ -11,11 +11,14 @@ from importlib import import_module
 import os
 import signal
 import sys
+from types import FrameType
 from typing import NoReturn
 
 from husky_sim.parent_death import die_with_parent
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_BAD_INPUT = 2
+_LAST_DOMAIN = 232  # above it the ports do not suffice: RTPS 2.5, 9.6.2.3
 _CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
 
 
@@ -32,6 +35,11 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
 
     # No window of MuJoCo's is opened here; to look for one starts a second Python.
     os.environ.setdefault('MUJOCO_GL', 'disabled')
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        if _imports(frame):
+            leave()
+        signal.default_int_handler(number, frame)
+
     for number in _SIGNALS:
         signal.signal(number, leave)
     # Who started this process may have held signals back until it can take them.
@@ -40,7 +48,7 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
         main = import_module(module).main
         if catches:
             for number in _SIGNALS:
-                signal.signal(number, signal.default_int_handler)
+                signal.signal(number, interrupt)
         return int(main())
     except KeyboardInterrupt:
         return interrupted
@@ -50,6 +58,14 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
             signal.signal(number, signal.SIG_IGN)
 
 
+def _imports(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if '<frozen importlib' in frame.f_code.co_filename:
+            return True
+        frame = frame.f_back
+    return False
+
+
 def run_node(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
     """
     Run a node of ours: it ends with who started it, and its messages are not checked.
@@ -57,6 +73,14 @@ def run_node(module: str, *, interrupted: int = 0, catches: bool = False) -> int
     Only nohup says that it is to live on. The check of each field, meant for what students
     write, makes reading an odometry message take 46 us instead of 29.
     """
+    domain = os.environ.get('ROS_DOMAIN_ID') or '0'
+    if not (domain.isascii() and domain.isdecimal() and int(domain) <= _LAST_DOMAIN):
+        print(
+            f'ROS_DOMAIN_ID={domain!r} is refused: a domain is a number from 0 to {_LAST_DOMAIN} '
+            '(on Linux at best from 0 to 101); use `export ROS_DOMAIN_ID=0`',
+            file=sys.stderr,
+        )
+        return _BAD_INPUT
     if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
         die_with_parent(signal.SIGTERM)
     os.environ[_CHECK_FIELDS] = '0'

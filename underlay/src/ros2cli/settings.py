@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import os
 
-from ros2cli.errors import CommandError
+from ros2cli.errors import UsageError
 
 _RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
 
@@ -24,7 +24,7 @@ class Settings:
 def settings_from_environment() -> Settings:
     """Read ROS_DOMAIN_ID and its companions.
 
-    :raises CommandError: a variable holds what ROS 2 does not know.
+    :raises UsageError: a variable holds what ROS 2 does not know.
     """
     text = os.environ.get('ROS_DOMAIN_ID') or '0'
     try:
@@ -32,7 +32,7 @@ def settings_from_environment() -> Settings:
     except ValueError:
         domain_id = -1
     if not 0 <= domain_id <= 232:
-        raise CommandError(
+        raise UsageError(
             f"ROS_DOMAIN_ID='{text}' is refused: a domain is a number from 0 to 232 "
             '(on Linux at best from 0 to 101); use `export ROS_DOMAIN_ID=0`'
         )
@@ -40,7 +40,7 @@ def settings_from_environment() -> Settings:
     if os.environ.get('ROS_LOCALHOST_ONLY') == '1':
         discovery_range = 'LOCALHOST'
     if discovery_range not in _RANGES:
-        raise CommandError(
+        raise UsageError(
             f"ROS_AUTOMATIC_DISCOVERY_RANGE='{discovery_range}' is refused: allowed are "
             f'{", ".join(_RANGES)}'
         )

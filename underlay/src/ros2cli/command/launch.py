@@ -13,6 +13,7 @@ from typing import Any
 from ros2cli import completion, nearest, packages
 from ros2cli.diagnosis import workspaces
 from ros2cli.errors import CommandError
+from ros2cli.settings import settings_from_environment
 
 _SUFFIXES = (*packages.LAUNCH_SUFFIXES, '.py', '.xml', '.yaml', '.yml', '.launch')
 
@@ -89,6 +90,7 @@ def main(args: argparse.Namespace) -> int:
         return launching.print_arguments(path)
     if args.print_description:
         return launching.print_description(path)
+    settings_from_environment()  # refuses what a node would take without a word
     if args.show_all_subprocesses_output:
         os.environ['OVERRIDE_LAUNCH_PROCESS_OUTPUT'] = 'both'
     if args.package_name in packages.installed():

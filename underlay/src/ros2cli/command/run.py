@@ -17,6 +17,7 @@ from interrupt_while_loading import takes_blocked_interrupt
 from ros2cli import completion, packages
 from ros2cli.diagnosis import workspaces
 from ros2cli.errors import CommandError, UsageError
+from ros2cli.settings import settings_from_environment
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,6 +41,7 @@ def main(args: argparse.Namespace) -> NoReturn:
             f"ros2 run: the name of the executable is missing; package '{args.package_name}' has "
             f'{", ".join(known) or "none"}'
         )
+    settings_from_environment()  # refuses what a node would take without a word
     path = packages.find_executable(args.package_name, args.executable_name)
     try:
         prefix = shlex.split(args.prefix or '')
