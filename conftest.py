@@ -4,10 +4,7 @@
 What every test relies on.
 
 `./lab test` runs two tests at a time: one alone leaves half of two cores idle. Each folder of
-tests stays in one process, and has DDS domains that no other folder uses:
-
-    test 1-29, underlay/test 30-43, underlay/test/ros2 44-57, husky_sim 58-70, husky_driver 71-84,
-    and the grader itself takes one from 85 to 101.
+tests stays in one process. Each test that uses DDS has a domain of its own (husky_sim.domains).
 """
 
 from pathlib import PurePosixPath

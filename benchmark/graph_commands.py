@@ -22,6 +22,8 @@ import subprocess
 import sys
 import time
 
+from husky_sim.domains import in_own_domain
+
 _NODE = """
 import sys, rclpy
 from rclpy.executors import ExternalShutdownException
@@ -105,4 +107,5 @@ def _children_cpu() -> float:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    with in_own_domain():
+        sys.exit(main())

@@ -24,6 +24,8 @@ import sys
 import tempfile
 import time
 
+from husky_sim.domains import in_own_domain
+
 _NODE = """
 import sys, time, rclpy
 from rclpy.executors import ExternalShutdownException
@@ -137,4 +139,5 @@ def main() -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    with in_own_domain():
+        sys.exit(main())

@@ -26,6 +26,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, Vector3
+from husky_sim.domains import in_own_domain
 from nav_msgs.msg import Odometry
 import numpy as np
 import rclpy
@@ -182,4 +183,5 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    main()
+    with in_own_domain():
+        main()

@@ -24,6 +24,7 @@ import threading
 import time
 import urllib.request
 
+from husky_sim.domains import in_own_domain
 from husky_sim.node import SimulatorNode
 import rclpy
 from rclpy.experimental import EventsExecutor
@@ -205,4 +206,5 @@ def watched_run(factor: float, seconds: float) -> tuple[list[Moment], float, flo
 
 
 if __name__ == '__main__':
-    main()
+    with in_own_domain():
+        main()

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
+from husky_sim.domains import OwnDomain
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 from playpen_testing import chromium  # noqa: E402
 from playpen_testing.browser import Browser  # noqa: E402
-from playpen_testing.domain import free_domain_id  # noqa: E402
 from playpen_testing.processes import Processes  # noqa: E402
 from playpen_testing.spinning import SpunNodes  # noqa: E402
 
@@ -27,15 +27,15 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 
 @pytest.fixture
-def domain_id(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> int:
-    """Give the test a DDS domain with nobody in it, also in the environment of its children."""
-    number = free_domain_id()
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(number))
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
-    monkeypatch.setenv('PYTHONUNBUFFERED', '1')
-    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
-    return number
+def domain_id(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[int]:
+    """Give the test a DDS domain of its own, also in the environment of its children."""
+    with OwnDomain() as domain:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain.number))
+        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
+        monkeypatch.setenv('PYTHONUNBUFFERED', '1')
+        monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
+        yield domain.number
 
 
 @pytest.fixture

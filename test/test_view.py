@@ -4,15 +4,18 @@
 
 from collections.abc import Iterator
 import json
+import math
 import subprocess
 import sys
 
+from husky_sim.scene_topic import QOS as SCENE_QOS
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, labelled_input, number
 from playpen_testing.tab import Tab
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
+from std_msgs.msg import Float64MultiArray
 
 PHONE = (390, 844)
 TROUBLE = "(document.querySelector('[data-trouble]') || {textContent: ''}).textContent"
@@ -81,6 +84,52 @@ def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Tab) -> None:
 
     wait_until(silent, timeout_sec=15.0, what='half a second without a command: nobody drives')
     assert heard[-1].linear.x == 0.0
+
+
+@pytest.mark.timeout(120)
+def test_the_page_publishes_commands_only_while_it_drives(lab: Lab, page: Tab) -> None:
+    def publishers() -> int:
+        infos = lab.listener.get_publishers_info_by_topic('/' + COMMANDS)
+        return sum(info.node_name == 'husky_view' for info in infos)
+
+    wait_until(lambda: publishers() == 0, timeout_sec=10.0, what='a page that does not drive')
+    page.key('keyDown', 'ArrowLeft')
+    wait_until(lambda: publishers() == 1, timeout_sec=10.0, what='a page that drives')
+    page.key('keyUp', 'ArrowLeft')
+    wait_until(lambda: publishers() == 0, timeout_sec=10.0, what='a page that has let go')
+    wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
+
+
+@pytest.mark.timeout(120)
+def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Tab) -> None:
+    scenes = list[Float64MultiArray]()
+    subscription = lab.listener.create_subscription(
+        Float64MultiArray, 'husky_sim/scene', scenes.append, SCENE_QOS
+    )
+    wait_until(lambda: bool(scenes), timeout_sec=10.0, what='a scene')
+    lab.listener.destroy_subscription(subscription)
+    scene = scenes[0]
+    publisher = lab.listener.create_publisher(Float64MultiArray, 'husky_sim/scene', SCENE_QOS)
+    wait_until(
+        lambda: publisher.get_subscription_count() > 0,
+        timeout_sec=10.0,
+        what='a view that listens',
+    )
+    shown_sec = page.run(number('time'))
+    scene.data[1] = math.nan
+
+    def told() -> bool:
+        publisher.publish(scene)
+        return bool(page.run(f"{TROUBLE}.includes('a joint position is no number')"))
+
+    wait_until(told, timeout_sec=10.0, what='a word about the nonsense')
+    scene.layout.dim[1].size = 3
+    publisher.publish(scene)
+    page.wait_for(f"{TROUBLE}.includes('no scene of 1 robots')", what='a word about the other')
+    lab.listener.destroy_publisher(publisher)
+    page.wait_for(f'!{TROUBLE}', what='no trouble any more')
+    page.wait_for(f'{number("time")} !== {json.dumps(shown_sec)}', what='time that goes on')
+    assert page.errors == []
 
 
 @pytest.mark.timeout(120)

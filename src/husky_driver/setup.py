@@ -38,10 +38,12 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            'follow_path = husky_driver.follow_path:main',
-            'check = husky_driver.check:main',
-            'grade = husky_driver.grade:main',
-            'teleop = husky_driver.teleop:main',
+            'drive = husky_driver.start:drive',
+            'follow_path = husky_driver.start:follow_path',
+            'check = husky_driver.start:check',
+            'grade = husky_driver.start:grade',
+            'supervise = husky_driver.start:supervise',
+            'teleop = husky_driver.start:teleop',
         ],
     },
 )

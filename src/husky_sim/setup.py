@@ -35,6 +35,10 @@ setup(
             f'share/{PACKAGE}/config',
             data_files_of(Path(__file__).resolve().parent / 'config', '*.yaml'),
         ),
+        (
+            f'share/{PACKAGE}/hook',
+            data_files_of(Path(__file__).resolve().parent / 'hook', 'check_fields.*'),
+        ),
         (f'share/{PACKAGE}/worlds', data_files_of(WORLDS, '*.xml')),
     ],
     install_requires=['setuptools', 'mujoco', 'numpy'],

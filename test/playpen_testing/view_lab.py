@@ -7,12 +7,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from geometry_msgs.msg import Twist
+from husky_sim.domains import OwnDomain
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
 
 from playpen_testing.browser import Browser
-from playpen_testing.domain import free_domain_id
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Process, Processes
 from playpen_testing.spinning import SpunNodes
@@ -102,17 +102,17 @@ class Lab:
 @contextmanager
 def view_lab(folder: Path, browser: Browser) -> Iterator[Lab]:
     """Start everything in a domain of its own; waypoints are saved in a folder of it."""
-    domain = free_domain_id()
-    environment = {
-        'ROS_DOMAIN_ID': str(domain),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'ROS_LOG_DIR': str(folder / 'ros_log'),
-        'PYTHONUNBUFFERED': '1',
-    }
     waypoints = folder / 'waypoints'
     waypoints.mkdir()
-    try:
-        with Processes() as processes, SpunNodes(domain) as nodes:
-            yield Lab(processes, nodes, environment, browser, waypoints)
-    finally:
-        browser.close_tabs()
+    with OwnDomain() as domain:
+        environment = {
+            'ROS_DOMAIN_ID': str(domain.number),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'ROS_LOG_DIR': str(folder / 'ros_log'),
+            'PYTHONUNBUFFERED': '1',
+        }
+        try:
+            with Processes() as processes, SpunNodes(domain.number) as nodes:
+                yield Lab(processes, nodes, environment, browser, waypoints)
+        finally:
+            browser.close_tabs()

@@ -15,6 +15,8 @@ elif [ "${VIRTUAL_ENV:-}" != "$COLCON_CURRENT_PREFIX" ] || [ "${HUSKY_LAB_ROS:-}
         printf ':%s' "$VIRTUAL_ENV"/lib/python3.*/site-packages/ros_*.libs
     )${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
     export LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
+    # Or `command.linear.x = 1` is sent as 5e-324; with it the error names field and line.
+    export ROS_PYTHON_CHECK_FIELDS="${ROS_PYTHON_CHECK_FIELDS:-1}"
     # As ./lab: a classroom must not talk across desks, and nodes find each other at once.
     export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
     if [ -f "$VIRTUAL_ENV/../config/fastdds.xml" ]; then

@@ -12,6 +12,7 @@ import sys
 import textwrap
 import time
 
+from husky_sim.domains import OwnDomain
 import pytest
 
 SOURCES = Path(__file__).resolve().parent.parent / 'src'
@@ -70,10 +71,11 @@ def launch_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Itera
     environment = dict(os.environ)
     monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(30 + os.getpid() % 14))
     monkeypatch.delenv('OVERRIDE_LAUNCH_PROCESS_OUTPUT', raising=False)
     launch.logging.reset()
-    yield
+    with OwnDomain() as domain:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain.number))
+        yield
     launch.logging.reset()
     for name in set(os.environ) - set(environment):
         del os.environ[name]

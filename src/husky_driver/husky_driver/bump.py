@@ -52,7 +52,7 @@ class Bump:
 
     def feel(self, time_sec: float, acceleration_m_s2: float) -> None:
         """Take a sample of the IMU."""
-        if math.isfinite(acceleration_m_s2):
+        if math.isfinite(time_sec) and math.isfinite(acceleration_m_s2):
             self._felt.append((time_sec, acceleration_m_s2))
 
     def is_held(self, time_sec: float, speed_m_s: float) -> bool:

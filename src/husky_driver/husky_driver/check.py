@@ -14,7 +14,7 @@ from husky_driver.command_line import BAD_INPUT, Parser
 from husky_driver.foreign_text import printable
 from husky_driver.path import Point
 from husky_driver.route import plan_route
-from husky_driver.scoring import par_time_sec
+from husky_driver.time_limit import par_time_sec
 from husky_driver.waypoints import Course, load_course
 
 TOO_NEAR = 1

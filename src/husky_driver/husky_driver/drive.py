@@ -12,11 +12,13 @@ from collections.abc import Generator, Iterator
 import math
 
 from husky_driver.motion import Command, Odometry, STOP
+from husky_driver.plausibility import OdometryCheck
 from husky_driver.route import lead_in, Leg, plan_route
 from husky_driver.slip import SlipCorrection, SlipModel
+from husky_driver.time_limit import NEARER_M, TimeLimit
 from husky_driver.tracker import DriveLimits, plan_speeds, Tracker
 from husky_driver.watchdog import Watchdog
-from husky_driver.waypoints import Course, Waypoint
+from husky_driver.waypoints import Course
 
 ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
 ALIGNED_RAD = 0.01  # where turning on the spot ends
@@ -24,6 +26,7 @@ ALIGNED_RAD_S = 0.15
 LOST_HEADING_RAD = 1.2  # facing this far from the path: stop and turn
 ARRIVED_M = 0.004
 SETTLE_SEC = 3.0  # a robot that does not come to rest in this time is left rolling
+BLIND_STOPS = 50  # commands to stop, where what is heard of the robot cannot be believed
 MAX_PERIOD_SEC = 0.1
 
 _TWO_PI = 2 * math.pi
@@ -45,6 +48,7 @@ class Drive:
         self.limits = limits or DriveLimits()
         self.finished = False
         self.failure = ''  # why it gave up, if it did
+        self.nonsense = ''  # what it heard that cannot be true, if it did
         self.held = False  # true: stands where it is, and goes on when false again
         self.reached = 0  # waypoints, counted in order
         self.legs = plan_route(course)
@@ -53,6 +57,11 @@ class Drive:
         self._now: Odometry | None = None
         self._started_sec = 0.0
         self._gave_up_sec: float | None = None
+        self._check = OdometryCheck()
+        self._blind_stops = 0
+        self._dwelling = False
+        self._limit: TimeLimit
+        self._least_m = math.inf  # of the path left, so far
         self._next = 0  # the waypoint that is driven to
         self._command = STOP
         self._wishes: Iterator[Command] = iter(())
@@ -92,13 +101,14 @@ class Drive:
         return 0.0 if self._now is None else self._now.time_sec - self._started_sec
 
     def summary(self) -> str:
-        return (
-            f'{self.reached} of {self.total} waypoints, '
-            f'{self.length_m:.2f} m in {self.elapsed_sec:.2f} s'
-        )
+        return f'{self.reached} of {self.total} waypoints, {self.length_m:.2f} m of path'
 
     def step(self, odometry: Odometry) -> Command | None:
         """Return the command that answers one odometry message; None when the drive is over."""
+        if not self.nonsense and (what := self._check.complaint(odometry)):
+            self.disbelieve(what)
+        if self.nonsense:
+            return self._stop_blindly()
         before = self._now
         if before is not None and odometry.time_sec < before.time_sec:
             self._slip.restart()  # the simulator was reset
@@ -117,15 +127,42 @@ class Drive:
         period = 0.0 if before is None else odometry.time_sec - before.time_sec
         period = min(max(period, 0.0), MAX_PERIOD_SEC)
         self._command = self._within_limits(wish, period)
-        if complaint := self._watchdog.complaint(odometry, self._command):
+        if complaint := self._complaint(odometry):
             self.give_up(complaint)
             return STOP
         return self._command
 
+    def _complaint(self, odometry: Odometry) -> str:
+        """Return why the drive cannot go on, or nothing."""
+        if complaint := self._watchdog.complaint(odometry, self._command):
+            return complaint
+        remaining_m = self.remaining_m
+        nearer = remaining_m < self._least_m - NEARER_M
+        if nearer:
+            self._least_m = remaining_m
+        complaint = self._limit.complaint(
+            odometry.time_sec, nearer=nearer, held=self.held, dwelling=self._dwelling
+        )
+        if not complaint:
+            return ''
+        place = f'({odometry.x_m:.2f}, {odometry.y_m:.2f})'
+        return f'{complaint}; it is at {place}, {remaining_m:.2f} m of path are left'
+
     def feel(self, time_sec: float, acceleration_m_s2: float) -> None:
         """Take what the IMU felt along the robot; a drive without it cannot feel a wall ahead."""
-        if self._now is not None:
+        if self._now is not None and not self.failure:
             self._watchdog.bump.feel(time_sec, acceleration_m_s2)
+
+    def disbelieve(self, what: str) -> None:
+        """Take notice of a message that cannot be true: nothing more is believed after it."""
+        self.nonsense = self.nonsense or what
+        self.give_up(what)
+
+    def _stop_blindly(self) -> Command | None:
+        """Stop a robot of which nobody knows whether it stands yet."""
+        self._blind_stops += 1
+        self.finished = self._blind_stops > BLIND_STOPS
+        return None if self.finished else STOP
 
     def give_up(self, why: str) -> None:
         """Break the drive off: from now on it only stops the robot."""
@@ -148,6 +185,9 @@ class Drive:
         way = lead_in(self.course, (odometry.x_m, odometry.y_m))
         if way is not None:
             self.legs.insert(0, way)
+        self._leg_index, self._tracker = 0, None  # not those from before a reset
+        self._least_m, self._dwelling = math.inf, False
+        self._limit = TimeLimit(self.legs, odometry.time_sec)
         self._wishes = self._drive()
 
     def _place(self, start: Odometry) -> None:
@@ -213,9 +253,10 @@ class Drive:
         return STOP
 
     def _dwell(self, duration_sec: float) -> Generator[Command, None, None]:
-        begun_sec = self._odometry().time_sec
+        begun_sec, self._dwelling = self._odometry().time_sec, True
         while self._odometry().time_sec - begun_sec < duration_sec:
             yield STOP
+        self._dwelling = False
 
     def _odometry(self) -> Odometry:
         if self._now is None:
@@ -258,22 +299,3 @@ class Drive:
         if number <= leg.first:
             return True
         return self._tracker.s > leg.curve.knot_s[number - leg.first] + tolerance_m
-
-
-class DistanceDrive(Drive):
-    """Drives straight ahead or back from wherever the robot starts."""
-
-    def __init__(self, speed_m_s: float, distance_m: float, *, forward: bool = True) -> None:
-        self._ahead_m = distance_m if forward else -distance_m
-        self._speed_m_s = speed_m_s
-        super().__init__(self._course(Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)))
-
-    def _place(self, start: Odometry) -> None:
-        self.course = self._course(start)
-
-    def _course(self, start: Odometry) -> Course:
-        x = start.x_m + self._ahead_m * math.cos(start.yaw_rad)
-        y = start.y_m + self._ahead_m * math.sin(start.yaw_rad)
-        goal = Waypoint(x, y, reverse=self._ahead_m < 0.0)
-        begin = Waypoint(start.x_m, start.y_m)
-        return Course('distance', (begin, goal), speed_m_s=self._speed_m_s)

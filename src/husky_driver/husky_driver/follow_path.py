@@ -14,10 +14,12 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from husky_driver.command_line import BAD_INPUT, Parser
-from husky_driver.drive import DistanceDrive, Drive
+from husky_driver.distance_drive import DistanceDrive
+from husky_driver.drive import Drive
 from husky_driver.executor import make_executor
 from husky_driver.node import FollowPath, INTERRUPTED, TERMINATED
 from husky_driver.prompt import ask_move
+from husky_driver.start import signals_held_back
 from husky_driver.waypoints import Course, load_course
 
 
@@ -27,9 +29,13 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
     try:
         options = parser.parse_args(remove_ros_args(argv)[1:])
-        # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
-        rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
-        node = FollowPath()
+        with signals_held_back():
+            # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
+            rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
+            node = FollowPath()
+    except KeyboardInterrupt:
+        rclpy.try_shutdown()
+        return INTERRUPTED
     except Exception as error:  # rcl raises many types for what a person can mistype
         return _refuse(' '.join(str(error).split()))
     try:

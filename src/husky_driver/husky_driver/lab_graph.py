@@ -11,6 +11,7 @@ import re
 import time
 from typing import Any
 
+from husky_sim.domains import OwnDomain
 import rclpy
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -18,7 +19,7 @@ from std_msgs.msg import String
 
 from husky_driver.executor import make_executor
 from husky_driver.lab_steps import failed, find_executable, Step
-from husky_driver.processes import free_domain, Process, tail_of
+from husky_driver.processes import Process, tail_of
 
 TOPIC = '/topic_test'
 TYPE = 'std_msgs/msg/String'
@@ -64,17 +65,22 @@ class Graph:
 @contextmanager
 def graph() -> Iterator[Graph]:
     """Open a graph in a domain of its own."""
-    domain, context = free_domain(), rclpy.Context()
-    rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-    ear = Ear(context)
-    executor = make_executor(context)
-    executor.add_node(ear)
-    try:
-        yield Graph(ear, executor, domain)
-    finally:
-        executor.remove_node(ear)
-        ear.destroy_node()
-        rclpy.shutdown(context=context)
+    context = rclpy.Context()
+    with OwnDomain() as domain:
+        rclpy.init(
+            context=context,
+            domain_id=domain.number,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
+        ear = Ear(context)
+        executor = make_executor(context)
+        executor.add_node(ear)
+        try:
+            yield Graph(ear, executor, domain.number)
+        finally:
+            executor.remove_node(ear)
+            ear.destroy_node()
+            rclpy.shutdown(context=context)
 
 
 def publisher_step(folder: Path, environment: dict[str, str], most: float) -> Step:
@@ -87,7 +93,7 @@ def publisher_step(folder: Path, environment: dict[str, str], most: float) -> St
     with graph() as live:
         environment = {**environment, 'ROS_DOMAIN_ID': str(live.domain)}
         log = folder / 'publisher.log'
-        with log.open('w') as stream, Process([str(program)], environment, stream, '') as process:
+        with log.open('w') as stream, Process([str(program)], environment, stream) as process:
             ear = live.ear
             live.spin_until(
                 lambda: bool(ear.heard) or process.exit_code is not None, APPEAR_WITHIN_SEC
@@ -139,7 +145,7 @@ def subscriber_step(folder: Path, environment: dict[str, str], most: float) -> S
     with graph() as live:
         environment = {**environment, 'ROS_DOMAIN_ID': str(live.domain), 'PYTHONUNBUFFERED': '1'}
         log = folder / 'subscriber.log'
-        with log.open('w') as stream, Process([str(program)], environment, stream, '') as process:
+        with log.open('w') as stream, Process([str(program)], environment, stream) as process:
 
             def repeated() -> bool:
                 live.ear.publisher.publish(String(data=said))

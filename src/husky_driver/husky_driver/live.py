@@ -8,7 +8,8 @@ What is judged is the simulator's record, in simulated time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass, field
 import os
 from pathlib import Path
@@ -18,12 +19,15 @@ import sys
 import time
 from typing import Any
 
+from husky_sim.domains import OwnDomain
+from husky_sim.errors import DomainError
 from husky_sim.record import FILE_NAME, read_record, Record
 import rclpy
+from rclpy.executors import Executor
 from rclpy.signals import SignalHandlerOptions
 
 from husky_driver.executor import make_executor
-from husky_driver.processes import free_domain, Process, tail_of
+from husky_driver.processes import adopt_orphans, Process, tail_of
 from husky_driver.referee import Referee, START_WITHIN_SEC
 from husky_driver.watcher import Watcher
 from husky_driver.waypoints import Course
@@ -33,6 +37,7 @@ SILENCE_SEC = 10.0  # wall time: a simulator that says nothing for so long has d
 DISCOVERY_SEC = 6.0  # wall time: so long nodes may need to find each other
 HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
 LOOK_SEC = 0.5  # between two looks at the graph
 
 
@@ -67,37 +72,48 @@ def drive_live(
     :raises LiveRunFailed: when the simulator or the command cannot be started.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    domain = free_domain()
-    graph = {'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
-    graph[RANGE] = os.environ.get(RANGE, 'LOCALHOST')
+    adopt_orphans()
     record = folder / FILE_NAME
     record.unlink(missing_ok=True)
     simulator = [sys.executable, '-m', 'husky_sim.node', '--ros-args', '-p', f'record:={record}']
     simulator += ['-p', f'real_time_factor:={float(real_time_factor)}']
     simulator += ['-p', f'world:={world}'] if world else []
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-    watcher = Watcher(context)
-    executor = make_executor(context)
-    executor.add_node(watcher)
-    try:
-        with (
-            (folder / 'simulator.log').open('w') as log,
-            Process(simulator, {**os.environ, **graph}, log, '') as running,
-        ):
-            _await_simulator(watcher, executor, running, folder)
-            theirs = {**(environment or os.environ), **graph}
-            controller = _start(command, theirs, folder, answers)
-            patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
-            referee = Referee(course, start_within_sec=patience_sec)
-            ending, notes = _watch(watcher, executor, running, controller, referee, folder)
-    finally:
-        executor.remove_node(watcher)
-        watcher.destroy_node()
-        rclpy.shutdown(context=context)
+    patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
+    with (
+        _own_graph() as (graph, watcher, executor),
+        (folder / 'simulator.log').open('w') as log,
+        Process(simulator, {**os.environ, **graph}, log) as running,
+    ):
+        _await_simulator(watcher, executor, running, folder)
+        theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
+        controller = _start(command, theirs, folder, answers)
+        referee = Referee(course, start_within_sec=patience_sec)
+        ending, notes = _watch(watcher, executor, running, controller, referee, folder)
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')
     return LiveRun(read_record(record), ending, notes)
+
+
+@contextmanager
+def _own_graph() -> Iterator[tuple[dict[str, str], Watcher, Executor]]:
+    """Open a DDS domain of this run alone, with a watcher in it; the dict is its environment."""
+    context = rclpy.Context()
+    with ExitStack() as stack:
+        try:
+            domain = stack.enter_context(OwnDomain()).number
+        except DomainError as error:
+            raise LiveRunFailed(str(error)) from None
+        rclpy.init(
+            context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO
+        )
+        stack.callback(rclpy.shutdown, context=context)
+        watcher = Watcher(context)
+        stack.callback(watcher.destroy_node)
+        executor = make_executor(context)
+        executor.add_node(watcher)
+        stack.callback(executor.remove_node, watcher)
+        graph = {'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
+        yield {**graph, RANGE: os.environ.get(RANGE, 'LOCALHOST')}, watcher, executor
 
 
 def _await_simulator(watcher: Watcher, executor: Any, simulator: Process, folder: Path) -> None:
@@ -134,7 +150,9 @@ def _watch(
             if now - looked_sec > LOOK_SEC:
                 looked_sec = now
                 watcher.look()
-            if watcher.count != seen:
+            if watcher.nonsense:
+                ending = watcher.nonsense
+            elif watcher.count != seen:
                 seen, heard_sec = watcher.count, now
                 ending = referee.over(**watcher.state(), running=controller.exit_code is None)
                 if not referee.started and watcher.hinting_sec(now) > HOPELESS_SEC:

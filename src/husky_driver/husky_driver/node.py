@@ -17,17 +17,27 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
 from rclpy.task import Future
 from sensor_msgs.msg import Imu, LaserScan
 from std_srvs.srv import SetBool
 
-from husky_driver.bump import forward_acceleration
 from husky_driver.display import DriveDisplay
 from husky_driver.drive import Drive
-from husky_driver.lookout import Lookout, Scan
-from husky_driver.motion import Odometry, relative_odometry, yaw_of
+from husky_driver.lookout import BLIND_SEC, Lookout
+from husky_driver.motion import Odometry, relative_odometry
 from husky_driver.parameters import declare_settings
+from husky_driver.plausibility import no_rotation
 from husky_driver.progress import Progress
+from husky_driver.readings import (
+    has_orientation,
+    read_acceleration,
+    read_odometry,
+    read_scan,
+    time_of,
+    wrong_imu,
+    wrong_scan,
+)
 from husky_driver.settings import ODOMETRY_TOPICS
 from husky_driver.slip import NO_SLIP
 from husky_driver.waypoints import Course, load_course
@@ -89,9 +99,9 @@ class FollowPath(Node):
         self.create_service(SetBool, '~/pause', self._on_pause)
         self.add_on_set_parameters_callback(self._on_parameters)
         if self.settings.imu:
-            self.create_subscription(Imu, 'imu/data', self._on_imu, SENSOR)
+            self._imu = self.create_subscription(Imu, 'imu/data', self._on_imu, SENSOR)
         if self._lookout is not None:
-            self.create_subscription(LaserScan, 'front/scan', self._on_scan, SENSOR)
+            self._scans = self.create_subscription(LaserScan, 'front/scan', self._on_scan, SENSOR)
 
     def stop(self, exit_code: int, why: str) -> None:
         """Break the drive off: stop the robot, then finish with this exit code."""
@@ -117,9 +127,13 @@ class FollowPath(Node):
         self._last_stamp = stamp
         self._heard_sec = time.monotonic()
         odometry = self._relative(read_odometry(msg))
+        if what := no_rotation(msg.pose.pose.orientation):
+            self._drive.disbelieve(what)
         self._look_out(odometry.time_sec)
         command = self._drive.step(odometry)
-        if command is not None:
+        if self._drive.nonsense and self._stopping is None:
+            self._stop_for_nonsense(self._odometry)
+        elif command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
             if first:  # DDS may know a listener before the listener knows us
                 self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
@@ -150,17 +164,41 @@ class FollowPath(Node):
                 self._say(f'going over to {parameter.value}')
         return SetParametersResult(successful=True)
 
+    def _stop_for_nonsense(self, heard: Subscription) -> None:
+        """Stop at once, for what was heard cannot be true."""
+        topic = heard.topic_name
+        count = self.count_publishers(topic)
+        whose = f'{count} nodes publish it' if count > 1 else 'who publishes it?'
+        self.stop(
+            GAVE_UP,
+            f'gave up: {topic} cannot be true: {self._drive.nonsense}; {whose}, '
+            f'`ros2 topic info -v {topic}` names them',
+        )
+
     def _on_imu(self, msg: Imu) -> None:
-        q = msg.orientation
-        ahead = forward_acceleration(msg.linear_acceleration.x, q.x, q.y, q.z, q.w)
-        self._drive.feel(time_of(msg), ahead)
+        if not has_orientation(msg):
+            return
+        if what := wrong_imu(msg):
+            self._disbelieve(self._imu, what)
+        else:
+            self._drive.feel(time_of(msg), read_acceleration(msg))
+
+    def _disbelieve(self, heard: Subscription, what: str) -> None:
+        self._drive.disbelieve(what)
+        if self._stopping is None:
+            self._stop_for_nonsense(heard)
 
     def _on_scan(self, msg: LaserScan) -> None:
         if self._lookout is None:
             return
-        scan = Scan(time_of(msg), msg.ranges, msg.angle_min, msg.angle_increment)
         drive = self._drive
+        if what := wrong_scan(msg):
+            self._disbelieve(self._scans, what)
+            return
+        scan = read_scan(msg)
         now, tracker = drive.odometry, drive.tracker
+        if now is not None and scan.time_sec > now.time_sec + BLIND_SEC:
+            return  # from before a reset; it would hide that no scan comes any more
         if now is None or tracker is None or tracker.reverse:
             self._lookout.pass_over(scan)
             return
@@ -171,7 +209,7 @@ class FollowPath(Node):
         self._lookout.look(scan, pose, tracker.curve, tracker.s, speed)
 
     def _look_out(self, now_sec: float) -> None:
-        if self._lookout is None:
+        if self._lookout is None or self._drive.nonsense:
             return
         if news := self._lookout.news(now_sec):
             self._say(news)
@@ -265,23 +303,3 @@ class FollowPath(Node):
         if self._commands.get_subscription_count() == 0:
             return f'nobody listens to {self._commands.topic_name}; {where}'
         return f'{self._odometry.topic_name} is silent; is the simulation paused?'
-
-
-def time_of(msg: Any) -> float:
-    """Return the time of a message's stamp, in seconds."""
-    stamp = msg.header.stamp
-    return float(stamp.sec + stamp.nanosec * 1e-9)
-
-
-def read_odometry(msg: OdometryMsg) -> Odometry:
-    """Take what the driver needs out of the message."""
-    pose, twist = msg.pose.pose, msg.twist.twist
-    position, q = pose.position, pose.orientation
-    return Odometry(
-        time_of(msg),
-        position.x,
-        position.y,
-        yaw_of(q.x, q.y, q.z, q.w),
-        twist.linear.x,
-        twist.angular.z,
-    )

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import math
 import shutil
 from typing import TextIO
 
@@ -22,6 +23,8 @@ class Progress:
         self._shown = False
 
     def update(self, length_m: float, remaining_m: float, elapsed_sec: float, note: str) -> None:
+        if not math.isfinite(remaining_m) or not math.isfinite(length_m):
+            return
         part = min(max(1.0 - remaining_m / max(length_m, 1e-9), 0.0), 1.0)
         if self._bar:
             self._draw(part, f'{remaining_m:6.2f} m left  {elapsed_sec:6.1f} s  {note}')

@@ -6,18 +6,17 @@ from __future__ import annotations
 
 import math
 
-from husky_driver.route import plan_route
-from husky_driver.scoring import par_time_sec
+from husky_driver.approach import Approach
+from husky_driver.route import lead_in, plan_route
+from husky_driver.time_limit import TimeLimit
 from husky_driver.waypoints import Course
 
 START_WITHIN_SEC = 20.0  # from when its process started
-REST_SEC = 8.0  # a robot that stands so long is not going on, ...
+REST_SEC = 8.0  # a robot that stands so long is not going on (beside a dwell of the course), ...
 REST_AT_END_SEC = 2.0  # ... or so long at the end of the course, ...
 REST_ALONE_SEC = 1.0  # ... or when the controller has ended
-TIME_FACTOR, TIME_EXTRA_SEC = 3.0, 20.0  # of the time at the asked speed
 STANDING_M_S = 0.02
 STANDING_RAD_S = 0.05
-MOVED_M = 0.05
 
 
 class Referee:
@@ -29,9 +28,13 @@ class Referee:
         self._goal = course.stops[-1]
         self._tolerance_m = course.tolerance_m
         self._half_m = sum(leg.curve.length_m for leg in legs) / 2
-        self._limit_sec = TIME_FACTOR * par_time_sec(legs) + TIME_EXTRA_SEC
-        self._begun_sec: float | None = None
-        self._started_sec: float | None = None
+        way = lead_in(course, (0.0, 0.0))
+        self._limit = TimeLimit([*([way] if way else []), *legs], 0.0)
+        self._approach = Approach(course)
+        self._dwells = [stop for stop in course.stops[:-1] if stop.dwell_sec > 0.0]
+        self._heard_sec: float | None = None
+        self._now_sec = 0.0  # from the first pose on; a reset takes nothing back
+        self._started = False
         self._resting_since_sec = 0.0
         self._driven_m = 0.0
         self._last = (0.0, 0.0)
@@ -39,7 +42,7 @@ class Referee:
     @property
     def started(self) -> bool:
         """Tell whether the robot has moved."""
-        return self._started_sec is not None
+        return self._started
 
     def over(
         self,
@@ -51,25 +54,46 @@ class Referee:
         running: bool,
     ) -> str:
         """Return why the run is over, or nothing; `running` tells of the controller's process."""
-        if self._begun_sec is None:
-            self._begun_sec, self._last = time_sec, place
+        if self._heard_sec is None:
+            self._heard_sec, self._last = time_sec, place
+        self._now_sec += max(time_sec - self._heard_sec, 0.0)
+        self._heard_sec = time_sec
         self._driven_m += math.dist(place, self._last)
         self._last = place
         moving = abs(speed_m_s) > STANDING_M_S or abs(yaw_rate_rad_s) > STANDING_RAD_S
-        if moving or self._started_sec is None:
-            self._resting_since_sec = time_sec
-        if self._started_sec is None:
-            if not moving:
-                return self._before_start(time_sec - self._begun_sec, running=running)
-            self._started_sec = time_sec
-        if time_sec - self._started_sec > self._limit_sec:
-            return f'time is up after {self._limit_sec:.0f} s'
-        rest = time_sec - self._resting_since_sec
-        if not running and rest > REST_ALONE_SEC:
+        if moving or not self._started:
+            self._resting_since_sec = self._now_sec
+        self._started = self._started or moving
+        nearer = self._approach.is_nearer(place)
+        if not self._started:
+            self._limit.complaint(self._now_sec, nearer=nearer, held=True)
+            return self._before_start(self._now_sec, running=running)
+        return self._at_rest(place, running=running) or self._limit.complaint(
+            self._now_sec, nearer=nearer, dwelling=self._dwell_sec(place) > self._rest_sec
+        )
+
+    @property
+    def _rest_sec(self) -> float:
+        return self._now_sec - self._resting_since_sec
+
+    def _at_rest(self, place: tuple[float, float], *, running: bool) -> str:
+        """Return why a robot that stands will not go on; one that is to dwell may stand long."""
+        rest_sec, dwell_sec = self._rest_sec, self._dwell_sec(place)
+        if not running and rest_sec > REST_ALONE_SEC:
             return 'the controller has ended'
-        if rest > REST_AT_END_SEC and self._at_end(place):
+        if rest_sec > REST_AT_END_SEC + dwell_sec and self._at_end(place):
             return 'it stands at the end of the course'
-        return f'it stood still for {REST_SEC:.0f} s' if rest > REST_SEC else ''
+        allowed_sec = REST_SEC + dwell_sec
+        return f'it stood still for {allowed_sec:.0f} s' if rest_sec > allowed_sec else ''
+
+    def _dwell_sec(self, place: tuple[float, float]) -> float:
+        """Return for how long the course lets it stand here."""
+        near = (
+            stop.dwell_sec
+            for stop in self._dwells
+            if math.dist(place, (stop.x_m, stop.y_m)) <= self._tolerance_m
+        )
+        return max(near, default=0.0)
 
     def _before_start(self, waited_sec: float, *, running: bool) -> str:
         if not running and waited_sec > REST_ALONE_SEC:

@@ -82,7 +82,7 @@ def drive_with(
     Let a controller answer each odometry until it answers None; return the record.
 
     :param feel: called with the time and the forward acceleration of each sample of the IMU.
-    :param limit_sec: simulated time after which a controller that never ends is left.
+    :param limit_sec: for a controller that never answers None; a `Drive` has a limit of its own.
     """
     simulation = _at_start(world, start)
     with TemporaryDirectory() as folder:

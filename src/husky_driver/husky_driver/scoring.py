@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
@@ -16,9 +15,10 @@ from husky_driver import diagnosis, score_parts, verdict
 from husky_driver.alignment import align
 from husky_driver.manner import asked_of, manner_of
 from husky_driver.path import joined
-from husky_driver.route import Leg, plan_route
+from husky_driver.route import plan_route
 from husky_driver.run_record import Collision, read_run, RunRecord
 from husky_driver.score_parts import Part
+from husky_driver.time_limit import par_time_sec
 from husky_driver.visits import waypoints_in_order
 from husky_driver.waypoints import Course
 
@@ -26,8 +26,6 @@ Array = npt.NDArray[np.float64]
 
 STANDING_M_S = 0.02
 STANDING_RAD_S = 0.05
-STOP_ALLOWANCE_SEC = 1.0  # for each stop on the way, beside the turning
-TURN_ALLOWANCE_RAD_S = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,23 +134,6 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
         asked_m_s=asked.speed_m_s,
         visits=tuple(visits),
     )
-
-
-def par_time_sec(legs: Sequence[Leg]) -> float:
-    """Return the time the course takes at the asked speed, with allowances for its stops."""
-    seconds, heading = 0.0, 0.0
-    for leg in legs:
-        knots = leg.curve.knot_s
-        seconds += sum((knots[i + 1] - knots[i]) / speed for i, speed in enumerate(leg.speeds_m_s))
-        facing = leg.curve.heading[0] + (math.pi if leg.reverse else 0.0)
-        seconds += abs(math.remainder(facing - heading, 2 * math.pi)) / TURN_ALLOWANCE_RAD_S
-        seconds += STOP_ALLOWANCE_SEC + leg.dwell_sec
-        heading = leg.curve.heading[-1] + (math.pi if leg.reverse else 0.0)
-        if leg.end_yaw_rad is not None:
-            turn = math.remainder(leg.end_yaw_rad - heading, 2 * math.pi)
-            seconds += abs(turn) / TURN_ALLOWANCE_RAD_S
-            heading = leg.end_yaw_rad
-    return seconds
 
 
 def _end(run: RunRecord) -> int:

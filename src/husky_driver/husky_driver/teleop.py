@@ -28,6 +28,7 @@ from husky_driver.command_line import BAD_INPUT, Parser
 from husky_driver.executor import make_executor
 from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, split_keys
 from husky_driver.motion import Command, STOP
+from husky_driver.start import signals_held_back
 
 PERIOD_SEC = 0.05
 DELIVERY_SEC = 0.5  # how long the last command, a stop, may take to whoever listens
@@ -118,8 +119,12 @@ def main(args: Sequence[str] | None = None) -> int:
         print('teleop: needs a terminal to read keys from; run it in one', file=sys.stderr)
         return BAD_INPUT
     try:
-        rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
-        node = Teleop(sys.stdin.fileno())
+        with signals_held_back():
+            rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
+            node = Teleop(sys.stdin.fileno())
+    except KeyboardInterrupt:
+        rclpy.try_shutdown()
+        return 0
     except Exception as error:  # rcl raises many types for what a person can mistype
         print(f'teleop: {" ".join(str(error).split())}', file=sys.stderr)
         rclpy.try_shutdown()

@@ -13,6 +13,8 @@ from rclpy.node import Node
 
 from husky_driver.graph_hints import controller_hints
 from husky_driver.motion import relative, yaw_of
+from husky_driver.plausibility import no_rotation, OdometryCheck
+from husky_driver.readings import read_odometry
 
 COMMAND_TOPIC = '/husky_velocity_controller/cmd_vel'
 OWN_NODES = ('husky_sim', 'grader')
@@ -26,11 +28,25 @@ class Watcher(Node):
         self.latest: Odometry | None = None
         self.count = 0
         self.hints: list[str] = []
+        self.nonsense = ''  # what came that cannot be true; after it nothing is believed
+        self._check = OdometryCheck()
         self._hinting_since_sec: float | None = None
         self._first: tuple[float, float, float] | None = None
-        self.create_subscription(Odometry, 'ground_truth/odom', self._on_pose, 10)
+        self._poses = self.create_subscription(Odometry, 'ground_truth/odom', self._on_pose, 10)
 
     def _on_pose(self, msg: Odometry) -> None:
+        if self.nonsense:
+            return
+        what = no_rotation(msg.pose.pose.orientation) or self._check.complaint(read_odometry(msg))
+        if what:
+            topic = self._poses.topic_name
+            count = self.count_publishers(topic)
+            self.nonsense = f'{topic} cannot be true: {what}' + (
+                f'; {count} nodes publish it: does the controller start a simulator of its own?'
+                if count > 1
+                else ''
+            )
+            return
         self.latest = msg
         self.count += 1
         if self._first is None:

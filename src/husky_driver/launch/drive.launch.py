@@ -1,8 +1,8 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Drive one course in the playpen: the simulator and follow_path, until follow_path is done."""
+"""Drive one course in the playpen: the simulator and follow_path, until one of them ends."""
 
-from launch import LaunchDescription
+from launch import LaunchContext, LaunchDescription
 from launch.actions import (
     DeclareLaunchArgument,
     IncludeLaunchDescription,
@@ -10,14 +10,19 @@ from launch.actions import (
     Shutdown,
 )
 from launch.event_handlers import OnProcessExit
+from launch.events.process import ProcessExited
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
 
+def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
+    return None if context.is_shutdown else Shutdown(reason=f'{event.process_name} has ended')
+
+
 def generate_launch_description() -> LaunchDescription:
-    """Return the simulator, the driver, and the end of both when the driver has ended."""
+    """Return the simulator, the driver, and the end of all when one has ended, however it did."""
     names = ('record', 'real_time_factor', 'lockstep', 'viewer')
     simulator = IncludeLaunchDescription(
         PythonLaunchDescriptionSource(
@@ -56,6 +61,6 @@ def generate_launch_description() -> LaunchDescription:
             ),
             simulator,
             driver,
-            RegisterEventHandler(OnProcessExit(target_action=driver, on_exit=[Shutdown()])),
+            RegisterEventHandler(OnProcessExit(on_exit=_end_all)),
         ]
     )

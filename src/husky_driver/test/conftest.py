@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 import math
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import Any
 
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
+from husky_sim.domains import OwnDomain
 from husky_sim.record import COLUMNS, Record
 import numpy as np
 import pytest
@@ -20,6 +21,13 @@ import pytest
 from husky_sim.config import RobotStart
 
 PERIOD_SEC = 0.02
+
+
+@pytest.fixture
+def domain() -> Iterator[int]:
+    """Give a test a DDS domain of its own."""
+    with OwnDomain() as own:
+        yield own.number
 
 
 @dataclass

@@ -4,10 +4,12 @@ from collections.abc import Callable
 from itertools import pairwise
 import math
 from pathlib import Path
+import random
 from typing import Any
 
-from husky_driver.drive import DistanceDrive, Drive
-from husky_driver.motion import Odometry
+from husky_driver.distance_drive import DistanceDrive
+from husky_driver.drive import Drive
+from husky_driver.motion import Command, Odometry
 from husky_driver.slip import NO_SLIP
 from husky_driver.waypoints import Course, load_course, parse_course
 import pytest
@@ -185,3 +187,119 @@ def test_a_drive_that_begins_in_motion_stops_first(
     run = drive_to_end(drive_of(parse_course('waypoints: [[-1, 0], [-2, 0]]')), plant)
     assert run.drive.reached == 2
     assert run.commands[0] == (0.0, 0.0)
+
+
+LED_IN = """\
+speed: 0.8
+waypoints:
+  - [1, 1]
+  - {x: 2, y: 1, dwell: 0.5}
+  - {x: 2, y: 2, yaw: 0}
+  - {x: 1, y: 2, reverse: true}
+"""
+
+
+@pytest.mark.parametrize('course', [LED_IN, 'waypoints: [[0, 0], [1, 0], [0, 0]]'])
+def test_after_a_reset_at_any_moment_the_course_is_driven_again(
+    drive_to_end: Callable[..., Any], make_plant: Any, course: str
+) -> None:
+    whole = len(drive_to_end(drive_of(parse_course(course))).commands)
+    for moment in range(1, whole, 23):
+        drive, plant = drive_of(parse_course(course)), make_plant()
+        for _ in range(moment):
+            command = drive.step(plant.now)
+            assert command is not None
+            plant.advance(command)
+        again = drive_to_end(drive)
+        assert (drive.failure, drive.reached) == ('', drive.total), f'after {moment} periods'
+        assert len(again.commands) == pytest.approx(whole, abs=5)
+
+
+@pytest.mark.parametrize(
+    ('changes', 'said'),
+    [
+        ({'x_m': math.nan}, 'its x is nan m'),
+        ({'y_m': 4.4e87}, 'its y is 4.4e+87 m'),
+        ({'yaw_rad': math.inf}, 'its yaw is inf rad'),
+        ({'speed_m_s': math.nan}, 'its speed is nan m/s'),
+        ({'x_m': 3.0}, 'it jumps 1.9'),
+        ({'time_sec': 1.5}, 'which is no reset'),
+    ],
+)
+def test_nonsense_stops_the_robot_at_once_and_ends_the_drive(
+    make_plant: Any, changes: dict[str, float], said: str
+) -> None:
+    drive, plant = drive_of(parse_course('speed: 0.8\nwaypoints: [[0, 0], [9, 0]]')), make_plant()
+    for _ in range(80):
+        plant.advance(drive.step(plant.now))
+    believed = drive.odometry
+    commands = []
+    while (command := drive.step(plant.now._replace(**changes))) is not None:
+        commands.append(command)
+        plant.advance(command)
+        drive.feel(plant.now.time_sec, math.nan)
+        assert len(commands) < 100
+    assert said in drive.failure == drive.nonsense
+    assert set(commands) == {(0.0, 0.0)}
+    assert plant.now.is_standing
+    assert drive.odometry is believed
+    assert math.isfinite(drive.remaining_m)
+
+
+@pytest.mark.parametrize('seed', range(20))
+def test_the_odometry_of_two_robots_ends_a_drive_without_an_error(
+    make_plant: Any, seed: int
+) -> None:
+    dice = random.Random(seed)
+    drive, other = drive_of(parse_course(LED_IN)), drive_of(parse_course(LED_IN))
+    ours, theirs = make_plant(), make_plant()
+    for _ in range(dice.randint(0, 300)):
+        theirs.advance(other.step(theirs.now) or Command(0.0, 0.0))
+    for _ in range(3000):
+        if dice.random() < 0.5:
+            theirs.advance(other.step(theirs.now) or Command(0.0, 0.0))
+            command = drive.step(theirs.now)
+        else:
+            command = drive.step(ours.now)
+            ours.advance(command or Command(0.0, 0.0))
+        if command is None:
+            break
+    assert drive.finished
+
+
+def test_a_robot_that_moves_but_gets_no_nearer_is_given_up(make_plant: Any) -> None:
+    drive, plant = drive_of(parse_course('waypoints: [[0, 0], [9, 0]]')), make_plant()
+    while (command := drive.step(plant.now)) is not None:
+        plant.advance(command)
+        if plant.now.x_m > 2.0:  # a slope on which it slides back, again and again
+            plant.now = plant.now._replace(x_m=1.9)
+        assert plant.now.time_sec < 60.0
+    assert drive.failure.startswith('it came no nearer to its goal for 30 s; it is at (')
+    assert drive.failure.endswith(' m of path are left')
+
+
+def test_a_drive_that_is_held_for_an_hour_goes_on(
+    drive_to_end: Callable[..., Any], make_plant: Any
+) -> None:
+    drive, plant = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]')), make_plant()
+    for _ in range(60):
+        plant.advance(drive.step(plant.now))
+    drive.held = True
+    for _ in range(60):
+        plant.advance(drive.step(plant.now))
+    plant.now = plant.now._replace(time_sec=3600.0)
+    drive.step(plant.now)
+    drive.held = False
+    assert drive_to_end(drive, plant, limit_sec=3700.0).drive.failure == ''
+
+
+def test_a_long_dwell_is_not_given_up(drive_to_end: Callable[..., Any]) -> None:
+    course = parse_course('waypoints: [[0, 0], {x: 1, y: 0, dwell: 100}, [2, 0]]')
+    drive = drive_to_end(drive_of(course)).drive
+    assert (drive.failure, drive.reached) == ('', 3)
+    assert 103.0 < drive.elapsed_sec < 115.0
+
+
+def test_the_summary_leaves_the_time_to_the_report(drive_to_end: Callable[..., Any]) -> None:
+    drive = drive_to_end(drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))).drive
+    assert drive.summary() == '2 of 2 waypoints, 2.00 m of path'

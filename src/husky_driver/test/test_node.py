@@ -25,13 +25,13 @@ from rcl_interfaces.srv import SetParameters
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from sensor_msgs.msg import Imu
 from std_srvs.srv import SetBool
 
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
 NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
-FIRST_DOMAIN = 71
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 
 
@@ -43,6 +43,7 @@ class PlantNode(Node):
         self.plant = plant
         self.received: list[Command] = []
         self.silent = False
+        self.spoil: Callable[[Odometry], None] = lambda _: None  # makes nonsense of a message
         self._sent_sec = 0.0
         self._odometry = self.create_publisher(Odometry, 'odometry/filtered', 10)
         topic = 'husky_velocity_controller/cmd_vel'
@@ -69,14 +70,8 @@ class PlantNode(Node):
         msg.pose.pose.orientation.z = math.sin(now.yaw_rad / 2)
         msg.pose.pose.orientation.w = math.cos(now.yaw_rad / 2)
         msg.twist.twist.linear.x, msg.twist.twist.angular.z = now.speed_m_s, now.yaw_rate_rad_s
+        self.spoil(msg)
         self._odometry.publish(msg)
-
-
-@pytest.fixture
-def domain(request: pytest.FixtureRequest) -> int:
-    """Give each test of this module a domain of its own."""
-    names = [item.name for item in request.session.items if item.path == request.node.path]
-    return FIRST_DOMAIN + names.index(request.node.name) % 13
 
 
 @pytest.fixture
@@ -307,3 +302,87 @@ def test_bad_input_is_refused_with_one_line(
     assert process.returncode == 2
     assert expected in output.splitlines()[-1]
     assert 'Traceback' not in output
+
+
+def nowhere(msg: Odometry) -> None:
+    msg.pose.pose.position.x = math.nan
+
+
+def far_away(msg: Odometry) -> None:
+    msg.pose.pose.position.x = 4.4e87
+
+
+def no_turn(msg: Odometry) -> None:
+    msg.pose.pose.orientation.w = msg.pose.pose.orientation.z = 0.0
+
+
+def elsewhere(msg: Odometry) -> None:
+    msg.pose.pose.position.y += 3.0
+
+
+def earlier(msg: Odometry) -> None:
+    msg.header.stamp.sec -= 1
+
+
+@pytest.mark.parametrize(
+    ('spoil', 'said'),
+    [
+        (nowhere, 'its x is nan m'),
+        (far_away, 'its x is 4.4e+87 m'),
+        (no_turn, 'its orientation (0, 0, 0, 0) is no rotation: its length is 0, not 1'),
+        (elsewhere, 'it jumps 3.00 m in 0.02 s'),
+        (earlier, 'which is no reset'),
+    ],
+)
+def test_nonsense_is_named_and_the_robot_stands_at_once(
+    plant_node: PlantNode, follow_path: Any, course: Path, spoil: Any, said: str
+) -> None:
+    process = follow_path('--waypoints', course)
+    wait_until(lambda: plant_node.plant.now.x_m > 1.0, timeout_sec=15, what='a robot on its way')
+    told = len(plant_node.received)
+    plant_node.spoil = spoil
+    output, _ = process.communicate(timeout=10)
+    assert process.returncode == 1, output
+    assert 'Traceback' not in output
+    (line,) = [line for line in output.splitlines() if 'cannot be true' in line]
+    assert 'gave up: /odometry/filtered cannot be true: ' in line
+    assert said in line
+    assert line.endswith('`ros2 topic info -v /odometry/filtered` names them')
+    stops = plant_node.received[told + 2 :]
+    assert set(stops) == {Command(0.0, 0.0)}, 'only stops, from the next command on'
+    assert plant_node.plant.now.is_standing
+
+
+def test_nonsense_of_the_imu_ends_the_drive_too(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    imu = plant_node.create_publisher(Imu, 'imu/data', 50)
+    process = follow_path('--waypoints', course)
+    wait_until(lambda: plant_node.plant.now.x_m > 1.0, timeout_sec=15, what='a robot on its way')
+    message = Imu()
+    message.orientation_covariance[0] = -1.0  # nobody measured the orientation: no nonsense
+    imu.publish(message)
+    message = Imu()
+    message.linear_acceleration.x = math.nan
+    imu.publish(message)
+    output, _ = process.communicate(timeout=10)
+    assert process.returncode == 1, output
+    assert '/imu/data cannot be true: its linear_acceleration.x is nan; who publishes' in output
+    assert plant_node.received[-1] == (0.0, 0.0)
+
+
+def test_two_simulators_end_the_drive_with_a_line_that_counts_them(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    other = plant_node.create_publisher(Odometry, 'odometry/filtered', 10)
+    process = follow_path('--waypoints', course)
+    wait_until(lambda: plant_node.plant.now.x_m > 1.0, timeout_sec=15, what='a robot on its way')
+    message = Odometry()
+    message.header.stamp.nanosec = 500_000_000  # that robot stands at its start
+    message.pose.pose.orientation.w = 1.0
+    other.publish(message)
+    output, _ = process.communicate(timeout=10)
+    assert process.returncode == 1, output
+    assert '2 nodes publish it' in output
+    assert 'Traceback' not in output
+    assert plant_node.received[-1] == (0.0, 0.0)

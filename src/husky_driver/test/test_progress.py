@@ -1,6 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 from io import StringIO
+import math
 
 from husky_driver.progress import Progress, Tally
 import pytest
@@ -38,6 +39,15 @@ def test_without_a_terminal_every_tenth_is_a_line() -> None:
     assert len(lines) == 10
     assert lines[0] == '10 %: 18.00 m left, 2.5 s, on its way'
     assert lines[-1] == '100 %: 0.00 m left, 25.0 s, on its way'
+
+
+@pytest.mark.parametrize('bar', [True, False])
+def test_what_is_no_number_is_not_shown(bar: bool) -> None:
+    terminal, lines = StringIO(), list[str]()
+    progress = Progress(terminal, lines.append, bar=bar)
+    progress.update(math.nan, math.nan, 1.0, '')
+    progress.update(20.0, math.inf, 1.0, '')
+    assert (terminal.getvalue(), lines) == ('', [])
 
 
 def test_a_tally_counts_to_the_last_file() -> None:

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import time
 
-from husky_driver.processes import free_domain
 from husky_driver.rehearsal import drive_course
 from husky_driver.scoring import score
 from husky_driver.waypoints import load_course
@@ -20,7 +19,7 @@ import pytest
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize('name', ['straight', 'through'])
 def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep(
-    name: str, courses: Path, tmp_path: Path
+    name: str, domain: int, courses: Path, tmp_path: Path
 ) -> None:
     file = courses / 'straight.yaml'
     if name == 'through':  # into the barrier: the driver gives up
@@ -29,9 +28,9 @@ def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep
     course, record = load_course(file), tmp_path / 'run.record'
     environment = {
         **os.environ,
-        'ROS_DOMAIN_ID': str(free_domain()),
+        'ROS_DOMAIN_ID': str(domain),
         'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'FASTDDS_DEFAULT_PROFILES_FILE': str(courses.parent / 'fastdds.xml'),
+        'FASTRTPS_DEFAULT_PROFILES_FILE': str(courses.parent / 'fastdds.xml'),
         'PYTHONPATH': ':'.join(sys.path),
     }
     node = [sys.executable, '-m', 'husky_sim.node', '--ros-args', '-p', f'record:={record}']

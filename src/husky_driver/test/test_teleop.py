@@ -20,7 +20,6 @@ import rclpy
 
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
-DOMAIN = 84
 
 
 @pytest.mark.parametrize(
@@ -81,13 +80,13 @@ def test_an_arrow_is_one_key() -> None:
 
 
 @pytest.fixture
-def heard(monkeypatch: pytest.MonkeyPatch) -> Any:
+def heard(domain: int, monkeypatch: pytest.MonkeyPatch) -> Any:
     """Collect the commands on the graph."""
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(DOMAIN))
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
     monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
     context = rclpy.Context()
-    rclpy.init(context=context, domain_id=DOMAIN)
+    rclpy.init(context=context, domain_id=domain)
     node = rclpy.create_node('robot', context=context)
     commands: list[Command] = []
     topic = 'husky_velocity_controller/cmd_vel'

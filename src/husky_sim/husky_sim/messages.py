@@ -3,8 +3,7 @@
 """
 The simulator's states as ROS messages.
 
-Each class keeps one message in its serialized form and packs the numbers of a control period into
-it; `bytes()` of it is what to publish.
+Each class keeps one message packed, and packs the numbers of a control period into it.
 """
 
 import math
@@ -16,13 +15,13 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
 
-from husky_sim.cdr import SerializedMessage
 from husky_sim.contacts import Touch
 from husky_sim.diff_drive import WheelOdometry
 from husky_sim.husky import JOINTS, Quaternion, Vector
 from husky_sim.imu import VARIANCE as IMU_VARIANCE
 from husky_sim.localization import PlanarFilter
 from husky_sim.navsat import VARIANCE_M2
+from husky_sim.packed_message import PackedMessage
 from husky_sim.simulation import SimulatedRobot
 
 Stamp = tuple[int, int]
@@ -41,7 +40,7 @@ def time_message(stamp: Stamp) -> Time:
     return Time(sec=stamp[0], nanosec=stamp[1])
 
 
-class OdometryMessage(SerializedMessage):
+class OdometryMessage(PackedMessage):
     """An odometry message of base_link."""
 
     def __init__(self, frame_id: str, variances: tuple[float, ...]) -> None:
@@ -50,9 +49,9 @@ class OdometryMessage(SerializedMessage):
         message.pose.covariance[::7] = variances
         message.twist.covariance[::7] = variances
         super().__init__(message)
-        self.pack_stamp = self.packer('iI', 'header.stamp.sec')
-        self.pack_pose = self.packer('7d', 'pose.pose.position.x')
-        self.pack_twist = self.packer('6d', 'twist.twist.linear.x')
+        self.pack_stamp = self.packer(self.places['header']['stamp'])
+        self.pack_pose = self.packer(self.places['pose']['pose'])
+        self.pack_twist = self.packer(self.places['twist']['twist'])
 
     def pack_planar(self, estimate: WheelOdometry | PlanarFilter) -> None:
         """Pack an estimate that lives in the plane."""
@@ -78,8 +77,8 @@ class FilteredOdometryMessage(OdometryMessage):
 
     def __init__(self) -> None:
         super().__init__('odom', ODOMETRY_VARIANCES)
-        self._pose_covariance = self.doubles('pose.covariance', 36)
-        self._twist_covariance = self.doubles('twist.covariance', 36)
+        self._pose_covariance = self.array(self.places['pose']['covariance'])
+        self._twist_covariance = self.array(self.places['twist']['covariance'])
 
     def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Pack the estimate; the covariances are of x, y, yaw, and of their speeds."""
@@ -104,7 +103,7 @@ class GroundTruthMessage(OdometryMessage):
         self.pack_twist(*state.velocity, *state.angular_velocity)
 
 
-class ImuMessage(SerializedMessage):
+class ImuMessage(PackedMessage):
     """An IMU message with the variances of its noise, whether that is on or not."""
 
     def __init__(self) -> None:
@@ -114,10 +113,10 @@ class ImuMessage(SerializedMessage):
         message.angular_velocity_covariance[::4] = IMU_VARIANCE
         message.linear_acceleration_covariance[::4] = IMU_VARIANCE
         super().__init__(message)
-        self._stamp = self.packer('iI', 'header.stamp.sec')
-        self._orientation = self.packer('4d', 'orientation.x')
-        self._rate = self.packer('3d', 'angular_velocity.x')
-        self._acceleration = self.packer('3d', 'linear_acceleration.x')
+        self._stamp = self.packer(self.places['header']['stamp'])
+        self._orientation = self.packer(self.places['orientation'])
+        self._rate = self.packer(self.places['angular_velocity'])
+        self._acceleration = self.packer(self.places['linear_acceleration'])
 
     def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Pack what the IMU measures."""
@@ -128,7 +127,7 @@ class ImuMessage(SerializedMessage):
         self._acceleration(*sample.acceleration)
 
 
-class JointStateMessage(SerializedMessage):
+class JointStateMessage(PackedMessage):
     """A message of the four wheels."""
 
     def __init__(self) -> None:
@@ -136,10 +135,10 @@ class JointStateMessage(SerializedMessage):
         super().__init__(
             JointState(name=list(JOINTS), position=zeros, velocity=zeros, effort=zeros)
         )
-        self._stamp = self.packer('iI', 'header.stamp.sec')
-        self._angles = self.packer('4d', 'position.0')
-        self._speeds = self.packer('4d', 'velocity.0')
-        self._torques = self.packer('4d', 'effort.0')
+        self._stamp = self.packer(self.places['header']['stamp'])
+        self._angles = self.packer(self.places['position'])
+        self._speeds = self.packer(self.places['velocity'])
+        self._torques = self.packer(self.places['effort'])
 
     def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Pack the wheels."""
@@ -150,12 +149,12 @@ class JointStateMessage(SerializedMessage):
         self._torques(*wheels.torques_n_m)
 
 
-class CommandMessage(SerializedMessage):
+class CommandMessage(PackedMessage):
     """A velocity command."""
 
     def __init__(self) -> None:
         super().__init__(Twist())
-        self._twist = self.packer('6d', 'linear.x')
+        self._twist = self.packer(self.places)
 
     def pack(self, _: Stamp, robot: SimulatedRobot) -> None:
         """Pack the command as the limits left it."""
@@ -163,7 +162,7 @@ class CommandMessage(SerializedMessage):
         self._twist(controller.speed_m_s, 0.0, 0.0, 0.0, 0.0, controller.yaw_rate_rad_s)
 
 
-class FixMessage(SerializedMessage):
+class FixMessage(PackedMessage):
     """What the satellite receiver says, with the variances of its noise."""
 
     def __init__(self) -> None:
@@ -173,8 +172,9 @@ class FixMessage(SerializedMessage):
         message.status.service = NavSatStatus.SERVICE_GPS
         message.position_covariance[::4] = VARIANCE_M2
         super().__init__(message)
-        self._stamp = self.packer('iI', 'header.stamp.sec')
-        self._place = self.packer('3d', 'latitude')
+        self._stamp = self.packer(self.places['header']['stamp'])
+        degrees_and_m = ('latitude', 'longitude', 'altitude')
+        self._place = self.packer(*(self.places[name] for name in degrees_and_m))
 
     def pack(self, stamp: Stamp, fix: Vector) -> None:
         """Pack latitude and longitude in degrees, altitude in metres."""
@@ -182,16 +182,24 @@ class FixMessage(SerializedMessage):
         self._place(*fix)
 
 
-class ClockMessage(SerializedMessage):
+class ClockMessage(PackedMessage):
     """The simulated time."""
 
     def __init__(self) -> None:
         super().__init__(Clock())
-        self._stamp = self.packer('iI', 'clock.sec')
+        self._stamp = self.packer(self.places)
 
     def pack(self, stamp: Stamp) -> None:
         """Pack the time."""
         self._stamp(*stamp)
+
+
+def packed_messages() -> list[PackedMessage]:
+    """Return one of each kind, to prove their layouts."""
+    return [
+        *(WheelOdometryMessage(), FilteredOdometryMessage(), GroundTruthMessage()),
+        *(ImuMessage(), JointStateMessage(), CommandMessage(), FixMessage(), ClockMessage()),
+    ]
 
 
 def new_collision(touch: Touch) -> DiagnosticStatus:

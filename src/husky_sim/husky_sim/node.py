@@ -28,9 +28,12 @@ from std_srvs.srv import Empty, SetBool, Trigger
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.diagnostics import DiagnosticsTopic, PaceWatch
 from husky_sim.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
+from husky_sim.domains import lock_simulator
 from husky_sim.errors import SettingError, SimulatorError
-from husky_sim.messages import ClockMessage
+from husky_sim.interference import Interference, InterferenceWatch
+from husky_sim.messages import ClockMessage, packed_messages
 from husky_sim.pacing import Pacer
+from husky_sim.packed_message import proven_form
 from husky_sim.parameters import CHANGEABLE, read_factor, read_run, read_simulation
 from husky_sim.recorder import open_recorder
 from husky_sim.robot_topics import QOS, RobotTopics
@@ -60,8 +63,11 @@ class SimulatorNode(Node):
         Read the parameters and load the world.
 
         :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
-        :raises SimulatorError: if a parameter, the world or a start pose cannot be used.
+        :raises SimulatorError: if a parameter, the world or a start pose cannot be used, or if
+            another simulator runs in the domain.
         """
+        context = arguments.get('context') or rclpy.get_default_context()
+        self._lock = lock_simulator(context.get_domain_id())
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)
@@ -74,15 +80,30 @@ class SimulatorNode(Node):
         self._answered = False  # lockstep: and was answered
         self._sent_at_sec = 0.0
         many = len(config.robots) > 1
+        self._form = proven_form(packed_messages(), self.get_logger())
         self._topics = [
             RobotTopics(
-                self, self._simulation, robot, f'{robot.name}/' if many else '', self._on_command
+                self,
+                self._simulation,
+                robot,
+                f'{robot.name}/' if many else '',
+                self._on_command,
+                self._form,
             )
             for robot in self._simulation.robots
         ]
         self._by_name = {topics.robot.name: topics for topics in self._topics}
         self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
         self._clock_message = ClockMessage()
+        self._interference = InterferenceWatch(
+            self,
+            ours=[
+                self._clock_publisher.topic_name,
+                *(name for topics in self._topics for name in topics.odometry_topics),
+            ],
+            commands=[topics.command_subscription.topic_name for topics in self._topics],
+            on_found=self._on_interference,
+        )
         self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
@@ -195,11 +216,16 @@ class SimulatorNode(Node):
         for topics in self._topics:
             topics.publish_filtered(stamp)
         self._clock_message.pack(stamp)
-        self._clock_publisher.publish(bytes(self._clock_message))
+        self._clock_publisher.publish(self._form(self._clock_message))
         for topics in self._topics:
             topics.publish_rest(stamp)
         for touch in self._simulation.touches:
             self._by_name[touch.robot].publish_collision(touch)
+
+    def _on_interference(self, found: Interference) -> None:
+        self.get_logger().error(str(found))
+        if self._record is not None:
+            self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
 
     def _on_diagnose(self) -> None:
         status = self._watch.look(
@@ -272,6 +298,7 @@ class SimulatorNode(Node):
         for topics in self._topics:
             topics.close()
         super().destroy_node()
+        self._lock.close()
 
 
 def main(args: list[str] | None = None) -> int:

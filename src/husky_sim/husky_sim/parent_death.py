@@ -1,8 +1,14 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ends a process together with the one that started it, even where that one is killed hard."""
+"""
+End with the process that started this one, however that one ends.
+
+As a program, `parent_death.py COMMAND...` runs a command that does so.
+"""
 
 import ctypes
+import os
+import signal
 import sys
 
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
@@ -10,10 +16,14 @@ _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
 def die_with_parent(signal_number: int) -> None:
     """
-    Let the kernel send this process a signal when its parent ends; on Linux, elsewhere nothing.
+    Have the kernel send this process a signal when its parent ends; on Linux only.
 
-    Strictly, when the thread ends that started it (prctl(2), PR_SET_PDEATHSIG). A parent that was
-    gone before is not noticed.
+    The parent is the thread that started this process: one that ends early sends it early.
     """
     if sys.platform == 'linux':
-        ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal_number, 0, 0, 0)
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal_number, 0, 0, 0)
+
+
+if __name__ == '__main__':
+    die_with_parent(signal.SIGTERM)
+    os.execvp(sys.argv[1], sys.argv[1:])

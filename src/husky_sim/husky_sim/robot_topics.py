@@ -18,6 +18,7 @@ from std_msgs.msg import Bool
 from husky_sim import messages
 from husky_sim.contacts import Touch
 from husky_sim.messages import Stamp
+from husky_sim.packed_message import Form
 from husky_sim.sensor_topics import SensorTopics
 from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.transforms import TransformTopics
@@ -37,6 +38,7 @@ class RobotTopics:
 
     :param namespace: before every topic; empty for the only robot, ending in / for one of many.
     :param on_command: called after every command was taken.
+    :param form: in which packed messages are published.
     """
 
     def __init__(
@@ -46,11 +48,13 @@ class RobotTopics:
         robot: SimulatedRobot,
         namespace: str,
         on_command: Callable[[], None],
+        form: Form,
     ) -> None:
         self.robot = robot
         self.commanded = False
         self._simulation = simulation
         self._on_command = on_command
+        self._form = form
         self._logger = node.get_logger()
         controller = f'{namespace}husky_velocity_controller'
         self._filtered = messages.FilteredOdometryMessage()
@@ -69,12 +73,17 @@ class RobotTopics:
                 (messages.GroundTruthMessage(), Odometry, f'{namespace}ground_truth/odom'),
             )
         ]
+        self.odometry_topics = [
+            publisher.topic_name
+            for message, publisher in ((self._filtered, self.filtered_publisher), *self._rest)
+            if publisher is not None and isinstance(message, messages.OdometryMessage)
+        ]
         self._read = self._rest  # those of them that somebody reads
         self._look_again_sec = 0.0
         self._collision_publisher = node.create_publisher(
             DiagnosticStatus, f'{namespace}collisions', QOS
         )
-        self._sensors = SensorTopics(node, simulation, robot, namespace, QOS)
+        self._sensors = SensorTopics(node, simulation, robot, namespace, QOS, form)
         self._transforms = TransformTopics(
             node, namespace, localization=self.filtered_publisher is not None
         )
@@ -128,7 +137,7 @@ class RobotTopics:
         """Publish what a driver steers by: first of all, so that it works while we go on."""
         if self.filtered_publisher is not None:
             self._filtered.pack(stamp, self.robot)
-            self.filtered_publisher.publish(bytes(self._filtered))
+            self.filtered_publisher.publish(self._form(self._filtered))
 
     def publish_rest(self, stamp: Stamp) -> None:
         """Publish everything else of a control period that somebody reads."""
@@ -138,7 +147,7 @@ class RobotTopics:
             self._read = [each for each in self._rest if each[1].get_subscription_count()]
         for message, publisher in self._read:
             message.pack(stamp, self.robot)
-            publisher.publish(bytes(message))
+            publisher.publish(self._form(message))
         self._sensors.publish(stamp)
         self._transforms.publish(stamp, self.robot)
 

@@ -14,6 +14,7 @@ from sensor_msgs.msg import CameraInfo, Image, LaserScan, NavSatFix
 from husky_sim import camera, lidar
 from husky_sim.config import SensorConfig
 from husky_sim.messages import FixMessage, Stamp, time_message
+from husky_sim.packed_message import Form
 from husky_sim.sensors import Rate
 from husky_sim.simulation import SimulatedRobot, Simulation
 
@@ -28,6 +29,7 @@ class SensorTopics:
         robot: SimulatedRobot,
         namespace: str,
         qos: QoSProfile,
+        form: Form,
     ) -> None:
         """
         Create the publishers.
@@ -37,6 +39,7 @@ class SensorTopics:
         config: SensorConfig = simulation.config.sensors
         self._robot = robot
         self._simulation = simulation
+        self._form = form
         self._scans: Any = None
         self._fixes: Any = None
         self._camera: camera.Camera | None = None
@@ -62,7 +65,7 @@ class SensorTopics:
             self._scans.publish(self._scan)
         if sensors.fix is not None and self._fixes.get_subscription_count():
             self._fix.pack(stamp, sensors.fix)
-            self._fixes.publish(bytes(self._fix))
+            self._fixes.publish(self._form(self._fix))
         if self._camera is None or not self._pictures.is_due(self._simulation.periods):
             return
         if self._infos.get_subscription_count():

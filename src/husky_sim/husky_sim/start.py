@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Starts the programs of this package so that they can be interrupted at any moment.
+Starts the programs of this lab so that they can be interrupted at any moment.
 
 It takes Python a second to import what they need. Until then nothing is open, so that on an
 interrupt the process just goes, where Python would print from amid which import it was torn.
@@ -13,37 +13,69 @@ import signal
 import sys
 from typing import NoReturn
 
+from husky_sim.parent_death import die_with_parent
+
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
 
 
-def _run(module: str) -> int:
+def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
+    """
+    Import a module and run its main().
+
+    :param interrupted: the exit status of a start that was interrupted.
+    :param catches: main() is interrupted by a KeyboardInterrupt; else it sets its own handlers.
+    """
+
+    def leave(*_: object) -> NoReturn:
+        os._exit(interrupted)  # an exception would come up in any import
+
+    # No window of MuJoCo's is opened here; to look for one starts a second Python.
+    os.environ.setdefault('MUJOCO_GL', 'disabled')
     for number in _SIGNALS:
-        signal.signal(number, _leave)
+        signal.signal(number, leave)
+    # Who started this process may have held signals back until it can take them.
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
     try:
-        return int(import_module(module).main())
+        main = import_module(module).main
+        if catches:
+            for number in _SIGNALS:
+                signal.signal(number, signal.default_int_handler)
+        return int(main())
+    except KeyboardInterrupt:
+        return interrupted
     finally:
         # While Python takes itself apart, an interrupt would kill it.
         for number in _SIGNALS:
             signal.signal(number, signal.SIG_IGN)
 
 
-def _leave(*_: object) -> NoReturn:
-    os._exit(0)  # an exception would come up in any import
+def run_node(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
+    """
+    Run a node of ours: it ends with who started it, and its messages are not checked.
+
+    Only nohup says that it is to live on. The check of each field, meant for what students
+    write, makes reading an odometry message take 46 us instead of 29.
+    """
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        die_with_parent(signal.SIGTERM)
+    os.environ[_CHECK_FIELDS] = '0'
+    return run(module, interrupted=interrupted, catches=catches)
 
 
 def main() -> int:
     """Run the simulator."""
-    return _run('husky_sim.node')
+    return run_node('husky_sim.node')
 
 
 def replay() -> int:
     """Replay a run."""
-    return _run('husky_sim.view.replay')
+    return run('husky_sim.view.replay')
 
 
 def view() -> int:
     """Show a running simulator."""
-    return _run('husky_sim.view.live')
+    return run_node('husky_sim.view.live')
 
 
 if __name__ == '__main__':

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulate a Husky in the playpen."""
 
-from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch import LaunchContext, LaunchDescription
+from launch.actions import DeclareLaunchArgument, Shutdown
 from launch.conditions import IfCondition
+from launch.events.process import ProcessExited
 from launch.substitutions import LaunchConfiguration, NotSubstitution, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
@@ -20,6 +21,10 @@ PARAMETERS = (
     ('slip', 'asphalt', str, 'How the tyres grip: ideal, asphalt or gravel'),
     ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )
+
+
+def _end_all(_: ProcessExited, context: LaunchContext) -> Shutdown | None:
+    return None if context.is_shutdown else Shutdown(reason='the simulator has ended')
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -81,6 +86,7 @@ def generate_launch_description() -> LaunchDescription:
                 namespace=LaunchConfiguration('namespace'),
                 output='screen',
                 parameters=[LaunchConfiguration('params_file'), given],
+                on_exit=_end_all,
             ),
             Node(
                 package='husky_sim',

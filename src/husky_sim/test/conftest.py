@@ -2,17 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Worlds and drives that several test modules use."""
 
-from collections.abc import Callable
-import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
-import socket
 
+from husky_sim.domains import OwnDomain
 from husky_sim.simulation import Simulation
 import pytest
 
 from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
 
-DOMAINS = range(58, 71)
 WORLDS = Path(__file__).resolve().parents[3] / 'worlds'
 
 # Asphalt is a box in the playpen, and a box is another collision than a plane.
@@ -31,20 +29,12 @@ Drive = Callable[..., None]
 
 
 @pytest.fixture
-def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
-    """Give a test a DDS domain in which nobody is, as far as this machine's ports tell."""
-    for number in range(os.getpid(), os.getpid() + len(DOMAINS)):
-        domain = DOMAINS[number % len(DOMAINS)]
-        # The first participant of a domain binds this port (RTPS 2.5, 9.6.2.3).
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(('', 7410 + 250 * domain))
-            except OSError:
-                continue
-        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """Give a test a DDS domain of its own."""
+    with OwnDomain() as domain:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain.number))
         monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        return domain
-    raise RuntimeError('every DDS domain is in use: end the ROS nodes left over')
+        yield domain.number
 
 
 @pytest.fixture

@@ -12,6 +12,8 @@ import pty
 import signal
 from typing import Any, cast
 
+from .child_start import interrupts_held_back, preparation
+
 # How long after its end the output of a child is awaited; a grandchild may hold the pipe open.
 _DRAIN_SEC = 0.5
 
@@ -137,7 +139,8 @@ async def start_child_process(
 ) -> ChildProcess:
     """Start a child.
 
-    It stays in the process group of the launch, so that Ctrl-C at the terminal reaches it.
+    It stays in the process group of the launch, so that Ctrl-C at the terminal reaches it, and
+    ends with the launch.
 
     :param shell: give the words of the command, joined by spaces, to a shell.
     :param emulate_tty: its output goes to a pseudo terminal, so that it writes colours and
@@ -148,13 +151,15 @@ async def start_child_process(
     child = ChildProcess(on_output, on_started)
     pairs = [pty.openpty(), pty.openpty()] if emulate_tty else []
     options: dict[str, Any] = {'cwd': cwd, 'env': env}
+    options['preexec_fn'] = preparation(cmd, shell=shell)
     if pairs:
         options.update(stdout=pairs[0][1], stderr=pairs[1][1])
     try:
-        if shell:
-            await loop.subprocess_shell(lambda: child, ' '.join(cmd), **options)
-        else:
-            await loop.subprocess_exec(lambda: child, *cmd, **options)
+        with interrupts_held_back():
+            if shell:
+                await loop.subprocess_shell(lambda: child, ' '.join(cmd), **options)
+            else:
+                await loop.subprocess_exec(lambda: child, *cmd, **options)
     except BaseException:
         for master, _ in pairs:
             os.close(master)

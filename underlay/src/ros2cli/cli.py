@@ -6,10 +6,12 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+import contextlib
 import os
 import signal
 import sys
+import threading
 from types import ModuleType
 
 from ros2cli import nearest, verbs
@@ -22,6 +24,32 @@ _BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 def main(argv: Sequence[str] | None = None) -> int:
     """Run `ros2` with the given words (default: those of the process); return its exit status."""
     words = list(sys.argv[1:] if argv is None else argv)
+    with _interrupt_ends():
+        args = _read_line(words)
+    run: Callable[[argparse.Namespace], int | str | None] | None = getattr(args, '_run', None)
+    if run is None:
+        args.parser_of_level.print_help()
+        return 0
+    try:
+        return _run(run, args)
+    except KeyboardInterrupt:
+        return int(signal.SIGINT)
+
+
+@contextlib.contextmanager
+def _interrupt_ends() -> Iterator[None]:
+    """While a verb is loaded nothing is open yet: let an interrupt end the process at once."""
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.SIG_IGN and threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGINT, before)
+
+
+def _read_line(words: Sequence[str]) -> argparse.Namespace:
     parser = build_parser(_completed_words() if '_ARGCOMPLETE' in os.environ else words)
     if '_ARGCOMPLETE' in os.environ:
         import argcomplete
@@ -31,19 +59,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not args.use_python_default_buffering:
         # Whoever reads the output through a pipe wants each line when it is printed.
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
-    run: Callable[[argparse.Namespace], int | str | None] | None = getattr(args, '_run', None)
-    if run is None:
-        args.parser_of_level.print_help()
-        return 0
-    return _run(run, args)
+    return args
 
 
 def _run(run: Callable[[argparse.Namespace], int | str | None], args: argparse.Namespace) -> int:
     try:
         answer = run(args)
         sys.stdout.flush()
-    except KeyboardInterrupt:
-        return int(signal.SIGINT)
     except BrokenPipeError:
         # The reader (`head`, `less`) has seen enough; Python must not complain when it flushes.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 import os
 from pathlib import Path
@@ -13,14 +14,13 @@ import subprocess
 import sys
 import time
 
+from husky_sim.domains import OwnDomain
 import pytest
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent.parent
 SOURCES = HERE.parent.parent / 'src'
 sys.path.insert(0, str(SOURCES))
-_DOMAINS = range(45, 58)
-_next_domain = os.getpid()
 
 
 @dataclass(frozen=True)
@@ -82,18 +82,15 @@ class Processes:
                 process.communicate()
 
 
-def set_domain(monkeypatch: pytest.MonkeyPatch) -> int:
+@contextmanager
+def own_domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """Move this process and its children to a domain that nobody uses."""
-    from ros2cli.rtps import host
+    with OwnDomain() as domain:
+        _set_environment(monkeypatch, domain.number)
+        yield domain.number
 
-    global _next_domain
-    for _ in _DOMAINS:
-        _next_domain += 1
-        domain_id = _DOMAINS[_next_domain % len(_DOMAINS)]
-        if not host.participant_ports(domain_id):
-            break
-    else:
-        pytest.fail(f'all domains from {_DOMAINS[0]} to {_DOMAINS[-1]} are in use')
+
+def _set_environment(monkeypatch: pytest.MonkeyPatch, domain_id: int) -> None:
     monkeypatch.setenv('ROS_DOMAIN_ID', str(domain_id))
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
@@ -101,14 +98,14 @@ def set_domain(monkeypatch: pytest.MonkeyPatch) -> int:
     monkeypatch.setenv('PYTHONUNBUFFERED', '1')
     for name in ('ROS_STATIC_PEERS', 'ROS_LOCALHOST_ONLY'):
         monkeypatch.delenv(name, raising=False)
-    return domain_id
 
 
 @pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> int:
+def domain(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[int]:
     monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'ros_log'))
     monkeypatch.chdir(tmp_path)  # away from the workspace of the project
-    return set_domain(monkeypatch)
+    with own_domain(monkeypatch) as number:
+        yield number
 
 
 @pytest.fixture(scope='module')
@@ -116,7 +113,8 @@ def shared_domain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[int]:
     """Give all tests of a module one domain."""
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path_factory.mktemp('ros_log')))
-        yield set_domain(monkeypatch)
+        with own_domain(monkeypatch) as number:
+            yield number
 
 
 @pytest.fixture

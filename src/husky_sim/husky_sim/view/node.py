@@ -6,6 +6,7 @@ The live view as a ROS 2 node: shows a running simulator in the browser and cont
 It asks the simulator for its world, so it can be started at any time, before or after it.
 """
 
+import math
 from pathlib import Path
 import time
 from typing import Any
@@ -25,6 +26,7 @@ from husky_sim.view.editor import Editor
 from husky_sim.view.pace import Pace
 from husky_sim.view.panel import Controls, Numbers, Panel, trouble_html
 from husky_sim.view.picture import Picture
+from husky_sim.view.plausibility import SceneCheck
 from husky_sim.view.presence import Presence, State
 from husky_sim.view.robot_link import RobotLink
 from husky_sim.view.server import address_of, close_server, open_server
@@ -46,6 +48,9 @@ _TROUBLE = {
     'start the simulator again.',
     State.TWO: 'Two simulators run at the same time: end one of them. The first is shown.',
 }
+
+_NONSENSE = 'Not drawn, for it cannot be true: {what}.'
+_NONSENSE_SEC = 3.0
 
 _PARAMETERS = {
     'simulator': ('husky_sim', 'Name of the simulator node to show.'),
@@ -127,9 +132,13 @@ class ViewNode(Node):
         self._waiting.remove()
         self._presence = Presence(world_key(world), now_sec=time.monotonic())
         self._picture = Picture(self.server, world)
+        self._check = SceneCheck(world)
+        self._nonsense, self._nonsense_sec = '', -math.inf
         many = len(robots) > 1
         self._links = [
-            RobotLink(self, self._picture, place, f'{robot.name}/' if many else '')
+            RobotLink(
+                self, self._picture, place, f'{robot.name}/' if many else '', self._disbelieve
+            )
             for place, robot in enumerate(robots)
         ]
         controls = Controls(
@@ -167,10 +176,28 @@ class ViewNode(Node):
         now = time.monotonic()
         if not self._presence.hear(*origin_of(msg), now_sec=now):
             return
-        scene = read_scene(msg, robots=len(self._links))
+        try:
+            scene = read_scene(msg, robots=len(self._links))
+        except ValueError as error:
+            self._disbelieve(f'~/scene: {error}')
+            return
+        if what := self._check.complaint(scene):
+            self._disbelieve(f'~/scene: {what}')
+            return
         self._pace.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
         self._scene = scene
         self._picture.show(scene)
+
+    def _disbelieve(self, what: str) -> None:
+        """Say what came that is not drawn: on the page for a while, in the log once."""
+        if what != self._nonsense:
+            self.get_logger().warning(_NONSENSE.format(what=what))
+        self._nonsense, self._nonsense_sec = what, time.monotonic()
+
+    def _trouble(self, state: State, now_sec: float) -> str:
+        if state is State.HERE and now_sec - self._nonsense_sec < _NONSENSE_SEC:
+            return _NONSENSE.format(what=self._nonsense)
+        return _TROUBLE[state].format(world=self._picture.world.path)
 
     def _on_frame(self) -> None:
         panel = self._panel
@@ -180,14 +207,14 @@ class ViewNode(Node):
         self._work.do()
         command = panel.pad.command(now_sec=now)
         if command is not None:
-            self._links[self._driven].drive(*command)
+            self._links[self._driven].drive(*command, now_sec=now)
         for link in self._links:
-            link.draw()
+            link.draw(now)
         self._picture.draw(now)
         if now >= self._numbers_due_sec:
             self._numbers_due_sec = now + 1.0 / NUMBERS_HZ
             state = self._presence.state(now_sec=now)
-            panel.show_trouble(_TROUBLE[state].format(world=self._picture.world.path))
+            panel.show_trouble(self._trouble(state, now))
             if self._scene is not None:
                 panel.show(self._numbers(self._scene, state))
             if state is State.ANOTHER_WORLD:

@@ -8,8 +8,11 @@ import argparse
 import os
 from pathlib import Path
 import shlex
+import signal
 import sys
 from typing import NoReturn
+
+from interrupt_while_loading import takes_blocked_interrupt
 
 from ros2cli import completion, packages
 from ros2cli.diagnosis import workspaces
@@ -53,6 +56,8 @@ def replace_process(command: list[str]) -> NoReturn:
     """
     sys.stdout.flush()
     sys.stderr.flush()
+    if takes_blocked_interrupt(command[0]):
+        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
     try:
         os.execvp(command[0], command)
     except OSError as error:

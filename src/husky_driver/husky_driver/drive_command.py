@@ -1,0 +1,96 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Drive a path through the playpen with real nodes, in a domain of their own; then a report."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+import os
+from pathlib import Path
+import shutil
+import sys
+import time
+
+from husky_sim.domains import OwnDomain
+from husky_sim.errors import DomainError
+from husky_sim.record import FILE_NAME
+
+from husky_driver import check, grade
+from husky_driver.command_line import BAD_INPUT, Parser
+from husky_driver.courses import default_course
+from husky_driver.processes import run_to_end
+
+WAYPOINTS = 'waypoints.yaml'
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(prog='lab drive', description=__doc__, allow_abbrev=False)
+    parser.add_argument(
+        '--waypoints', metavar='FILE', default=str(default_course()), help='waypoint file to drive'
+    )
+    parser.add_argument(
+        '--fast', action='store_true', help='as fast as this computer can, in lockstep'
+    )
+    parser.add_argument('--no-view', action='store_true', help='without the page in the browser')
+    parser.add_argument('--report', metavar='DIR', default='report', help='where the report goes')
+    return parser
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    options = _parser().parse_args(args)
+    if status := check.main([options.waypoints]):
+        return status
+    folder = Path(options.report)
+    try:
+        _prepare(folder, Path(options.waypoints))
+        with ExitStack() as stack:
+            environment = _environment(stack)
+            begun = time.monotonic()
+            run_to_end(_launch(options, folder), environment)
+        wall_time_sec = time.monotonic() - begun
+    except (OSError, DomainError) as error:
+        print(f'lab drive: {error}', file=sys.stderr)
+        return BAD_INPUT
+    if not (folder / FILE_NAME).is_file():
+        print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
+        return BAD_INPUT
+    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints]
+    return grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
+
+
+def _prepare(folder: Path, waypoints: Path) -> None:
+    """Make the report's folder, without the record of an earlier run."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / FILE_NAME).unlink(missing_ok=True)
+    # For `./lab view`: the path that was to be driven, as it was. Unless it is that very file.
+    driven = folder / WAYPOINTS
+    if not (driven.exists() and driven.samefile(waypoints)):
+        shutil.copyfile(waypoints, driven)
+
+
+def _environment(stack: ExitStack) -> Mapping[str, str]:
+    """Put the run into a domain of its own, unless the user has chosen one."""
+    if os.environ.get('ROS_DOMAIN_ID'):
+        return os.environ
+    number = stack.enter_context(OwnDomain()).number
+    print(f'ROS domain {number}, of this run alone; to look in: export ROS_DOMAIN_ID={number}')
+    sys.stdout.flush()
+    return {**os.environ, 'ROS_DOMAIN_ID': str(number)}
+
+
+def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
+    arguments = {
+        'waypoints': str(Path(options.waypoints).resolve()),
+        'record': str(folder.resolve() / FILE_NAME),
+        'real_time_factor': '0.0' if options.fast else '1.0',
+        'lockstep': str(options.fast).lower(),
+        'viewer': str(not options.no_view).lower(),
+    }
+    words = [f'{name}:={value}' for name, value in arguments.items()]
+    return ['ros2', 'launch', 'husky_driver', 'drive.launch.py', *words]
+
+
+if __name__ == '__main__':
+    sys.exit(main())

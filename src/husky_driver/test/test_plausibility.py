@@ -1,0 +1,94 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+from geometry_msgs.msg import Quaternion
+from husky_driver.motion import Odometry
+from husky_driver.plausibility import no_rotation, OdometryCheck
+from hypothesis import given, settings, strategies
+import pytest
+
+DRIVING = Odometry(30.0, 5.0, 2.0, 1.0, 0.8, 0.1)
+
+
+def complaint(*messages: Odometry) -> str:
+    """Return the first complaint about messages one after the other."""
+    check = OdometryCheck()
+    return next(filter(None, map(check.complaint, messages)), '')
+
+
+def moved(**changes: float) -> Odometry:
+    """Return what may come 20 ms after, but for the changes."""
+    return DRIVING._replace(**{'time_sec': 30.02, 'x_m': 5.008, **changes})
+
+
+def test_what_a_husky_does_is_believed() -> None:
+    assert complaint(DRIVING, moved()) == ''
+    assert complaint(DRIVING, moved(yaw_rad=1.0 + 0.04)) == ''
+    assert complaint(DRIVING._replace(yaw_rad=3.14), moved(yaw_rad=-3.14)) == ''
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf, 4.4e87])
+@pytest.mark.parametrize('field', ['x_m', 'y_m', 'yaw_rad', 'speed_m_s', 'yaw_rate_rad_s'])
+def test_what_is_no_number_is_named(field: str, value: float) -> None:
+    if field == 'yaw_rad' and math.isfinite(value):
+        return
+    assert complaint(DRIVING, moved(**{field: value})).endswith(
+        f'{value:.6g} '
+        + {'x_m': 'm', 'y_m': 'm', 'yaw_rad': 'rad'}.get(
+            field, 'm/s' if field == 'speed_m_s' else 'rad/s'
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    ('changes', 'said'),
+    [
+        ({'x_m': 5.5}, 'it jumps 0.50 m in 0.02 s, from (5.00, 2.00) to (5.50, 2.00)'),
+        ({'yaw_rad': 2.0}, 'it jumps by 1.00 rad of yaw in 0.02 s'),
+        ({'time_sec': 29.98}, 'goes back from 30.00 s to 29.98 s, which is no reset'),
+        ({'time_sec': 0.5, 'speed_m_s': 0.8}, 'which is no reset'),
+        ({'time_sec': 12.0, 'speed_m_s': 0.0}, 'which is no reset'),
+    ],
+)
+def test_what_no_husky_can_do_is_named(changes: dict[str, float], said: str) -> None:
+    assert said in complaint(DRIVING, moved(**changes))
+
+
+def test_lost_messages_are_no_jump() -> None:
+    assert complaint(DRIVING, moved(time_sec=33.0, x_m=8.0, yaw_rad=-2.0)) == ''
+
+
+def test_a_reset_is_believed_and_what_follows_it() -> None:
+    begun = [Odometry(k * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0) for k in range(2000)]
+    assert complaint(DRIVING, *begun) == ''
+    assert complaint(begun[20], *begun) == ''
+
+
+@settings(deadline=None, max_examples=50)
+@given(strategies.floats(0.02, 200.0), strategies.integers(1, 4), strategies.integers(1, 4))
+def test_two_simulators_at_different_times_are_noticed(
+    apart_sec: float, ours: int, theirs: int
+) -> None:
+    messages = []
+    for turn in range(400):
+        for number in range(ours):
+            now_sec = apart_sec + (turn * ours + number) * 0.02
+            messages.append(Odometry(now_sec, 1.0, 0.0, 0.0, 0.0, 0.0))
+        for number in range(theirs):
+            now_sec = (turn * theirs + number) * 0.02
+            messages.append(Odometry(now_sec, 0.0, 0.0, 0.0, 0.0, 0.0))
+    assert complaint(*messages) != ''
+
+
+@pytest.mark.parametrize(
+    ('parts', 'length'), [((0.0, 0.0, 0.0, 0.0), '0'), ((0.0, 0.0, 0.0, 2.0), '2')]
+)
+def test_a_quaternion_that_is_none_is_named(parts: tuple[float, ...], length: str) -> None:
+    x, y, z, w = parts
+    assert no_rotation(Quaternion(x=x, y=y, z=z, w=w)).endswith(f'its length is {length}, not 1')
+
+
+def test_a_quaternion_of_no_numbers_is_named() -> None:
+    assert 'no rotation' in no_rotation(Quaternion(x=math.nan, y=0.0, z=0.0, w=1.0))
+    assert no_rotation(Quaternion(x=0.0, y=0.0, z=0.6, w=0.8)) == ''

@@ -1,0 +1,98 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Others that speak where one alone may: commands from two, or odometry and clock beside ours.
+
+Nothing in ROS 2 forbids it, and a run that it happened to is worth nothing.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+LOOK_SEC = 0.1
+"""Wall time between two looks at the graph."""
+
+PATIENCE_LOOKS = 20
+"""So long the name of a node may take to arrive; it comes by a message of its own."""
+
+_UNKNOWN = '_NODE_NAME_UNKNOWN_'  # rmw_dds_common, until that message is there
+_PARTICIPANT = 12
+"""Bytes of an endpoint's GUID that name its participant (OMG DDSI-RTPS 2.3, 9.3.1)."""
+
+
+@dataclass(frozen=True)
+class Interference:
+    """More nodes than one publish a topic."""
+
+    topic: str
+    nodes: tuple[str, ...]  # full names; of two with one name, that name twice
+    ours: bool  # whether the simulator alone should publish it
+
+    def __str__(self) -> str:
+        names = ' and '.join(self.nodes)
+        many = len(self.nodes) > 1
+        if self.ours:
+            what = f'{names} also publish{"" if many else "es"} {self.topic}, which the simulator'
+            return f'{what} publishes: end what is not of this run, or use another ROS_DOMAIN_ID'
+        return (
+            f'{names} all publish {self.topic}: the robot gets a mixture of their commands; '
+            'end all but one, or use another ROS_DOMAIN_ID'
+        )
+
+
+class InterferenceWatch:
+    """
+    Looks for other publishers.
+
+    :param ours: topics that this node alone should publish.
+    :param commands: topics that one node should publish.
+    :param on_found: called once for each topic and set of nodes.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        *,
+        ours: Sequence[str],
+        commands: Sequence[str],
+        on_found: Callable[[Interference], None],
+    ) -> None:
+        self._node = node
+        self._topics = [
+            *((topic, True) for topic in ours),
+            *((topic, False) for topic in commands),
+        ]
+        self._on_found = on_found
+        self._found: set[Interference] = set()
+        self._nameless_looks = 0
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(LOOK_SEC, self.look, clock=steady)
+
+    def look(self) -> None:
+        """Look now."""
+        for topic, ours in self._topics:
+            if self._node.count_publishers(topic) < 2:
+                continue
+            others = _publishers(self._node, topic)
+            if any(_UNKNOWN in name for name in others) and self._nameless_looks < PATIENCE_LOOKS:
+                self._nameless_looks += 1
+                continue
+            me = self._node.get_fully_qualified_name()
+            if ours and me in others:
+                others.remove(me)
+            found = Interference(topic, tuple(others), ours)
+            if len(others) > (not ours) and found not in self._found:
+                self._found.add(found)
+                self._on_found(found)
+
+
+def _publishers(node: Node, topic: str) -> list[str]:
+    """Return the full name of every node that publishes a topic, once for each."""
+    seen: dict[tuple[bytes, str], str] = {}
+    for info in node.get_publishers_info_by_topic(topic):
+        name = f'{info.node_namespace.rstrip("/")}/{info.node_name}'
+        seen[bytes(info.endpoint_gid[:_PARTICIPANT]), name] = name
+    return sorted(seen.values())

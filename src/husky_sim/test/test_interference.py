@@ -1,0 +1,130 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Another publisher of commands, odometry or clock is named, on the terminal and in the record."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+import time
+from typing import Any
+
+from geometry_msgs.msg import Twist
+from husky_sim.node import SimulatorNode
+from husky_sim.record import Disturbance, read_record
+from nav_msgs.msg import Odometry
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
+
+COMMANDS = '/husky_velocity_controller/cmd_vel'
+
+
+class Run:
+    """A simulator that keeps a record, and other nodes, each a participant of its own."""
+
+    def __init__(self, domain_id: int, record: Path) -> None:
+        self._domain_id = domain_id
+        self._record = record
+        self._contexts: list[Context] = []
+        self._others: list[Node] = []
+        self._simulator = SimulatorNode(
+            context=self._context(), parameter_overrides=[Parameter('record', value=str(record))]
+        )
+        self._executor = SingleThreadedExecutor(context=self._contexts[0])
+        self._executor.add_node(self._simulator)
+
+    def _context(self) -> Context:
+        context = Context()
+        rclpy.init(context=context, domain_id=self._domain_id)
+        self._contexts.append(context)
+        return context
+
+    def publisher(self, kind: Any, topic: str, name: str) -> None:
+        """Start a node that publishes a topic, and wait until the simulator sees it."""
+        node = Node(name, context=self._context())
+        node.create_publisher(kind, topic, 10)
+        self._others.append(node)
+        self.until(
+            lambda: any(
+                info.node_name == name
+                for info in self._simulator.get_publishers_info_by_topic(topic)
+            ),
+            f'{name} on {topic}',
+        )
+
+    def until(self, holds: Callable[[], Any], what: str) -> None:
+        deadline = time.monotonic() + 10.0
+        while not holds():
+            assert time.monotonic() < deadline, f'{what} did not come in 10 s'
+            self._executor.spin_once(timeout_sec=0.05)
+
+    def spin(self, *, seconds: float) -> None:
+        """Let so much simulated time pass."""
+        end_sec = self._simulator.simulation.time_sec + seconds
+        self.until(lambda: self._simulator.simulation.time_sec > end_sec, 'simulated time')
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        for node in (*self._others, self._simulator):
+            node.destroy_node()
+        for context in self._contexts:
+            context.try_shutdown()
+        self._others.clear()
+
+    def disturbances(self) -> tuple[Disturbance, ...]:
+        self.close()
+        return read_record(self._record).disturbances
+
+
+@pytest.fixture
+def run(domain_id: int, tmp_path: Path) -> Iterator[Run]:
+    started = Run(domain_id, tmp_path / 'run.record')
+    yield started
+    started.close()
+
+
+def test_one_publisher_of_commands_disturbs_nobody(run: Run) -> None:
+    run.publisher(Twist, COMMANDS, 'driver')
+    run.spin(seconds=0.5)
+    assert run.disturbances() == ()
+
+
+def test_a_second_publisher_of_commands_is_named(
+    run: Run, capfd: pytest.CaptureFixture[str]
+) -> None:
+    run.publisher(Twist, COMMANDS, 'driver')
+    run.spin(seconds=0.2)
+    run.publisher(Twist, COMMANDS, 'stranger')
+    run.spin(seconds=0.3)
+    (line,) = [line for line in capfd.readouterr().err.splitlines() if 'stranger' in line]
+    assert f'/driver and /stranger all publish {COMMANDS}' in line
+    (found,) = run.disturbances()
+    assert (found.topic, found.nodes) == (COMMANDS, ('/driver', '/stranger'))
+    assert found.time_sec > 0.2
+
+
+@pytest.mark.parametrize(
+    ('kind', 'topic'),
+    [
+        (Odometry, '/odometry/filtered'),
+        (Odometry, '/husky_velocity_controller/odom'),
+        (Odometry, '/ground_truth/odom'),
+        (Clock, '/clock'),
+    ],
+)
+def test_whoever_speaks_for_the_simulator_is_named(run: Run, kind: Any, topic: str) -> None:
+    run.publisher(kind, topic, 'liar')
+    run.spin(seconds=0.3)
+    (found,) = run.disturbances()
+    assert (found.topic, found.nodes) == (topic, ('/liar',))
+
+
+def test_two_nodes_of_one_name_are_two(run: Run) -> None:
+    run.publisher(Twist, COMMANDS, 'twin')
+    run.publisher(Twist, COMMANDS, 'twin')
+    run.spin(seconds=0.5)
+    (found,) = run.disturbances()
+    assert found.nodes == ('/twin', '/twin')

@@ -1,0 +1,104 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parts of a run killed hard: the rest ends, nothing stays, and the next run is right."""
+
+import json
+from pathlib import Path
+import signal
+
+from husky_driver.shared_memory import unused_files
+from playpen_testing.processes import Process, Processes
+from playpen_testing.waiting import wait_until
+import psutil
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+LAB = str(ROOT / 'lab')
+PARTS = {
+    'simulator': '/husky_sim/husky_sim',
+    'driver': '/husky_driver/follow_path',
+    'view': '/husky_sim/view',
+    'launch': 'drive.launch.py',
+    'lab': 'drive',
+}
+
+pytestmark = pytest.mark.timeout(120)
+
+
+def family(run: Process) -> list[psutil.Process]:
+    try:
+        started = psutil.Process(run.pid)
+        return [started, *started.children(recursive=True)]
+    except psutil.NoSuchProcess:
+        return []
+
+
+def part(run: Process, mark: str) -> psutil.Process | None:
+    for each in family(run):
+        try:
+            if mark in ' '.join(each.cmdline()):
+                return each
+        except psutil.Error:  # it is just starting or ending
+            continue
+    return None
+
+
+def running(processes: list[psutil.Process]) -> list[str]:
+    found = []
+    for each in processes:
+        try:
+            if each.status() != psutil.STATUS_ZOMBIE:
+                found.append(' '.join(each.cmdline()))
+        except psutil.NoSuchProcess:
+            continue
+    return found
+
+
+def trajectory(processes: Processes, folder: Path) -> str:
+    run = processes.start(LAB, 'drive', '--fast', '--no-view', '--report', str(folder))
+    assert run.wait(timeout_sec=60.0) == 0, run.output
+    return str(json.loads((folder / 'report.json').read_text())['trajectory_sha256'])
+
+
+@pytest.mark.parametrize('name', PARTS)
+def test_a_killed_part_ends_the_run_in_3_s(
+    processes: Processes, tmp_path: Path, name: str
+) -> None:
+    options = () if name == 'view' else ('--no-view',)
+    run = processes.start(LAB, 'drive', '--report', str(tmp_path), *options)
+    wait_until(
+        lambda: all(part(run, PARTS[each]) for each in PARTS if each != 'view' or name == 'view'),
+        timeout_sec=40.0,
+        what=lambda: f'all parts of the run; it printed:\n{run.output}',
+    )
+    members = family(run)
+    victim = part(run, PARTS[name])
+    assert victim is not None
+    victim.send_signal(signal.SIGKILL)
+    wait_until(
+        lambda: not running(members),
+        timeout_sec=3.0,
+        what=lambda: f'the end of {running(members)}; the run printed:\n{run.output}',
+    )
+    assert 'Traceback' not in run.output
+    graded = trajectory(processes, tmp_path / 'next'), trajectory(processes, tmp_path / 'again')
+    assert graded[0] == graded[1]
+    assert not unused_files(), 'shared memory is left'
+
+
+def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
+    tests = str(ROOT / 'test' / 'test_view_process.py')
+    run = processes.start(LAB, 'test', tests)
+    wait_until(
+        lambda: part(run, PARTS['view']) is not None,
+        timeout_sec=40.0,
+        what=lambda: f'a view of the tests; they printed:\n{run.output}',
+    )
+    members = family(run)
+    run.signal(signal.SIGINT)
+    wait_until(
+        lambda: not running(members),
+        timeout_sec=2.0,
+        what=lambda: f'the end of {running(members)}; the tests printed:\n{run.output}',
+    )
+    assert run.wait() == 130
