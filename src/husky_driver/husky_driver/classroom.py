@@ -16,6 +16,7 @@ import csv
 from dataclasses import dataclass
 from itertools import count
 import multiprocessing
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 import os
 from pathlib import Path
@@ -126,6 +127,7 @@ class Classroom:
         ours, theirs = self._context.Pipe()
         process = self._context.Process(target=_serve, args=(theirs,), daemon=True)
         # The parent decides when it is over: Ctrl-C does not reach a worker, even as it starts.
+        resource_tracker.ensure_running()  # to start it later would unblock the signal
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             process.start()

@@ -91,7 +91,7 @@ def main(args: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except OSError as error:
         print(printable(_why(error)), file=sys.stderr)
-        nobody_reads()  # what could not be written before cannot be at the end either
+        _give_up_output()
         return BAD_INPUT
     except KeyboardInterrupt:
         print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
@@ -229,6 +229,14 @@ def _unwritten(folder: Path, room: Classroom, results: Sequence[Graded]) -> str:
     return f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest'
 
 
+def _give_up_output() -> None:
+    """Drop what is still to be printed if it cannot be, or Python complains when it ends."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        nobody_reads()
+
+
 def _why(error: OSError) -> str:
     where = f'{error.filename}: ' if error.filename else ''
     return f'{where}{error.strerror or error}'
@@ -239,7 +247,8 @@ def table(names: Sequence[str], results: Sequence[Graded]) -> str:
     width = max(map(len, names))
     lines = []
     for name, graded in zip(names, results, strict=True):
-        refused = [line.removeprefix(f'{graded.file}: ') for line in graded.refused.splitlines()]
+        file = printable(graded.file)
+        refused = [line.removeprefix(f'{file}: ') for line in graded.refused.splitlines()]
         reasons = refused or (graded.report or {})['reasons']
         verdict = 'passed' if graded.passed else 'refused' if graded.refused else 'not passed'
         verdict = 'unwritten' if graded.unwritten else verdict

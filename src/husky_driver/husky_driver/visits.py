@@ -10,9 +10,12 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from husky_driver.waypoints import Course
+from husky_driver.waypoints import Course, Waypoint
 
 Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
+
+CHUNK = 500  # entries, ten seconds: how far the run was from a waypoint is asked of all at once
 
 
 def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
@@ -23,10 +26,8 @@ def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
     (longest increasing subsequence): one that was left out costs itself, not all that follow.
     The last stop of a loop counts when the run ends there and reached half of the others.
     """
-    stays = [
-        _stays(np.hypot(x - point.x_m, y - point.y_m) <= course.tolerance_m)
-        for point in course.waypoints
-    ]
+    boxes = _boxes(x, y)
+    stays = [_stays(boxes, x, y, point, course.tolerance_m) for point in course.waypoints]
     # As long as the same waypoints are near, one entry tells as much as all of them.
     changes = np.unique(np.concatenate(stays))
     visits = sorted(
@@ -43,10 +44,24 @@ def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
     return reached
 
 
-def _stays(near: npt.NDArray[np.bool_]) -> npt.NDArray[np.int64]:
+def _boxes(x: Array, y: Array) -> Array:
+    """Return the least and greatest x and y of each CHUNK entries, one row each."""
+    first = np.arange(0, len(x), CHUNK)
+    least, greatest = np.minimum.reduceat, np.maximum.reduceat
+    return np.stack([least(x, first), greatest(x, first), least(y, first), greatest(y, first)])
+
+
+def _stays(boxes: Array, x: Array, y: Array, point: Waypoint, tolerance_m: float) -> Indices:
     """Return rows of the first entry of each stay near a waypoint, and of that after its last."""
-    edges = np.diff(near.astype(np.int8), prepend=0, append=0)
-    return np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=1)
+    low_x, high_x, low_y, high_y = boxes
+    close = (low_x <= point.x_m + tolerance_m) & (high_x >= point.x_m - tolerance_m)
+    close &= (low_y <= point.y_m + tolerance_m) & (high_y >= point.y_m - tolerance_m)
+    entries = (np.flatnonzero(close)[:, None] * CHUNK + np.arange(CHUNK)).ravel()
+    entries = entries[entries < len(x)]
+    away_m = np.hypot(x[entries] - point.x_m, y[entries] - point.y_m)
+    near = entries[away_m <= tolerance_m]
+    gaps = np.diff(near, prepend=-2, append=len(x) + 1) > 1
+    return np.stack([near[gaps[:-1]], near[gaps[1:]] + 1], axis=1)
 
 
 def _longest_increasing(numbers: Sequence[int]) -> set[int]:

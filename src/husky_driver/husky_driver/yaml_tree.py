@@ -15,6 +15,8 @@ from pathlib import Path
 
 import yaml
 
+from husky_driver.foreign_text import printable
+
 MAX_BYTES = 100_000
 MAX_DEPTH = 8
 
@@ -39,7 +41,8 @@ class FileRefused(ValueError):
     def __init__(self, file: str, problems: list[Problem]) -> None:
         self.file = file
         self.problems = tuple(sorted(problems))
-        super().__init__('\n'.join(problem.text(file) for problem in self.problems))
+        name = printable(file)  # on one line, so that a problem is one line
+        super().__init__('\n'.join(problem.text(name) for problem in self.problems))
 
 
 @dataclass(frozen=True)

@@ -159,7 +159,7 @@ def test_the_reports_time_begins_with_the_first_command(make_record: Make) -> No
     report = score(record, STRAIGHT)
     (touch,) = report.collisions
     assert touch.time_sec == pytest.approx(1.0, abs=0.03)
-    assert 'touched cone with its base at 1.02 s, with 12 N' in report.reasons
+    assert 'touched cone with its base at 1.00 s, with 12 N' in report.reasons
     assert report.sim_time_sec == pytest.approx(8.0, abs=0.05)
 
 
