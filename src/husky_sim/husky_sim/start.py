@@ -35,6 +35,7 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
 
     # No window of MuJoCo's is opened here; to look for one starts a second Python.
     os.environ.setdefault('MUJOCO_GL', 'disabled')
+
     def interrupt(number: int, frame: FrameType | None) -> None:
         if _imports(frame):
             leave()
