@@ -62,9 +62,11 @@ ROWS = (
 def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str, Any]:
     """Return what speed_row.py prints of the simulator of a clone."""
     script = Path(__file__).resolve().with_name('speed_row.py')
-    command = [str(clone / 'lab'), 'exec', 'python3', str(script), str(index)]
-    command.append(f'--seconds={seconds}')
-    command += options
+    row = ROWS[index]
+    command = [str(clone / 'lab'), 'exec', 'python3', str(script), f'--robots={row.robots}']
+    command += [f'--parameters={json.dumps(row.parameters)}', f'--seconds={seconds}', *options]
+    if not row.reads:
+        command.append('--nobody-reads')
     # In a group of its own: Ctrl-C reaches only us, and we end all of it.
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
     try:
@@ -74,11 +76,11 @@ def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str,
             os.killpg(process.pid, signal.SIGTERM)
         process.wait()
     if process.returncode:
-        raise SystemExit(f'{ROWS[index].name}: not measured in {clone}; what it said stands above')
-    row: dict[str, Any] = json.loads(printed)
-    if not Path(row['package']).is_relative_to(clone):
-        raise SystemExit(f'{clone}: the simulator of {row["package"]} ran; use a new terminal')
-    return row
+        raise SystemExit(f'{row.name}: not measured in {clone}; what it said stands above')
+    figures: dict[str, Any] = json.loads(printed)
+    if not Path(figures['package']).is_relative_to(clone):
+        raise SystemExit(f'{clone}: the simulator of {figures["package"]} ran; use a new terminal')
+    return figures
 
 
 def print_table(seconds: float) -> None:

@@ -30,7 +30,6 @@ from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
-from simulation_speed import Row, ROWS
 
 from husky_sim import node as husky_sim_node
 from husky_sim.config import RobotStart
@@ -136,15 +135,15 @@ def drive(prefixes: Sequence[str], lockstep: bool, reads: bool) -> None:
     rclpy.shutdown()
 
 
-def node_speed(row: Row, seconds: float, ending: Ending) -> tuple[float, float]:
+def node_speed(given: argparse.Namespace, ending: Ending) -> tuple[float, float]:
     """Run the simulator's node; return simulated seconds a second, and a second of its CPU."""
-    parameters, prefixes = dict(row.parameters), ['']
-    if row.robots > 1:
-        robots = robots_named(row.robots)
+    parameters, prefixes = given.parameters, ['']
+    if given.robots > 1:
+        robots = robots_named(given.robots)
         parameters['robots'] = [f'{r.name} {r.x} {r.y} {r.yaw}' for r in robots]
         prefixes = [f'{robot.name}/' for robot in robots]
-    given = {'real_time_factor': 0.0, 'command_timeout_sec': 60.0, **parameters}
-    overrides = [Parameter(name, value=value) for name, value in given.items()]
+    parameters = {'real_time_factor': 0.0, 'command_timeout_sec': 60.0, **parameters}
+    overrides = [Parameter(name, value=value) for name, value in parameters.items()]
     rclpy.init(
         args=['--ros-args', '--log-level', 'warn'],
         signal_handler_options=SignalHandlerOptions.NO,
@@ -154,11 +153,13 @@ def node_speed(row: Row, seconds: float, ending: Ending) -> tuple[float, float]:
     executor = EventsExecutor()
     executor.add_node(node)
     driver = multiprocessing.get_context('spawn').Process(
-        target=drive, args=(prefixes, bool(given.get('lockstep')), row.reads), daemon=True
+        target=drive,
+        args=(prefixes, bool(parameters.get('lockstep')), not given.nobody_reads),
+        daemon=True,
     )
     driver.start()
     try:
-        return _measured(node, executor, seconds, ending)
+        return _measured(node, executor, given.seconds, ending)
     finally:
         driver.terminate()  # softly: who is killed leaves shared memory behind
         driver.join()
@@ -196,16 +197,17 @@ def _stop_if(ending: Ending) -> None:
 def main() -> None:
     """Measure a row between two measurements of the bare model."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('row', type=int, choices=range(len(ROWS)), help='which one')
+    parser.add_argument('--robots', type=int, default=1, choices=range(1, len(STARTS) + 1))
+    parser.add_argument('--parameters', type=json.loads, default={}, help='of the node, as JSON')
+    parser.add_argument('--nobody-reads', action='store_true')
     parser.add_argument('--seconds', type=float, default=5.0, help='of every measurement')
     parser.add_argument('--without-bare', action='store_true', help='the node alone')
     given = parser.parse_args()
-    row = ROWS[given.row]
-    alone = 0.0 if given.without_bare else bare(row.robots, given.seconds / 2.0)
-    factor, cpu_factor = node_speed(row, given.seconds, Ending())
+    alone = 0.0 if given.without_bare else bare(given.robots, given.seconds / 2.0)
+    factor, cpu_factor = node_speed(given, Ending())
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if not given.without_bare:
-        alone = (alone + bare(row.robots, given.seconds / 2.0)) / 2.0
+        alone = (alone + bare(given.robots, given.seconds / 2.0)) / 2.0
     package = str(Path(husky_sim_node.__file__).resolve().parent)
     print(
         json.dumps({'factor': factor, 'cpu_factor': cpu_factor, 'bare': alone, 'package': package})
