@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 import os
 from pathlib import Path
-import shutil
 import sys
 import time
 
@@ -20,9 +19,8 @@ from husky_sim.record import FILE_NAME
 from husky_driver import check, grade
 from husky_driver.command_line import BAD_INPUT, Parser
 from husky_driver.courses import default_course
+from husky_driver.grading import keep_course
 from husky_driver.processes import run_to_end
-
-WAYPOINTS = 'waypoints.yaml'
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -64,10 +62,7 @@ def _prepare(folder: Path, waypoints: Path) -> None:
     """Make the report's folder, without the record of an earlier run."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / FILE_NAME).unlink(missing_ok=True)
-    # For `./lab view`: the path that was to be driven, as it was. Unless it is that very file.
-    driven = folder / WAYPOINTS
-    if not (driven.exists() and driven.samefile(waypoints)):
-        shutil.copyfile(waypoints, driven)
+    keep_course(waypoints, folder)
 
 
 def _environment(stack: ExitStack) -> Mapping[str, str]:

@@ -196,6 +196,6 @@ def test_a_bad_domain_is_refused_in_one_line(
 ) -> None:
     monkeypatch.setenv('ROS_DOMAIN_ID', 'lab')
     answer = ros2('topic', 'list')
-    assert answer.status == 1
+    assert answer.status == 2
     assert answer.err.startswith("ROS_DOMAIN_ID='lab' is refused: a domain is a number from 0")
     assert answer.err.count('\n') == 1
