@@ -19,7 +19,7 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
-from types import FrameType, TracebackType
+from types import FrameType
 from typing import IO
 from uuid import uuid4
 
@@ -83,12 +83,7 @@ class Process:
     def __enter__(self) -> Process:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.end()
 
     def wait(self, timeout_sec: float) -> bool:

@@ -18,7 +18,6 @@ import socket
 import struct
 import sys
 import tempfile
-from types import TracebackType
 import weakref
 
 from husky_sim.errors import DomainError
@@ -85,12 +84,7 @@ class OwnDomain:
     def __enter__(self) -> 'OwnDomain':
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
