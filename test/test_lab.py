@@ -89,6 +89,19 @@ def test_the_same_file_gives_the_same_run_also_on_a_loaded_machine(
     assert len(hashes) == 1, 'lockstep over DDS, loaded, and in one process'
 
 
+def test_a_full_disk_loses_the_report_not_the_result(processes: Processes, tmp_path: Path) -> None:
+    # A limit of the size of each file stands in for the disk: enough for the course, not the rest.
+    run = processes.start(
+        *('bash', '-c', 'ulimit -f 8; exec "$@"', 'bash', LAB),
+        *('drive', '--fast', '--no-view', '--report', str(tmp_path)),
+    )
+    assert run.wait(timeout_sec=60.0) == 2, run.output
+    assert 'the record of the run ends here: free some space' in run.output
+    assert 'central_barrier: NOT PASSED' in run.output
+    assert 'the report cannot be written: File too large; free some space' in run.output
+    assert 'Traceback' not in run.output
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_drive_leaves_nothing_behind(
     processes: Processes, tmp_path: Path, number: signal.Signals

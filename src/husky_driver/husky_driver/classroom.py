@@ -26,6 +26,7 @@ from typing import Any
 
 from husky_sim.parent_death import die_with_parent
 
+from husky_driver.atomic_file import replacing
 from husky_driver.foreign_text import printable
 from husky_driver.grading import grade_file, Graded, key_of
 from husky_driver.memory import Memory
@@ -33,7 +34,7 @@ from husky_driver.report import REPORT_FILES
 
 STALLED_CPU_SEC = 60.0
 
-_OUR_FILES = ('grades.csv', '.grades.csv.part', *REPORT_FILES)
+_OUR_FILES = ('grades.csv', '.grades.part.csv', *REPORT_FILES)
 _LONGEST_NAME = 100  # bytes
 
 COLUMNS = (
@@ -226,12 +227,10 @@ def _graded(file: str, folder: Path, world: str, stalled_cpu_sec: float) -> Grad
 
 def write_csv(path: Path, results: Sequence[Graded]) -> None:
     """Write one line a file, for a spreadsheet."""
-    part = path.with_name(f'.{path.name}.part')
-    with part.open('w', newline='', encoding='utf-8') as stream:
+    with replacing(path) as part, part.open('w', newline='', encoding='utf-8') as stream:
         writer = csv.writer(stream)
         writer.writerow(COLUMNS)
         writer.writerows(_row(graded) for graded in results)
-    part.replace(path)
 
 
 def _row(graded: Graded) -> list[object]:

@@ -21,10 +21,10 @@ from husky_driver.foreign_text import printable
 from husky_driver.grading import grade_file, Graded
 from husky_driver.progress import Tally
 from husky_driver.report import as_json, summary, write_report
-from husky_driver.run_record import read_run
+from husky_driver.run_record import read_run, RunRecord
 from husky_driver.score_parts import FORMULA
-from husky_driver.scoring import judge
-from husky_driver.waypoints import load_course
+from husky_driver.scoring import judge, Report
+from husky_driver.waypoints import Course, load_course
 
 PASSED, NOT_PASSED, INTERRUPTED = 0, 1, 130
 
@@ -114,8 +114,8 @@ def _grade_record(options: argparse.Namespace) -> int:
     course = load_course(options.waypoints)
     run = read_run(read_record(options.record), options.robot)
     report = judge(run, course, wall_time_sec=options.wall_time)
-    write_report(Path(options.report), report, run, course)
-    return _show_one(Graded(options.waypoints, as_json(report), summary(report)), options)
+    graded = Graded(options.waypoints, as_json(report), summary(report))
+    return _show_one(graded, options, _keep(Path(options.report), report, run, course))
 
 
 def _grade_controller(options: argparse.Namespace) -> int:
@@ -135,9 +135,21 @@ def _grade_controller(options: argparse.Namespace) -> int:
     report = judge(run, course, wall_time_sec=time.monotonic() - begun)
     if not report.passed:
         report = replace(report, reasons=(*live.notes, *report.reasons))
-    write_report(folder, report, run, course)
     text = f'{summary(report)}\n  the run ended: {live.ending}'
-    return _show_one(Graded(options.controller, as_json(report), text), options)
+    graded = Graded(options.controller, as_json(report), text)
+    return _show_one(graded, options, _keep(folder, report, run, course))
+
+
+def _keep(folder: Path, report: Report, run: RunRecord, course: Course) -> str:
+    """Write a report; return why it cannot be written, or nothing: the run is not lost by that."""
+    try:
+        write_report(folder, report, run, course)
+    except OSError as error:
+        return (
+            f'{folder}: the report cannot be written: {error.strerror}; free some space, or name '
+            'another folder with --report DIR'
+        )
+    return ''
 
 
 def _grade_lab(options: argparse.Namespace) -> int:
@@ -171,7 +183,7 @@ def _grade_one(options: argparse.Namespace) -> int:
     return _show_one(graded, options)
 
 
-def _show_one(graded: Graded, options: argparse.Namespace) -> int:
+def _show_one(graded: Graded, options: argparse.Namespace, unwritten: str = '') -> int:
     if graded.report is None:
         print(printable(graded.text, keep='\n'), file=sys.stderr)
         return BAD_INPUT
@@ -179,7 +191,11 @@ def _show_one(graded: Graded, options: argparse.Namespace) -> int:
         print(json.dumps(graded.report, indent=2))
     else:
         print(graded.text)
-        print(printable(f'  report: {Path(options.report) / "report.html"}'))
+        if not unwritten:
+            print(printable(f'  report: {Path(options.report) / "report.html"}'))
+    if unwritten:
+        print(printable(unwritten), file=sys.stderr)
+        return BAD_INPUT
     return PASSED if graded.passed else NOT_PASSED
 
 

@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from husky_driver.atomic_file import replacing
 from husky_driver.foreign_text import printable
 from husky_driver.report_html import page
 from husky_driver.run_record import RunRecord
@@ -58,9 +59,8 @@ def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -
     scene = run_scene(run, course, report)
     _write(folder / 'report.json', json.dumps(as_json(report), indent=2) + '\n')
     _write(folder / 'report.html', page(report, run, scene))
-    part = folder / '.path.part.png'
-    draw(scene, part)
-    part.replace(folder / 'path.png')
+    with replacing(folder / 'path.png') as part:
+        draw(scene, part)
 
 
 def summary(report: Report) -> str:
@@ -85,6 +85,5 @@ def summary(report: Report) -> str:
 
 
 def _write(path: Path, text: str) -> None:
-    part = path.with_name(f'.{path.name}.part')
-    part.write_text(text, encoding='utf-8')
-    part.replace(path)
+    with replacing(path) as part:
+        part.write_text(text, encoding='utf-8')
