@@ -13,6 +13,9 @@ import sys
 
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
+# Loaded now: between fork and exec of a process with threads as little as possible may be done.
+_LIBC = ctypes.CDLL(None) if sys.platform == 'linux' else None
+
 
 def die_with_parent(signal_number: int) -> None:
     """
@@ -20,8 +23,8 @@ def die_with_parent(signal_number: int) -> None:
 
     The parent is the thread that started this process: one that ends early sends it early.
     """
-    if sys.platform == 'linux':
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal_number, 0, 0, 0)
+    if _LIBC is not None:
+        _LIBC.prctl(_PR_SET_PDEATHSIG, signal_number, 0, 0, 0)
 
 
 if __name__ == '__main__':

@@ -3,10 +3,13 @@
 """The driver as a process of its own, started from the page."""
 
 import contextlib
+from functools import partial
 import os
 from pathlib import Path
 import signal
 import subprocess
+
+from husky_sim.parent_death import die_with_parent
 
 DRIVER = 'follow_path'
 END_SEC = 1.0
@@ -33,6 +36,7 @@ class DriverProcess:
             ],
             stdin=subprocess.DEVNULL,
             start_new_session=True,
+            preexec_fn=partial(die_with_parent, signal.SIGTERM),
         )
 
     def end(self) -> None:
