@@ -20,8 +20,8 @@ import tempfile
 import time
 
 from husky_driver.processes import adopt_orphans
-from husky_driver.shared_memory import clean_shared_memory, unused_files
 from husky_sim.domains import in_own_domain
+from husky_sim.shared_memory import clean_shared_memory, unused_files
 import psutil
 
 LAB = str(Path(__file__).resolve().parent.parent / 'lab')

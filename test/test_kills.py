@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 import signal
 
-from husky_driver.shared_memory import unused_files
+from husky_sim.shared_memory import unused_files
 from playpen_testing.processes import Process, Processes
 from playpen_testing.waiting import wait_until
 import psutil

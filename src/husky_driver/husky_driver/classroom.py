@@ -127,13 +127,14 @@ class Classroom:
     def _hire(self) -> _Worker:
         ours, theirs = self._context.Pipe()
         process = self._context.Process(target=_serve, args=(theirs,), daemon=True)
-        # The parent decides when it is over: Ctrl-C does not reach a worker, even as it starts.
-        resource_tracker.ensure_running()  # to start it later would unblock the signal
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        # The parent decides when it is over: a worker ignores Ctrl-C, from its start on. That the
+        # parent does so for this moment too loses nothing: the one who waits presses again.
+        resource_tracker.ensure_running()  # has a start of its own
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
         try:
             process.start()
         finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+            signal.signal(signal.SIGINT, before)
         theirs.close()
         return _Worker(process, ours)
 

@@ -13,7 +13,7 @@ from husky_sim.world import default_worlds, load_world
 import numpy as np
 
 from husky_driver.path import Curve
-from husky_driver.route import Leg, plan_route
+from husky_driver.route import lead_in, Leg, plan_route
 from husky_driver.waypoints import Course
 from husky_sim.config import RobotStart
 
@@ -103,7 +103,8 @@ def _poses(course: Course, start: Pose) -> tuple[np.ndarray, np.ndarray]:
     poses: list[Pose] = []
     numbers: list[int] = []
     heading = 0.0
-    for leg in plan_route(course):
+    way = lead_in(course, (0.0, 0.0))
+    for leg in [*([way] if way else []), *plan_route(course)]:
         back = math.pi if leg.reverse else 0.0
         first = (leg.curve.x[0], leg.curve.y[0])
         facing = leg.curve.heading[0] + back

@@ -17,6 +17,7 @@ from typing import Any
 
 from husky_sim.record import FILE_NAME
 
+from husky_driver.atomic_file import replacing
 from husky_driver.report import as_json, summary, write_report
 from husky_driver.run_record import read_run
 from husky_driver.scoring import judge
@@ -91,7 +92,8 @@ def keep_course(file: Path, folder: Path) -> None:
     """Keep the file beside the record of its run, for `./lab view`."""
     kept = folder / COURSE_FILE
     if not (kept.exists() and kept.samefile(file)):
-        kept.write_bytes(file.read_bytes())
+        with replacing(kept) as part:
+            part.write_bytes(file.read_bytes())
 
 
 def key_of(file: str, world: str = '') -> str:

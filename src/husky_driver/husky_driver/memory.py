@@ -22,6 +22,7 @@ from husky_driver.report import is_report
 
 SEAL_FILE = '.graded'
 SECRET_BYTES = 32
+MOST_BYTES = 64_000_000  # of a report, whose run may have been a day long
 
 
 class Memory:
@@ -33,8 +34,8 @@ class Memory:
     def recall(self, folder: Path, key: str) -> dict[str, Any] | None:
         """Return the report in a folder if it was sealed with this key."""
         try:
-            text = (folder / 'report.json').read_bytes()
-            seal = (folder / SEAL_FILE).read_text(encoding='ascii')
+            text = _content(folder / 'report.json')
+            seal = _content(folder / SEAL_FILE).decode('ascii')
             if self._secret is None or not hmac.compare_digest(seal, self._seal(key, text)):
                 return None
             report = json.loads(text)
@@ -55,6 +56,20 @@ class Memory:
     def _seal(self, key: str, text: bytes) -> str:
         secret = self._secret or b''
         return hmac.new(secret, key.encode() + b'\n' + text, 'sha256').hexdigest()
+
+
+def _content(file: Path) -> bytes:
+    """
+    Return what a file holds, if it is one: a pipe or a device may never end.
+
+    :raises OSError: if it is none, or larger than any of ours.
+    """
+    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
+    with os.fdopen(os.open(file, flags), 'rb') as stream:
+        about = os.fstat(stream.fileno())
+        if not stat.S_ISREG(about.st_mode) or about.st_size > MOST_BYTES:
+            raise OSError(f'{file} is no file of ours')
+        return stream.read(MOST_BYTES)
 
 
 def _secret() -> bytes | None:

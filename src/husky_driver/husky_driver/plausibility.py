@@ -20,6 +20,8 @@ FASTEST_RAD_S = 20.0
 LENGTH_ERROR = 0.1  # of a quaternion
 JUMP_M, JUMP_M_S = 0.25, 2.0  # further than this, and this times the time between, is a jump
 JUMP_RAD, JUMP_RAD_S = 0.5, 4.0
+STEP_SEC = 0.1  # odometry comes more often than this
+AHEAD_SEC = 30.0  # nothing is missed for so long
 RESET_SEC = 1.0  # a simulator that was reset begins again near zero, ...
 RESET_M_S = 0.3  # ... with a robot that has hardly begun to move
 HARDEST_M_S2 = 1e5  # an accelerometer feels no harder blow
@@ -47,6 +49,8 @@ class OdometryCheck:
                 f'its stamp jumps to and fro between {last.time_sec:.2f} s and '
                 f'{now.time_sec:.2f} s'
             )
+        if now.time_sec - last.time_sec > AHEAD_SEC:
+            return f'its stamp jumps ahead from {last.time_sec:.2f} s to {now.time_sec:.2f} s'
         return _jump(last, now)
 
     def _going_back(self, last: Odometry, now: Odometry) -> str:
@@ -61,7 +65,8 @@ class OdometryCheck:
 
     def _returns(self, last: Odometry, now: Odometry) -> bool:
         """Tell whether the time before a reset goes on: then it was none, but two publishers."""
-        if now.time_sec - last.time_sec < (self._before_reset_sec - self._reset_sec) / 2:
+        halfway_sec = (self._before_reset_sec - self._reset_sec) / 2
+        if now.time_sec - last.time_sec < max(halfway_sec, STEP_SEC):
             if now.time_sec > self._reset_sec + RESET_SEC:
                 self._before_reset_sec = math.inf
             return False

@@ -24,9 +24,8 @@ from typing import IO
 from uuid import uuid4
 
 from husky_sim.parent_death import die_with_parent
+from husky_sim.shared_memory import clean_shared_memory
 import psutil
-
-from husky_driver.shared_memory import clean_shared_memory
 
 END_WITHIN_SEC = 1.2  # of what is asked to end by SIGINT; Ctrl-C must be done in 2 s
 FIRM_SEC = 0.4  # the same by SIGTERM

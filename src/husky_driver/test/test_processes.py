@@ -11,8 +11,8 @@ import sys
 import time
 
 from husky_driver.processes import adopt_orphans, Process
-from husky_driver.shared_memory import clean_shared_memory
 from husky_sim.domains import OwnDomain
+from husky_sim.shared_memory import clean_shared_memory
 import psutil
 
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
