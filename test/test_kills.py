@@ -86,6 +86,21 @@ def test_a_killed_part_ends_the_run_in_3_s(
     assert not unused_files(), 'shared memory is left'
 
 
+def test_a_killed_simulator_ends_its_launch(processes: Processes) -> None:
+    run = processes.start('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py')
+    run.wait_for_text('34 obstacles')
+    members = family(run)
+    simulator = part(run, PARTS['simulator'])
+    assert simulator is not None
+    simulator.send_signal(signal.SIGKILL)
+    wait_until(
+        lambda: not running(members),
+        timeout_sec=3.0,
+        what=lambda: f'the end of {running(members)}; the launch printed:\n{run.output}',
+    )
+    assert not unused_files(), 'shared memory is left'
+
+
 def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
     tests = str(ROOT / 'test' / 'test_view_process.py')
     run = processes.start(LAB, 'test', tests)

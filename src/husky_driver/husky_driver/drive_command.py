@@ -21,6 +21,11 @@ from husky_driver.command_line import BAD_INPUT, Parser
 from husky_driver.courses import default_course
 from husky_driver.grading import keep_course
 from husky_driver.processes import run_to_end
+from husky_driver.route import plan_route
+from husky_driver.time_limit import limit_sec
+from husky_driver.waypoints import load_course
+
+START_SEC = 90.0  # simulated time in which the driver must have begun
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -76,8 +81,11 @@ def _environment(stack: ExitStack) -> Mapping[str, str]:
 
 
 def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
+    course = load_course(options.waypoints)
     arguments = {
+        # The driver keeps a limit of its own; this one ends a run whose driver hangs.
         'waypoints': str(Path(options.waypoints).resolve()),
+        'limit_sec': f'{limit_sec(plan_route(course)) + START_SEC:.1f}',
         'record': str(folder.resolve() / FILE_NAME),
         'real_time_factor': '0.0' if options.fast else '1.0',
         'lockstep': str(options.fast).lower(),

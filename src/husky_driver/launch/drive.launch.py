@@ -23,7 +23,7 @@ def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
 
 def generate_launch_description() -> LaunchDescription:
     """Return the simulator, the driver, and the end of all when one has ended, however it did."""
-    names = ('record', 'real_time_factor', 'lockstep', 'viewer')
+    names = ('record', 'limit_sec', 'real_time_factor', 'lockstep', 'viewer')
     simulator = IncludeLaunchDescription(
         PythonLaunchDescriptionSource(
             PathJoinSubstitution(
@@ -45,6 +45,9 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument('waypoints', description='the waypoint file to drive'),
             DeclareLaunchArgument(
                 'record', default_value='', description='where the simulator writes the run'
+            ),
+            DeclareLaunchArgument(
+                'limit_sec', default_value='0.0', description='most simulated time; 0.0: any'
             ),
             DeclareLaunchArgument(
                 'real_time_factor',

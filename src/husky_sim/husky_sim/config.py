@@ -90,6 +90,9 @@ class RunConfig:
         False, 'Wait for a command after each odometry message, then advance one control period.'
     )
     record: str = setting('', 'File for the record of the run, written as it goes; empty: none.')
+    limit_sec: float = setting(
+        0.0, 'End after so much simulated time, s: a run whose driver hangs; 0: never.', 0.0, 1e9
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

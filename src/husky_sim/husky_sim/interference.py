@@ -18,6 +18,8 @@ LOOK_SEC = 0.1
 PATIENCE_LOOKS = 20
 """So long the name of a node may take to arrive; it comes by a message of its own."""
 
+GONE = 'a node that is gone already'
+
 _UNKNOWN = '_NODE_NAME_UNKNOWN_'  # rmw_dds_common, until that message is there
 _PARTICIPANT = 12
 """Bytes of an endpoint's GUID that name its participant (OMG DDSI-RTPS 2.3, 9.3.1)."""
@@ -71,22 +73,37 @@ class InterferenceWatch:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(LOOK_SEC, self.look, clock=steady)
 
-    def look(self) -> None:
-        """Look now."""
+    def look(self, *, at_the_end: bool = False) -> None:
+        """
+        Look now.
+
+        :param at_the_end: no name will come any more.
+        """
         for topic, ours in self._topics:
             if self._node.count_publishers(topic) < 2:
                 continue
             others = _publishers(self._node, topic)
-            if any(_UNKNOWN in name for name in others) and self._nameless_looks < PATIENCE_LOOKS:
+            nameless = any(_UNKNOWN in name for name in others)
+            if nameless and self._nameless_looks < PATIENCE_LOOKS and not at_the_end:
                 self._nameless_looks += 1
                 continue
             me = self._node.get_fully_qualified_name()
             if ours and me in others:
                 others.remove(me)
-            found = Interference(topic, tuple(others), ours)
-            if len(others) > (not ours) and found not in self._found:
-                self._found.add(found)
-                self._on_found(found)
+            if len(others) > (not ours):
+                self._report(Interference(topic, tuple(others), ours))
+
+    def look_at_commands(self, topic: str, publishers: int) -> None:
+        """Look at a topic of commands as DDS tells that so many publish it now."""
+        self.look()
+        known = any(found.topic == topic for found in self._found)
+        if publishers > 1 and not known and self._node.count_publishers(topic) < publishers:
+            self._report(Interference(topic, (*_publishers(self._node, topic), GONE), ours=False))
+
+    def _report(self, found: Interference) -> None:
+        if found not in self._found:
+            self._found.add(found)
+            self._on_found(found)
 
 
 def _publishers(node: Node, topic: str) -> list[str]:

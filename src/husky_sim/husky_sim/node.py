@@ -9,6 +9,7 @@ odometry of the one before.
 """
 
 from dataclasses import replace
+from functools import partial
 import gc
 import sys
 import time
@@ -21,6 +22,7 @@ from rclpy.clock import ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 from rclpy.timer import Timer
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty, SetBool, Trigger
@@ -44,6 +46,9 @@ from husky_sim.spinning import future_of_signal, spin
 
 REPEAT_SEC = 0.5
 """How often lockstep repeats its first odometry message, until the first command comes."""
+
+HANGING_SEC = 60.0
+"""Of wall time: a driver that answers one message for so long, in a run with a limit, hangs."""
 
 _LOCKSTEP_POLL_SEC = 0.01
 _SHORTEST_TICK_SEC = 0.001
@@ -75,6 +80,7 @@ class SimulatorNode(Node):
         self._record = open_recorder(self._simulation, self._run.record, self.get_logger().error)
         factor = self._run.real_time_factor
         self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
+        self.over: Future[None] = Future()
         self._paused = False
         self._driven = False  # lockstep: the first odometry message is out
         self._answered = False  # lockstep: and was answered
@@ -89,8 +95,9 @@ class SimulatorNode(Node):
                 f'{robot.name}/' if many else '',
                 self._on_command,
                 self._form,
+                on_commander=partial(self._on_commander, place),
             )
-            for robot in self._simulation.robots
+            for place, robot in enumerate(self._simulation.robots)
         ]
         self._by_name = {topics.robot.name: topics for topics in self._topics}
         self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
@@ -175,10 +182,12 @@ class SimulatorNode(Node):
 
     def _continue_lockstep(self) -> None:
         """Begin, repeat the first message, or take up a command that came too early."""
+        now = time.monotonic()
         if self._answered:
             self._advance_if_answered()
+            if self._run.limit_sec and now - self._sent_at_sec > HANGING_SEC:
+                self._end(f'no command for {HANGING_SEC:g} s: the driver hangs')
             return
-        now = time.monotonic()
         if not self._driven:
             if all(topics.has_driver() for topics in self._topics):
                 self._driven = True
@@ -202,6 +211,9 @@ class SimulatorNode(Node):
         if self._record is not None:
             self._record.append()
         self._publish()
+        self._sent_at_sec = time.monotonic()
+        if 0.0 < self._run.limit_sec <= self._simulation.time_sec:
+            self._end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._scene.append()
         for topics in self._topics:
             if topics.robot.timeout_bites:
@@ -210,6 +222,12 @@ class SimulatorNode(Node):
                     f'{topics.robot.name}: no command for {config.command_timeout_sec:g} s '
                     '(command_timeout_sec); stopping'
                 )
+
+    def _end(self, why: str) -> None:
+        """End the run, which its driver should have ended before."""
+        if not self.over.done():
+            self.get_logger().error(f'the run ends: {why}')
+            self.over.set_result(None)
 
     def _publish(self) -> None:
         stamp = divmod(self._simulation.time_ns, 1_000_000_000)
@@ -221,6 +239,10 @@ class SimulatorNode(Node):
             topics.publish_rest(stamp)
         for touch in self._simulation.touches:
             self._by_name[touch.robot].publish_collision(touch)
+
+    def _on_commander(self, place: int, count: int) -> None:
+        topic = self._topics[place].command_subscription.topic_name
+        self._interference.look_at_commands(topic, count)
 
     def _on_interference(self, found: Interference) -> None:
         self.get_logger().error(str(found))
@@ -294,7 +316,9 @@ class SimulatorNode(Node):
     def destroy_node(self) -> None:
         """End the record, then let go of everything; may be called twice."""
         if self._record is not None:
+            self._interference.look(at_the_end=True)
             self._record.close()
+            self._record = None
         for topics in self._topics:
             topics.close()
         super().destroy_node()
@@ -309,6 +333,7 @@ def main(args: list[str] | None = None) -> int:
     try:
         node = SimulatorNode()
         gc.freeze()  # what is there now stays: no long search through it in the middle of a run
+        node.over.add_done_callback(lambda _: interrupted.done() or interrupted.set_result(None))
         spin(node, until=interrupted)
     except SimulatorError as error:
         print(f'husky_sim: {error}', file=sys.stderr)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator's settings as ROS parameters."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 import math
 import re
 from typing import Any, TypeVar
@@ -40,12 +40,7 @@ def read_run(node: Node) -> RunConfig:
     config = _read(node, RunConfig)
     if config.world:
         return config
-    return RunConfig(
-        world=str(default_worlds() / 'playpen.xml'),
-        real_time_factor=config.real_time_factor,
-        lockstep=config.lockstep,
-        record=config.record,
-    )
+    return replace(config, world=str(default_worlds() / 'playpen.xml'))
 
 
 def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:

@@ -9,6 +9,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
@@ -38,6 +39,7 @@ class RobotTopics:
 
     :param namespace: before every topic; empty for the only robot, ending in / for one of many.
     :param on_command: called after every command was taken.
+    :param on_commander: called with how many publish commands now, when one comes or goes.
     :param form: in which packed messages are published.
     """
 
@@ -49,6 +51,8 @@ class RobotTopics:
         namespace: str,
         on_command: Callable[[], None],
         form: Form,
+        *,
+        on_commander: Callable[[int], None],
     ) -> None:
         self.robot = robot
         self.commanded = False
@@ -88,7 +92,13 @@ class RobotTopics:
             node, namespace, localization=self.filtered_publisher is not None
         )
         self.command_subscription = node.create_subscription(
-            Twist, f'{controller}/cmd_vel', self._on_cmd_vel, QOS
+            Twist,
+            f'{controller}/cmd_vel',
+            self._on_cmd_vel,
+            QOS,
+            event_callbacks=SubscriptionEventCallbacks(
+                matched=lambda event: on_commander(event.current_count)
+            ),
         )
         # As the Husky's twist_mux has it: while true, no command reaches the wheels.
         self._stop_subscription = node.create_subscription(

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulate a Husky in the playpen."""
 
+from husky_sim.shared_memory import clean_shared_memory
 from launch import LaunchContext, LaunchDescription
 from launch.actions import DeclareLaunchArgument, Shutdown
 from launch.conditions import IfCondition
@@ -19,11 +20,14 @@ PARAMETERS = (
     ('real_time_factor', '1.0', float, 'Simulated seconds a second; 0.0: as fast as possible'),
     ('lockstep', 'false', bool, 'true: advance one control period for each command'),
     ('slip', 'asphalt', str, 'How the tyres grip: ideal, asphalt or gravel'),
+    ('limit_sec', '0.0', float, 'End after so much simulated time, s; 0.0: never'),
     ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )
 
 
-def _end_all(_: ProcessExited, context: LaunchContext) -> Shutdown | None:
+def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
+    if event.returncode < 0:
+        clean_shared_memory()  # a killed process leaves its own
     return None if context.is_shutdown else Shutdown(reason='the simulator has ended')
 
 

@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
+from husky_sim.interference import GONE
 from husky_sim.node import SimulatorNode
 from husky_sim.record import Disturbance, read_record
 from nav_msgs.msg import Odometry
@@ -54,6 +55,14 @@ class Run:
             ),
             f'{name} on {topic}',
         )
+
+    def brief_publisher(self, kind: Any, topic: str, name: str) -> None:
+        """Let a node publish a topic until the simulator takes one message of it, no longer."""
+        node = Node(name, context=self._context())
+        publisher = node.create_publisher(kind, topic, 10)
+        self.until(publisher.get_subscription_count, f'{name} matched with {topic}')
+        publisher.publish(kind())
+        node.destroy_node()
 
     def until(self, holds: Callable[[], Any], what: str) -> None:
         deadline = time.monotonic() + 10.0
@@ -128,3 +137,14 @@ def test_two_nodes_of_one_name_are_two(run: Run) -> None:
     run.spin(seconds=0.5)
     (found,) = run.disturbances()
     assert found.nodes == ('/twin', '/twin')
+
+
+def test_a_publisher_of_a_moment_is_noticed(run: Run) -> None:
+    run.publisher(Twist, COMMANDS, 'driver')
+    run.spin(seconds=0.2)
+    run.brief_publisher(Twist, COMMANDS, 'ghost')
+    run.spin(seconds=0.5)
+    (found, *_) = run.disturbances()
+    assert found.topic == COMMANDS
+    assert found.nodes[0] == '/driver'
+    assert found.nodes[1] in ('/ghost', GONE)
