@@ -171,6 +171,15 @@ def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
     assert 'jersey_barrier_15' in warned
 
 
+def test_a_check_looks_at_the_way_to_the_first_waypoint(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'beyond.yaml'  # of the barrier in front of the robot
+    course.write_text('waypoints: [[4.5, 0.0], [5.0, 0.0]]\n')
+    assert check(['--refuse', str(course)]) == 1
+    assert 'on the way to waypoint 1 the robot touches' in capsys.readouterr().err
+
+
 def test_a_check_counts_the_waypoints_as_the_report_does(
     courses: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

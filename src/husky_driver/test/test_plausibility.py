@@ -65,6 +65,18 @@ def test_a_reset_is_believed_and_what_follows_it() -> None:
     assert complaint(begun[20], *begun) == ''
 
 
+@pytest.mark.parametrize('before', range(1, 60))
+def test_a_reset_is_believed_however_early(before: int) -> None:
+    standing = Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    periods = [*range(before), *range(200)]
+    assert complaint(*(standing._replace(time_sec=0.02 * n) for n in periods)) == ''
+
+
+def test_a_stamp_far_ahead_is_named() -> None:
+    said = complaint(DRIVING, moved(time_sec=130.0))
+    assert said == 'its stamp jumps ahead from 30.00 s to 130.00 s'
+
+
 @settings(deadline=None, max_examples=50)
 @given(strategies.floats(0.02, 200.0), strategies.integers(1, 4), strategies.integers(1, 4))
 def test_two_simulators_at_different_times_are_noticed(
