@@ -127,6 +127,12 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
             load_course(tmp_path / path)
 
 
+def test_a_link_to_nothing_is_not_said_to_be_meant(tmp_path: Path) -> None:
+    (tmp_path / 'dangling.yaml').symlink_to(tmp_path / 'nowhere')
+    with pytest.raises(FileRefused, match='no such file$'):
+        load_course(tmp_path / 'dangling.yaml')
+
+
 @pytest.fixture
 def schema(courses: Path) -> Any:
     text = (courses.parent / 'waypoints.schema.json').read_text()
