@@ -170,6 +170,11 @@ def damaged(blocks: list[Any], change: Callable[[np.ndarray], object]) -> list[A
     [
         (lambda table: table.__setitem__((3, 0, X), np.nan), 'NaN or infinity'),
         (lambda table: table.__setitem__((3, 0, X), np.inf), 'NaN or infinity'),
+        (lambda table: table.__setitem__((3, 0, 3), 1e7), 'yaw of 1e'),
+        (lambda table: table.__setitem__((3, 0, 6), -1e300), 'odom_yaw of 1e'),
+        (lambda table: table.__setitem__((slice(None), 0, X), 1e9), 'x of 1e'),
+        (lambda table: table.__setitem__((3, 0, 7), 2e3), 'speed_m_s of 2e'),
+        (lambda table: table.__setitem__((3, 0, 10), 1e300), 'command_yaw_rate_rad_s of 1e'),
         (lambda table: table.__setitem__((3, 0, 0), 0.5), 'its time goes from'),
         (lambda table: table.__setitem__(slice(0, 99), table[1:].copy()), 'its time goes from'),
         (lambda table: table.__setitem__((slice(50, None), 0, X), 7.0), r'husky jumps \d\.\d+ m'),
@@ -219,6 +224,33 @@ def test_what_is_no_record_is_refused_in_one_line(
         read_record(tmp_path / FILE_NAME)
     assert '\n' not in str(refused.value)
     assert str(refused.value).startswith(f'{tmp_path / FILE_NAME}: ')
+
+
+OBSTACLE = {'name': 'cone', 'x': 0.0, 'y': 0.0, 'yaw': 0.0, 'size': [0.2]}
+
+
+@pytest.mark.parametrize(
+    ('change', 'said'),
+    [
+        ({'robots': [{'name': 'husky', 'start': [1e7, 0.0, 0.0]}]}, r'a place at \(1e\+07, 0\)'),
+        ({'robots': [{'name': 'husky', 'start': [0.0, 0.0, 1e300]}]}, r'yaw 1e\+300'),
+        ({'robots': [{'name': '\ud800', 'start': [0.0, 0.0, 0.0]}]}, 'surrogates not allowed'),
+        ({'world': '\udcff'}, 'surrogates not allowed'),
+        ({'obstacles': [{**OBSTACLE, 'y': -1e7}]}, 'a place at'),
+        ({'obstacles': [{**OBSTACLE, 'size': [0.0]}]}, 'an obstacle of the size'),
+        ({'obstacles': [{**OBSTACLE, 'size': [1.0, -1.0]}]}, 'an obstacle of the size'),
+        ({'obstacles': [OBSTACLE] * 10_001}, '10001 obstacles, but 10000 are the most'),
+    ],
+)
+def test_a_header_beyond_all_bounds_is_refused(
+    path: Path, change: dict[str, Any], said: str
+) -> None:
+    header, *blocks = content_of(path)
+    path.write_bytes(b''.join(map(block_of, [{**header, **change}, *blocks])))
+    with pytest.raises(RecordRefused, match=said) as refused:
+        read_record(path)
+    assert '\n' not in str(refused.value)
+    assert str(refused.value).isascii()
 
 
 def test_a_changed_byte_is_refused_or_read_but_never_a_traceback(path: Path) -> None:
