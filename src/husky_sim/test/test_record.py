@@ -3,6 +3,7 @@
 """The record of a run: written as it goes, read by one reader, believed only when it can be."""
 
 from collections.abc import Callable
+import os
 from pathlib import Path
 import random
 import resource
@@ -291,3 +292,20 @@ def test_a_record_that_cannot_be_written_is_refused_at_once(tmp_path: Path) -> N
     for path in (tmp_path, tmp_path / 'file' / FILE_NAME):
         with pytest.raises(SettingError, match=r'record=.*cannot be written: '):
             open_recorder(new_simulation(), str(path), lambda _: None)
+
+
+def test_a_record_takes_the_place_of_a_link_or_a_pipe(tmp_path: Path) -> None:
+    victim, record = tmp_path / 'victim', tmp_path / FILE_NAME
+    victim.write_text('mine')
+    record.symlink_to(victim)
+    RunRecorder(new_simulation(), record).close()
+    assert victim.read_text() == 'mine'
+    record.unlink()
+    os.mkfifo(record)
+    RunRecorder(new_simulation(), record).close()
+    record.unlink()
+    record.symlink_to(tmp_path / 'nowhere')
+    RunRecorder(new_simulation(), record).close()
+    assert not (tmp_path / 'nowhere').exists()
+    assert not record.is_symlink()
+    assert len(read_record(record).rows) == 1
