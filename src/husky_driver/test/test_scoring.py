@@ -181,7 +181,8 @@ COMMANDS = '/husky_velocity_controller/cmd_vel'
         (
             COMMANDS,
             ('/follow_path', '/other'),
-            f'/follow_path and /other both published {COMMANDS}: nobody can tell whose drive it was',
+            f'/follow_path and /other both published {COMMANDS}: nobody can tell whose drive '
+            'it was',
         ),
         (
             COMMANDS,
