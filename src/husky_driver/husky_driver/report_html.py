@@ -117,7 +117,7 @@ def _collisions(report: Report) -> str:
 def _disturbances(report: Report) -> str:
     if not report.disturbances:
         return ''
-    head = '<tr><th>time</th><th>topic</th><th>also published by</th></tr>'
+    head = '<tr><th>time</th><th>topic</th><th>published by</th></tr>'
     rows = ''.join(
         f'<tr><td class="n">{entry.time_sec:.2f} s</td><td>{_shown(entry.topic)}</td>'
         f'<td>{_shown(", ".join(entry.nodes))}</td></tr>'

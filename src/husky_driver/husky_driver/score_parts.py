@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The score and its parts: 100 x completion x 0.65 per collision x time x tracking.
+The score and its parts: 100 x completion x 0.65 per collision x time x tracking x alone.
 
 Every part is between 0 and 1 and says why; what it costs is counted in points, in this order.
 The factor for a collision is the CARLA leaderboard's for a static obstacle.
@@ -22,14 +22,15 @@ NO_TRACKING_M = 0.50
 WRONG_WAY_FACTOR = 0.5  # for a path driven backwards from beginning to end
 
 FORMULA = f"""\
-score = 100 x completion x {COLLISION_FACTOR} per collision x time x tracking
+score = 100 x completion x {COLLISION_FACTOR} per collision x time x tracking x alone
   completion  waypoints reached in order, without the first, of all without the first;
               times {NOT_STOPPED_FACTOR} unless the robot stands at the last one in the end
   time        1 within {TIME_ALLOWANCE} x the time at the asked speed, then in proportion, not
               below {MIN_TIME_FACTOR}; times 1 - {1 - TOO_FAST_FACTOR} x the share driven too fast
   tracking    1 up to {FULL_TRACKING_M:.2f} m RMS off the path, 0 from {NO_TRACKING_M:.2f} m;
               times 1 - {1 - WRONG_WAY_FACTOR} x the share driven backwards where the course asks
-              for forwards, or forwards where it asks for backwards (reverse: true)"""
+              for forwards, or forwards where it asks for backwards (reverse: true)
+  alone       0 where others published commands, odometry or clock of the run, else not shown"""
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,11 @@ def tracking(rms_m: float, wrong_way: float = 0.0) -> tuple[float, str]:
         factor *= 1.0 - (1.0 - WRONG_WAY_FACTOR) * wrong_way
         why += f'; {wrong_way:.0%} of the way in the wrong direction'
     return factor, why
+
+
+def alone(disturbances: Sequence[str]) -> tuple[float, str]:
+    """Return the factor for a run that others took part in: it is worth nothing."""
+    return 0.0 if disturbances else 1.0, '; '.join(disturbances)
 
 
 def total(parts: Sequence[tuple[str, tuple[float, str]]]) -> tuple[float, tuple[Part, ...]]:

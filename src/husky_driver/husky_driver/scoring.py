@@ -94,14 +94,15 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
     manner = manner_of(run, asked, along, judged)
     reached, needed = sum(visits), float(run.time_sec[end])
     progress = float(along[judged].max(initial=0.0)) / curve.length_m
-    points, parts = score_parts.total(
-        [
-            ('completion', score_parts.completion(reached, len(visits), stands_at_end=stands)),
-            ('collisions', score_parts.collisions([c.obstacle for c in run.collisions])),
-            ('time', score_parts.time(needed, progress * par_time_sec(legs), manner.too_fast)),
-            ('tracking', score_parts.tracking(rms, manner.wrong_way)),
-        ]
-    )
+    factors = [
+        ('completion', score_parts.completion(reached, len(visits), stands_at_end=stands)),
+        ('collisions', score_parts.collisions([c.obstacle for c in run.collisions])),
+        ('time', score_parts.time(needed, progress * par_time_sec(legs), manner.too_fast)),
+        ('tracking', score_parts.tracking(rms, manner.wrong_way)),
+    ]
+    if run.disturbances:
+        factors.append(('alone', score_parts.alone(verdict.disturbances(run))))
+    points, parts = score_parts.total(factors)
     guessed = []
     if reached < len(visits):
         guessed = diagnosis.guesses(run, course, curve, rms_m=rms, driven_m=_driven(run))

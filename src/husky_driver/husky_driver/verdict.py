@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
+from husky_sim.record import Disturbance
 import numpy as np
 
 from husky_driver.manner import ENOUGH_M, Manner
@@ -22,7 +23,7 @@ def reasons(
     run: RunRecord, course: Course, reached: Sequence[bool], manner: Manner
 ) -> tuple[str, ...]:
     """Return one line for each thing that went wrong; none for a good run."""
-    first = [*_disturbances(run), *_early_end(run)]
+    first = [*disturbances(run), *_early_end(run)]
     if not _moved(run):
         return (*first, _why_still(run))
     wrong_way = _wrong_way(manner)
@@ -32,13 +33,21 @@ def reasons(
     return (*first, *found)
 
 
-def _disturbances(run: RunRecord) -> list[str]:
-    lines = [
-        f'disturbed at {entry.time_sec:.2f} s: {" and ".join(entry.nodes)} also '
-        f'{"publishes" if len(entry.nodes) == 1 else "publish"} {entry.topic}'
-        for entry in run.disturbances
-    ]
-    return _shortened(lines, 'disturbances')
+def disturbances(run: RunRecord) -> list[str]:
+    """Return one line for each time that others were heard."""
+    return _shortened([_disturbance(entry) for entry in run.disturbances], 'disturbances')
+
+
+def _disturbance(entry: Disturbance) -> str:
+    names, topic = ' and '.join(entry.nodes), entry.topic
+    when = f'disturbed at {entry.time_sec:.2f} s'
+    if topic.endswith('/cmd_vel'):  # of these nodes, one is the driver
+        both = 'both' if len(entry.nodes) == 2 else 'all'
+        return f'{when}: {names} {both} published {topic}: nobody can tell whose drive it was'
+    return (
+        f'{when}: {names} published {topic} beside the simulator: nobody can tell what the '
+        'driver heard'
+    )
 
 
 def _early_end(run: RunRecord) -> list[str]:

@@ -95,6 +95,8 @@ class _Checker:
         waypoints = given.get('waypoints')
         if isinstance(waypoints, tuple):
             self._check_spacing(waypoints, bool(given.get('loop')))
+            if not given.get('loop'):
+                self._check_first(waypoints[0])
         if self._problems:
             raise FileRefused(self._file, self._problems)
         return Course(name=name, file=self._file, **given)  # type: ignore[arg-type]
@@ -193,6 +195,14 @@ class _Checker:
         x = _coordinate(self, value.items[0], f'{name}.x')
         y = _coordinate(self, value.items[1], f'{name}.y')
         return None if x is None or y is None else Waypoint(x, y, line=value.line)
+
+    def _check_first(self, first: Waypoint) -> None:
+        """Refuse what nobody would obey: the drive begins there; a loop also ends there."""
+        asked = {'yaw': first.yaw_rad is not None, 'dwell': first.dwell_sec > 0.0}
+        for name in (name for name, given in asked.items() if given):
+            message = 'not for the first waypoint, where the drive begins; leave it out'
+            where = Value(first.line, 1, 'scalar')
+            self._wrong(where, f'waypoints[0].{name}', message)
 
     def _check_spacing(self, points: tuple[Waypoint, ...], loop: bool) -> None:
         if loop and len(points) < 3:

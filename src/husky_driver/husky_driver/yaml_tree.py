@@ -114,9 +114,10 @@ def _nearest_file(path: Path) -> str:
     from difflib import get_close_matches
 
     try:
-        names = sorted(other.name for other in path.parent.glob('*.y*ml'))
+        found = {other.name for other in path.parent.glob('*.y*ml')}
     except OSError:
         return ''
+    names = sorted(found - {path.name})  # itself: a link to what is not there
     near = get_close_matches(path.name, names, n=1, cutoff=0.5)
     return f'; did you mean {path.parent / near[0]}?' if near else ''
 

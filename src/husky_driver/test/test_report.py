@@ -7,6 +7,7 @@ import re
 from husky_driver.map_svg import map_svg, SIZE
 from husky_driver.plot_svg import Plot, ticks
 from husky_driver.report import as_json, is_report, summary, write_report
+from husky_driver.report_html import page
 from husky_driver.run_record import read_run, RunRecord
 from husky_driver.scene import run_scene, Scene
 from husky_driver.scoring import judge
@@ -81,9 +82,19 @@ def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
     assert as_json(report)['disturbances'] == [
         {'time_sec': 1.0, 'topic': 'odometry/filtered', 'nodes': ['/<other>\x1b[2J']}
     ]
-    said = '  ! disturbed at 1.00 s: /<other>\\x1b[2J also publishes odometry/filtered'
-    assert said in summary(report).splitlines()
-    assert 'NOT PASSED' in summary(report)
+    said = 'disturbed at 1.00 s: /<other>\\x1b[2J published odometry/filtered beside the simulator'
+    first, *lines = summary(report).splitlines()
+    assert first.endswith('NOT PASSED, score 0.0 of 100')
+    assert [line.split(':')[0] for line in lines if said in line] == [
+        f'  alone       x 0.000  costs {report.parts[-1].cost_points:4.1f}',
+        '  ! disturbed at 1.00 s',
+    ]
+    content = as_json(report)
+    assert content['score'] == 0.0
+    assert content['parts'][-1]['name'] == 'alone'
+    html = page(report, run, run_scene(run, COURSE, report))
+    assert '<span class="score">0.0</span>' in html
+    assert '<td>alone</td><td class="n">x 0.000</td>' in html
 
 
 @pytest.mark.parametrize(

@@ -172,13 +172,43 @@ def test_every_collision_lies_within_the_time_of_the_run(
     assert 0.0 <= report.collisions[0].time_sec <= report.sim_time_sec
 
 
-def test_a_disturbed_run_is_not_passed_and_says_by_whom(make_record: Make) -> None:
-    other = Disturbance(time_sec=3.2, topic='odometry/filtered', nodes=('/other', '/third'))
+COMMANDS = '/husky_velocity_controller/cmd_vel'
+
+
+@pytest.mark.parametrize(
+    ('topic', 'nodes', 'said'),
+    [
+        (
+            COMMANDS,
+            ('/follow_path', '/other'),
+            f'/follow_path and /other both published {COMMANDS}: nobody can tell whose drive '
+            'it was',
+        ),
+        (
+            COMMANDS,
+            ('/a', '/b', '/c'),
+            f'/a and /b and /c all published {COMMANDS}: nobody can tell whose drive it was',
+        ),
+        (
+            '/odometry/filtered',
+            ('/liar',),
+            '/liar published /odometry/filtered beside the simulator: nobody can tell what the '
+            'driver heard',
+        ),
+    ],
+)
+def test_a_disturbed_run_is_worth_nothing_and_says_why(
+    make_record: Make, topic: str, nodes: tuple[str, ...], said: str
+) -> None:
+    other = Disturbance(time_sec=3.2, topic=topic, nodes=nodes)
     report = score(make_record(along((0, 0), (4, 0)), disturbances=[other]), STRAIGHT)
     assert report.completed
     assert not report.passed
-    said = 'disturbed at 3.20 s: /other and /third also publish odometry/filtered'
-    assert report.reasons == (said,)
+    assert report.score == 0.0
+    assert report.reasons == (f'disturbed at 3.20 s: {said}',)
+    alone = report.parts[-1]
+    assert (alone.name, alone.factor, alone.why) == ('alone', 0.0, report.reasons[0])
+    assert alone.cost_points == pytest.approx(100.0)
 
 
 def test_a_record_that_breaks_off_is_judged_as_far_as_it_goes(make_record: Make) -> None:

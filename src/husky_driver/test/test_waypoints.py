@@ -127,6 +127,23 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
             load_course(tmp_path / path)
 
 
+def test_the_first_waypoint_of_no_loop_has_neither_yaw_nor_dwell() -> None:
+    text = 'waypoints:\n  - {x: 0, y: 0, yaw: 0, dwell: 3}\n  - [2, 0]\n  - [2, 2]\n'
+    why = 'not for the first waypoint, where the drive begins; leave it out'
+    assert problems(text) == [
+        f'course.yaml: line 2, column 1: waypoints[0].dwell: {why}',
+        f'course.yaml: line 2, column 1: waypoints[0].yaw: {why}',
+    ]
+    assert parse_course(f'loop: true\n{text}').stops[-1].dwell_sec == 3.0
+    assert parse_course('waypoints: [{x: 0, y: 0, dwell: 0}, [2, 0]]').stops[0].dwell_sec == 0.0
+
+
+def test_a_link_to_nothing_is_not_said_to_be_meant(tmp_path: Path) -> None:
+    (tmp_path / 'dangling.yaml').symlink_to(tmp_path / 'nowhere')
+    with pytest.raises(FileRefused, match=r'no such file$'):
+        load_course(tmp_path / 'dangling.yaml')
+
+
 @pytest.fixture
 def schema(courses: Path) -> Any:
     text = (courses.parent / 'waypoints.schema.json').read_text()

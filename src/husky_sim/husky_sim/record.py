@@ -40,6 +40,18 @@ COLUMNS = (
 )
 MAX_SPEED_M_S = 3.0
 """Three times what the wheels can do: faster is no Husky."""
+MAX_POSITION_M = 1e6
+MAX_YAW_RAD = 1e6
+MAX_ASKED = 1e3
+"""Of speeds and yaw rates, asked or driven, m/s and rad/s."""
+MAX_OBSTACLES = 10_000
+
+_BOUNDS = {
+    **dict.fromkeys(('x', 'y', 'odom_x', 'odom_y'), MAX_POSITION_M),
+    **dict.fromkeys(('yaw', 'odom_yaw'), MAX_YAW_RAD),
+    **dict.fromkeys(('speed_m_s', 'yaw_rate_rad_s'), MAX_ASKED),
+    **dict.fromkeys(('command_speed_m_s', 'command_yaw_rate_rad_s'), MAX_ASKED),
+}
 
 Array = npt.NDArray[np.float64]
 
@@ -157,7 +169,7 @@ def _read(file: str, blocks: Iterator[Any], size: int) -> Record:
         file=file,
         world=_text(header['world']),
         robots=robots,
-        obstacles=tuple(_outline(entry) for entry in header['obstacles']),
+        obstacles=_outlines(header['obstacles']),
         rows=rows,
         collisions=events.collisions(float(rows[-1, 0, 0])),
         pushed=events.pushed(),
@@ -227,6 +239,10 @@ def _check_rows(rows: Array, robots: tuple[RobotStart, ...], period_sec: float) 
         raise ValueError('no entries')
     if not np.isfinite(rows).all():
         raise ValueError('NaN or infinity among its numbers')
+    for name, most in _BOUNDS.items():
+        column = np.abs(rows[:, :, COLUMNS.index(name)])
+        if column.max() > most:
+            raise ValueError(f'{name} of {column.max():.3g}, but {most:g} is the most')
     time = rows[:, :, 0]
     steps = np.diff(time, axis=0)
     if not 0.0 < period_sec <= 1.0 or time.min() < 0.0 or (np.ptp(time, axis=1) > 0.0).any():
@@ -248,15 +264,23 @@ def _check_rows(rows: Array, robots: tuple[RobotStart, ...], period_sec: float) 
 
 
 def _robot(entry: Mapping[str, Any]) -> RobotStart:
-    x, y, yaw = (_number(value) for value in entry['start'])
+    x, y, yaw = _pose(entry['start'])
     return RobotStart(name=_text(entry['name']), x=x, y=y, yaw=yaw)
 
 
+def _outlines(entries: Any) -> tuple[Outline, ...]:
+    if len(entries) > MAX_OBSTACLES:
+        raise ValueError(f'{len(entries)} obstacles, but {MAX_OBSTACLES} are the most')
+    return tuple(_outline(entry) for entry in entries)
+
+
 def _outline(entry: Mapping[str, Any]) -> Outline:
-    x, y, yaw = (_number(entry[name]) for name in ('x', 'y', 'yaw'))
+    x, y, yaw = _pose([entry[name] for name in ('x', 'y', 'yaw')])
     size = tuple(_number(value) for value in entry['size'])
     if len(size) not in (1, 2):
         raise ValueError('an obstacle that is neither circle nor rectangle')
+    if min(size) <= 0.0 or max(size) > MAX_POSITION_M:
+        raise ValueError(f'an obstacle of the size {size}')
     return Outline(name=_text(entry['name']), x=x, y=y, yaw=yaw, size=size)
 
 
@@ -268,6 +292,13 @@ def _disturbance(event: Mapping[str, Any]) -> Disturbance:
     )
 
 
+def _pose(values: Any) -> tuple[float, float, float]:
+    x, y, yaw = (_number(value) for value in values)
+    if max(abs(x), abs(y)) > MAX_POSITION_M or abs(yaw) > MAX_YAW_RAD:
+        raise ValueError(f'a place at ({x:.3g}, {y:.3g}) with yaw {yaw:.3g}')
+    return x, y, yaw
+
+
 def _number(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError(f'{value!r:.40} instead of a number')
@@ -277,4 +308,5 @@ def _number(value: Any) -> float:
 def _text(value: Any) -> str:
     if not isinstance(value, str):
         raise TypeError(f'{value!r:.40} instead of a text')
+    value.encode()  # half a surrogate pair cannot be: UnicodeEncodeError is a ValueError
     return value

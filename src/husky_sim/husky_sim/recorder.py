@@ -10,7 +10,9 @@ a simulator that is killed leaves all but its last moments.
 from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
+import errno
 import io
+import os
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -50,7 +52,7 @@ class RunRecorder:
         self._path = Path(path)
         self._complain = complain
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._file: io.FileIO | None = io.FileIO(self._path, 'wb')
+        self._file: io.FileIO | None = _new_file(self._path)
         self._pushed = PushedBodies(simulation)
         self._rows = array('d')
         self._events: list[dict[str, Any]] = []
@@ -145,6 +147,15 @@ class RunRecorder:
         if self._file is not None:
             self._file.close()
             self._file = None
+
+
+def _new_file(path: Path) -> io.FileIO:
+    """Make a file in the place of what has its name: no link is followed, no pipe waited for."""
+    if path.is_dir() and not path.is_symlink():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if path.is_symlink() or not (path.is_char_device() or path.is_block_device()):
+        path.unlink(missing_ok=True)
+    return io.FileIO(path, 'xb')
 
 
 def open_recorder(

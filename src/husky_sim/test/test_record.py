@@ -3,6 +3,7 @@
 """The record of a run: written as it goes, read by one reader, believed only when it can be."""
 
 from collections.abc import Callable
+import os
 from pathlib import Path
 import random
 import resource
@@ -170,6 +171,11 @@ def damaged(blocks: list[Any], change: Callable[[np.ndarray], object]) -> list[A
     [
         (lambda table: table.__setitem__((3, 0, X), np.nan), 'NaN or infinity'),
         (lambda table: table.__setitem__((3, 0, X), np.inf), 'NaN or infinity'),
+        (lambda table: table.__setitem__((3, 0, 3), 1e7), 'yaw of 1e'),
+        (lambda table: table.__setitem__((3, 0, 6), -1e300), 'odom_yaw of 1e'),
+        (lambda table: table.__setitem__((slice(None), 0, X), 1e9), 'x of 1e'),
+        (lambda table: table.__setitem__((3, 0, 7), 2e3), 'speed_m_s of 2e'),
+        (lambda table: table.__setitem__((3, 0, 10), 1e300), 'command_yaw_rate_rad_s of 1e'),
         (lambda table: table.__setitem__((3, 0, 0), 0.5), 'its time goes from'),
         (lambda table: table.__setitem__(slice(0, 99), table[1:].copy()), 'its time goes from'),
         (lambda table: table.__setitem__((slice(50, None), 0, X), 7.0), r'husky jumps \d\.\d+ m'),
@@ -221,6 +227,33 @@ def test_what_is_no_record_is_refused_in_one_line(
     assert str(refused.value).startswith(f'{tmp_path / FILE_NAME}: ')
 
 
+OBSTACLE = {'name': 'cone', 'x': 0.0, 'y': 0.0, 'yaw': 0.0, 'size': [0.2]}
+
+
+@pytest.mark.parametrize(
+    ('change', 'said'),
+    [
+        ({'robots': [{'name': 'husky', 'start': [1e7, 0.0, 0.0]}]}, r'a place at \(1e\+07, 0\)'),
+        ({'robots': [{'name': 'husky', 'start': [0.0, 0.0, 1e300]}]}, r'yaw 1e\+300'),
+        ({'robots': [{'name': '\ud800', 'start': [0.0, 0.0, 0.0]}]}, 'surrogates not allowed'),
+        ({'world': '\udcff'}, 'surrogates not allowed'),
+        ({'obstacles': [{**OBSTACLE, 'y': -1e7}]}, 'a place at'),
+        ({'obstacles': [{**OBSTACLE, 'size': [0.0]}]}, 'an obstacle of the size'),
+        ({'obstacles': [{**OBSTACLE, 'size': [1.0, -1.0]}]}, 'an obstacle of the size'),
+        ({'obstacles': [OBSTACLE] * 10_001}, '10001 obstacles, but 10000 are the most'),
+    ],
+)
+def test_a_header_beyond_all_bounds_is_refused(
+    path: Path, change: dict[str, Any], said: str
+) -> None:
+    header, *blocks = content_of(path)
+    path.write_bytes(b''.join(map(block_of, [{**header, **change}, *blocks])))
+    with pytest.raises(RecordRefused, match=said) as refused:
+        read_record(path)
+    assert '\n' not in str(refused.value)
+    assert str(refused.value).isascii()
+
+
 def test_a_changed_byte_is_refused_or_read_but_never_a_traceback(path: Path) -> None:
     whole, chance = path.read_bytes(), random.Random(2)
     for _ in range(300):
@@ -259,3 +292,20 @@ def test_a_record_that_cannot_be_written_is_refused_at_once(tmp_path: Path) -> N
     for path in (tmp_path, tmp_path / 'file' / FILE_NAME):
         with pytest.raises(SettingError, match=r'record=.*cannot be written: '):
             open_recorder(new_simulation(), str(path), lambda _: None)
+
+
+def test_a_record_takes_the_place_of_a_link_or_a_pipe(tmp_path: Path) -> None:
+    victim, record = tmp_path / 'victim', tmp_path / FILE_NAME
+    victim.write_text('mine')
+    record.symlink_to(victim)
+    RunRecorder(new_simulation(), record).close()
+    assert victim.read_text() == 'mine'
+    record.unlink()
+    os.mkfifo(record)
+    RunRecorder(new_simulation(), record).close()
+    record.unlink()
+    record.symlink_to(tmp_path / 'nowhere')
+    RunRecorder(new_simulation(), record).close()
+    assert not (tmp_path / 'nowhere').exists()
+    assert not record.is_symlink()
+    assert len(read_record(record).rows) == 1
