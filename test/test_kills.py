@@ -117,3 +117,19 @@ def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
         what=lambda: f'the end of {running(members)}; the tests printed:\n{run.output}',
     )
     assert run.wait() == 130
+
+
+def test_a_killed_test_run_leaves_no_browser(processes: Processes) -> None:
+    run = processes.start(LAB, 'test', str(ROOT / 'test' / 'test_view.py'))
+    wait_until(
+        lambda: part(run, '--remote-debugging-port') is not None,
+        timeout_sec=40.0,
+        what=lambda: f'a browser of the tests; they printed:\n{run.output}',
+    )
+    members = family(run)
+    run.signal(signal.SIGKILL)
+    wait_until(
+        lambda: not running(members),
+        timeout_sec=3.0,
+        what=lambda: f'the end of {running(members)}; the tests printed:\n{run.output}',
+    )

@@ -102,6 +102,21 @@ def test_a_full_disk_loses_the_report_not_the_result(processes: Processes, tmp_p
     assert 'Traceback' not in run.output
 
 
+def test_a_home_that_cannot_be_written_costs_no_run(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ('ROS_LOG_DIR', 'ROS_HOME'):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv('HOME', '/proc')
+    monkeypatch.setenv('TMPDIR', str(tmp_path))
+    shown = processes.start(LAB, 'exec', 'printenv', 'ROS_LOG_DIR')
+    assert shown.wait() == 0, shown.output
+    assert shown.lines == [str(tmp_path / f'ros_log-{os.getuid()}')]
+    run = drive(processes, tmp_path, '--fast')
+    assert run.wait(timeout_sec=60.0) == 0, run.output
+    assert 'Traceback' not in run.output
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_drive_leaves_nothing_behind(
     processes: Processes, tmp_path: Path, number: signal.Signals

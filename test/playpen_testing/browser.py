@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A real browser without a screen: one for all tests, as its start takes a while."""
 
+from functools import partial
 import os
 from pathlib import Path
 import signal
 import subprocess
 from types import TracebackType
+
+from husky_sim.parent_death import die_with_parent
 
 from playpen_testing.chromium import Program
 from playpen_testing.devtools import DevTools
@@ -26,7 +29,7 @@ START_SEC = 30.0
 
 
 class Browser:
-    """A browser with a profile of its own."""
+    """A browser with a profile of its own; it ends with the thread that starts it."""
 
     def __init__(self, program: Program, profile: Path) -> None:
         # The libraries of the ROS wheels must not get into the browser.
@@ -41,6 +44,7 @@ class Browser:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             start_new_session=True,
+            preexec_fn=partial(die_with_parent, signal.SIGKILL),
         )
         try:
             self._address = self._connect(profile / 'DevToolsActivePort')

@@ -3,6 +3,7 @@
 """Start real processes, read what they print, and end them all."""
 
 from collections.abc import Sequence
+from functools import partial
 import os
 from pathlib import Path
 import signal
@@ -10,11 +11,17 @@ import subprocess
 import threading
 from types import TracebackType
 
+from husky_sim.parent_death import die_with_parent
+
 from playpen_testing.waiting import wait_until
 
 
 class Process:
-    """A child in its own process group whose output is collected line by line."""
+    """
+    A child in its own process group whose output is collected line by line.
+
+    It ends with the thread that starts it, however that ends.
+    """
 
     def __init__(
         self, command: Sequence[str], *, cwd: Path | None, environment: dict[str, str] | None
@@ -31,6 +38,7 @@ class Process:
             text=True,
             bufsize=1,
             start_new_session=True,
+            preexec_fn=partial(die_with_parent, signal.SIGKILL),
         )
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()

@@ -68,7 +68,12 @@ def _files_and_graph(workspace: Path, folder: Path) -> Iterator[Step]:
         for name in ('publisher', 'subscriber'):
             yield failed(name, POINTS[name], 'nothing was built')
         return
-    environment = sourced(folder)
+    try:
+        environment = sourced(folder)
+    except ValueError as error:
+        for name in ('publisher', 'subscriber'):
+            yield failed(name, POINTS[name], str(error))
+        return
     yield publisher_step(folder, environment, POINTS['publisher'])
     yield subscriber_step(folder, environment, POINTS['subscriber'])
 
@@ -85,6 +90,7 @@ def _drive_step(
         return failed('drive', most, 'nothing was built')
     try:
         program = find_executable(folder, driver_package(workspace), 'follow_path')
+        environment = sourced(folder)
     except ValueError as error:
         return failed('drive', most, str(error))
     live = drive_live(
@@ -92,7 +98,7 @@ def _drive_step(
         course,
         folder / 'drive',
         answers=answers,
-        environment=sourced(folder),
+        environment=environment,
         real_time_factor=real_time_factor,
     )
     run = read_run(live.record)

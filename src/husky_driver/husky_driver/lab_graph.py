@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 import re
+import signal
 import time
-from typing import Any
+from typing import Any, IO
 
 from husky_sim.domains import OwnDomain
 import rclpy
@@ -93,7 +94,7 @@ def publisher_step(folder: Path, environment: dict[str, str], most: float) -> St
     with graph() as live:
         environment = {**environment, 'ROS_DOMAIN_ID': str(live.domain)}
         log = folder / 'publisher.log'
-        with log.open('w') as stream, Process([str(program)], environment, stream) as process:
+        with log.open('w') as stream, _start(program, environment, stream) as process:
             ear = live.ear
             live.spin_until(
                 lambda: bool(ear.heard) or process.exit_code is not None, APPEAR_WITHIN_SEC
@@ -103,6 +104,10 @@ def publisher_step(folder: Path, environment: dict[str, str], most: float) -> St
             ear.heard.clear()
             live.spin_until(lambda: False, LISTEN_SEC)
             return _judge_messages(ear.heard, most)
+
+
+def _start(program: Path, environment: dict[str, str], log: IO[str]) -> Process:
+    return Process([str(program)], environment, log, parent_death=signal.SIGKILL)
 
 
 def _why_silent(ear: Ear, process: Process, log: Path) -> str:
@@ -145,7 +150,7 @@ def subscriber_step(folder: Path, environment: dict[str, str], most: float) -> S
     with graph() as live:
         environment = {**environment, 'ROS_DOMAIN_ID': str(live.domain), 'PYTHONUNBUFFERED': '1'}
         log = folder / 'subscriber.log'
-        with log.open('w') as stream, Process([str(program)], environment, stream) as process:
+        with log.open('w') as stream, _start(program, environment, stream) as process:
 
             def repeated() -> bool:
                 live.ear.publisher.publish(String(data=said))

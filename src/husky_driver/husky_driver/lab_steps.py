@@ -8,10 +8,14 @@ from dataclasses import dataclass
 import os
 from pathlib import Path
 import re
-import subprocess
+import signal
+from tempfile import TemporaryFile
 import xml.etree.ElementTree as ElementTree
 
+from husky_driver.processes import descendants_ended, Process
+
 BUILD_WITHIN_SEC = 300.0
+SOURCE_WITHIN_SEC = 60.0
 WORKSPACE_NAME = re.compile(r'CSE461[_ -]?\d+[_ -]\d+')
 DEPENDENCIES = {'topic_demo': ('rclpy', 'std_msgs')}
 DRIVING = ('rclpy', 'geometry_msgs')
@@ -93,21 +97,25 @@ def build_step(workspace: Path, folder: Path, most: float) -> Step:
     command += ['--base-paths', str(workspace / 'src')]
     command += ['--build-base', str(folder / 'build'), '--install-base', str(folder / 'install')]
     try:
-        done = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            timeout=BUILD_WITHIN_SEC,
-            stdin=subprocess.DEVNULL,
-        )
+        exit_code = _run(command, folder / 'build.log')
     except FileNotFoundError:
         return failed('build', most, 'colcon is not installed here')
-    except subprocess.TimeoutExpired:
+    if exit_code is None:
         return failed('build', most, f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
-    (folder / 'build.log').write_text(done.stdout + done.stderr, encoding='utf-8')
-    if done.returncode != 0:
-        return failed('build', most, f'colcon build failed: {_first_error(done.stderr)}')
+    if exit_code != 0:
+        why = _first_error((folder / 'build.log').read_text(encoding='utf-8', errors='replace'))
+        return failed('build', most, f'colcon build failed: {why}')
     return Step('build', most, most, 'colcon build succeeded')
+
+
+def _run(command: list[str], log: Path) -> int | None:
+    """Run it and end all that it started; return its exit code, None where it took too long."""
+    with (
+        log.open('w', encoding='utf-8') as stream,
+        descendants_ended(),
+        Process(command, os.environ, stream, parent_death=signal.SIGKILL) as process,
+    ):
+        return process.exit_code if process.wait(BUILD_WITHIN_SEC) else None
 
 
 def _first_error(text: str) -> str:
@@ -116,12 +124,31 @@ def _first_error(text: str) -> str:
 
 
 def sourced(folder: Path) -> dict[str, str]:
-    """Return the environment after sourcing what was built."""
+    """
+    Return the environment after sourcing what was built.
+
+    :raises ValueError: when that fails or takes too long.
+    """
     script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
-    done = subprocess.run(
-        ['bash', '-c', script, str(folder)], capture_output=True, check=True, timeout=60.0
-    )
-    pairs = (entry.partition('=') for entry in os.fsdecode(done.stdout).split('\0') if entry)
+    command = ['bash', '-c', script, str(folder)]
+    with (
+        TemporaryFile('w+', encoding='utf-8', errors='surrogateescape', newline='') as told,
+        descendants_ended(),
+        Process(command, os.environ, told, parent_death=signal.SIGKILL) as process,
+    ):
+        in_time = process.wait(SOURCE_WITHIN_SEC)
+        told.seek(0)
+        pairs = [entry.partition('=') for entry in told.read().split('\0') if entry]
+    if not in_time:
+        raise ValueError(
+            f'sourcing install/local_setup.bash took longer than {SOURCE_WITHIN_SEC:g} s; '
+            'a hook of a package waits for something: take it out'
+        )
+    if process.exit_code != 0 or not pairs:
+        raise ValueError(
+            f'sourcing install/local_setup.bash ended the shell (exit code {process.exit_code}); '
+            'a hook of a package must not call exit'
+        )
     return {name: value for name, _, value in pairs}
 
 

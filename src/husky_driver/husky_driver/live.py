@@ -22,12 +22,13 @@ from typing import Any
 from husky_sim.domains import OwnDomain
 from husky_sim.errors import DomainError
 from husky_sim.record import FILE_NAME, read_record, Record
+from husky_sim.shared_memory import clean_shared_memory
 import rclpy
 from rclpy.executors import Executor
 from rclpy.signals import SignalHandlerOptions
 
 from husky_driver.executor import make_executor
-from husky_driver.processes import adopt_orphans, Process, tail_of
+from husky_driver.processes import descendants_ended, Process, tail_of
 from husky_driver.referee import Referee, START_WITHIN_SEC
 from husky_driver.watcher import Watcher
 from husky_driver.waypoints import Course
@@ -72,7 +73,6 @@ def drive_live(
     :raises LiveRunFailed: when the simulator or the command cannot be started.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    adopt_orphans()
     record = folder / FILE_NAME
     record.unlink(missing_ok=True)
     simulator = [sys.executable, '-m', 'husky_sim.node', '--ros-args', '-p', f'record:={record}']
@@ -81,6 +81,7 @@ def drive_live(
     patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
     with (
         _own_graph() as (graph, watcher, executor),
+        descendants_ended(),
         (folder / 'simulator.log').open('w') as log,
         Process(simulator, {**os.environ, **graph}, log) as running,
     ):
@@ -99,6 +100,7 @@ def _own_graph() -> Iterator[tuple[dict[str, str], Watcher, Executor]]:
     """Open a DDS domain of this run alone, with a watcher in it; the dict is its environment."""
     context = rclpy.Context()
     with ExitStack() as stack:
+        stack.callback(clean_shared_memory)
         try:
             domain = stack.enter_context(OwnDomain()).number
         except DomainError as error:
@@ -128,7 +130,9 @@ def _await_simulator(watcher: Watcher, executor: Any, simulator: Process, folder
 def _start(command: str, environment: Mapping[str, str], folder: Path, answers: str) -> Process:
     try:
         with (folder / 'controller.log').open('w') as log:
-            return Process(shlex.split(command), environment, log, answers)
+            return Process(
+                shlex.split(command), environment, log, answers, parent_death=signal.SIGKILL
+            )
     except (OSError, IndexError, ValueError) as error:
         raise LiveRunFailed(f'{command!r} cannot be started: {error}') from None
 

@@ -11,9 +11,10 @@ on Linux a process whose parent has ended is given to the next ancestor that ask
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 import contextlib
 import ctypes
+from functools import partial
 import os
 from pathlib import Path
 import signal
@@ -41,6 +42,7 @@ class Process:
 
     :param log: takes what it prints; None: what this process prints goes there too.
     :param answers: what it reads from its standard input.
+    :param parent_death: the signal that it gets when its parent, the thread that starts it, ends.
     """
 
     def __init__(
@@ -49,6 +51,8 @@ class Process:
         environment: Mapping[str, str],
         log: IO[str] | None = None,
         answers: str = '',
+        *,
+        parent_death: int = signal.SIGTERM,
     ) -> None:
         """
         Start it.
@@ -64,7 +68,7 @@ class Process:
             stderr=None if log is None else subprocess.STDOUT,
             start_new_session=True,
             text=True,
-            preexec_fn=_die_with_parent,
+            preexec_fn=partial(die_with_parent, parent_death),
         )
         if self._child.stdin is not None:
             with contextlib.suppress(BrokenPipeError):  # it does not listen; that is its business
@@ -112,10 +116,6 @@ class Process:
         end_processes([each for each in _descendants() if _mark_of(each) == self._mark])
 
 
-def _die_with_parent() -> None:
-    die_with_parent(signal.SIGTERM)
-
-
 def _descendants() -> list[psutil.Process]:
     return list(psutil.Process().children(recursive=True))
 
@@ -131,6 +131,17 @@ def adopt_orphans() -> None:
     """Become the parent of every descendant that loses its own; on Linux only."""
     if sys.platform == 'linux':
         ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+
+@contextlib.contextmanager
+def descendants_ended() -> Iterator[None]:
+    """End every descendant that came meanwhile, also one that has lost its mark."""
+    adopt_orphans()
+    before = _descendants()
+    try:
+        yield
+    finally:
+        end_processes([each for each in _descendants() if each not in before])
 
 
 def end_processes(processes: list[psutil.Process]) -> None:

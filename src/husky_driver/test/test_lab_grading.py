@@ -2,14 +2,56 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grade whole workspaces: the lab's own packages as a student would hand them in, and broken."""
 
+from collections.abc import Callable
+import contextlib
 import json
+import os
 from pathlib import Path
 import shutil
+import subprocess
+import sys
+import time
 
 from husky_driver.grade import main as grade
-from husky_driver.lab_steps import driver_package, package_step, workspace_step
+from husky_driver.lab_steps import (
+    build_step,
+    driver_package,
+    package_step,
+    sourced,
+    workspace_step,
+)
+from husky_driver.live import drive_live
+from husky_driver.waypoints import parse_course
+import psutil
 import pytest
 
+# Neither its session, nor its parent, nor its environment tells where it comes from.
+DAEMON = """
+import os
+if os.fork() == 0:
+    os.setsid()
+    os.closerange(0, 99)  # or colcon would wait for the end of its output
+    os.open(os.devnull, os.O_RDWR), os.dup(0), os.dup(0)
+    if os.fork() == 0:
+        text = ('import os, sys, time; '
+                'print(os.getpid(), file=open(sys.argv[1], "a"), flush=True); time.sleep(600)')
+        os.execve({python!r}, [{python!r}, '-c', text, {pids!r}], {{}})
+    os._exit(0)
+os.wait()
+"""
+DEAF_COLCON = """#!%s
+import os, signal, time
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, signal.SIG_IGN)
+print('pid', os.getpid(), flush=True)
+time.sleep(600)
+"""
+BUILD = """
+from pathlib import Path
+import sys
+from husky_driver.lab_steps import build_step
+build_step(Path(sys.argv[1]), Path(sys.argv[2]), 15.0)
+"""
 SOURCE = Path(__file__).resolve().parents[2]
 
 
@@ -97,3 +139,76 @@ def test_a_workspace_that_is_not_there_is_refused(
 ) -> None:
     assert grade(['--lab', str(tmp_path / 'nothing')]) == 2
     assert 'no such folder; give your workspace' in capsys.readouterr().err
+
+
+def running(pids: list[int]) -> list[int]:
+    alive = []
+    for pid in pids:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            if psutil.Process(pid).status() != psutil.STATUS_ZOMBIE:
+                alive.append(pid)
+    return alive
+
+
+def wait_for(fact: Callable[[], object], what: str) -> None:
+    deadline = time.monotonic() + 10.0
+    while not fact():
+        assert time.monotonic() < deadline, f'not within 10 s: {what}'
+        time.sleep(0.01)
+
+
+def daemon(pids: Path) -> str:
+    """Return a program that starts a daemon and waits until it has told its number."""
+    ready = f'import os, time\nwhile not os.path.exists({str(pids)!r}): time.sleep(0.01)\n'
+    return DAEMON.format(python=sys.executable, pids=str(pids)) + ready
+
+
+def test_a_daemon_of_a_build_ends_with_the_build(workspace: Path, tmp_path: Path) -> None:
+    shutil.rmtree(workspace / 'src' / 'my_driver')
+    pids, report = tmp_path / 'pids', tmp_path / 'report'
+    report.mkdir()
+    setup = workspace / 'src' / 'topic_demo' / 'setup.py'
+    setup.write_text(setup.read_text() + daemon(pids))
+    step = build_step(workspace, report, 15.0)
+    assert step.passed, step.why
+    assert 'Finished <<< topic_demo' in (report / 'build.log').read_text()
+    assert running([int(pid) for pid in pids.read_text().split()]) == []
+
+
+def test_a_build_ends_with_the_killed_grader(workspace: Path, tmp_path: Path) -> None:
+    colcon, log = tmp_path / 'colcon', tmp_path / 'build.log'
+    colcon.write_text(DEAF_COLCON % sys.executable)
+    colcon.chmod(0o755)
+    environment = {**os.environ, 'PATH': f'{tmp_path}{os.pathsep}{os.environ["PATH"]}'}
+    command = [sys.executable, '-c', BUILD, str(workspace), str(tmp_path)]
+    grader = subprocess.Popen(command, env=environment)
+    wait_for(lambda: log.is_file() and log.read_text().endswith('\n'), 'the start of the build')
+    pid = int(log.read_text().split()[1])
+    assert running([pid])
+    grader.kill()
+    grader.wait()
+    wait_for(lambda: not running([pid]), 'the end of the build')
+
+
+@pytest.mark.parametrize(
+    ('hook', 'why'), [('exit 3', 'exit code 3'), ('sleep 600', 'took longer than 1 s')]
+)
+def test_a_hook_that_breaks_the_shell_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, hook: str, why: str
+) -> None:
+    monkeypatch.setattr('husky_driver.lab_steps.SOURCE_WITHIN_SEC', 1.0)
+    (tmp_path / 'install').mkdir()
+    (tmp_path / 'install' / 'local_setup.bash').write_text(f'export KNOWN=1\n{hook}\n')
+    with pytest.raises(ValueError, match=why):
+        sourced(tmp_path)
+    (tmp_path / 'install' / 'local_setup.bash').write_text('export KNOWN="a\nb"\n')
+    assert sourced(tmp_path)['KNOWN'] == 'a\nb'
+
+
+@pytest.mark.timeout(60)
+def test_a_daemon_of_a_controller_ends_with_the_run(tmp_path: Path) -> None:
+    pids, program = tmp_path / 'pids', tmp_path / 'controller.py'
+    program.write_text(daemon(pids))
+    course = parse_course('waypoints: [[0, 0], [-2, 0]]')
+    drive_live(f'{sys.executable} {program}', course, tmp_path / 'run')
+    assert running([int(pid) for pid in pids.read_text().split()]) == []

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-from husky_driver.processes import adopt_orphans, Process
+from husky_driver.processes import adopt_orphans, descendants_ended, Process
 from husky_sim.domains import OwnDomain
 from husky_sim.shared_memory import clean_shared_memory
 import psutil
@@ -40,6 +40,13 @@ PARENT = """
 import os, sys
 from husky_driver.processes import Process
 child = Process([sys.executable, '-c', 'import time; time.sleep(600)'], os.environ)
+print(child.pid, flush=True)
+sys.stdin.read()
+"""
+DEAF_CHILD = f"""
+import os, signal, sys
+from husky_driver.processes import Process
+child = Process([sys.executable, '-c', {DEAF!r}], os.environ, parent_death=signal.SIGKILL)
 print(child.pid, flush=True)
 sys.stdin.read()
 """
@@ -99,6 +106,35 @@ def test_a_child_ends_with_its_killed_parent() -> None:
     parent.kill()
     parent.communicate()
     wait_for(lambda: not is_running(child), 'the end of the child')
+
+
+def test_a_deaf_child_ends_with_its_killed_parent() -> None:
+    parent = subprocess.Popen(
+        [sys.executable, '-c', DEAF_CHILD],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert parent.stdout is not None
+    told = {parent.stdout.readline().strip(), parent.stdout.readline().strip()}
+    (child,) = map(int, told - {'deaf'})
+    assert is_running(child)
+    parent.kill()
+    parent.communicate()
+    wait_for(lambda: not is_running(child), 'the end of the deaf child')
+
+
+def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
+    log = tmp_path / 'log'
+    with descendants_ended():
+        with log.open('w') as stream:
+            command = ['env', '-i', sys.executable, '-c', DAEMON]
+            child = Process(command, os.environ, stream)
+        wait_for(lambda: log.read_text().endswith('\n'), 'the daemon')
+        daemon = int(log.read_text())
+        child.end()
+        assert is_running(daemon), 'it has no mark'
+    assert not is_running(daemon)
 
 
 def test_the_shared_memory_of_the_dead_goes() -> None:

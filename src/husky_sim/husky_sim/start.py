@@ -43,6 +43,8 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
 
     for number in _SIGNALS:
         signal.signal(number, leave)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as nohup has it
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     # Who started this process may have held signals back until it can take them.
     signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
     try:
@@ -55,7 +57,7 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
         return interrupted
     finally:
         # While Python takes itself apart, an interrupt would kill it.
-        for number in _SIGNALS:
+        for number in (*_SIGNALS, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
 
 

@@ -477,13 +477,15 @@ def test_a_signal_while_it_still_loads_ends_it_without_a_word(domain_id: int) ->
     assert (process.returncode, said) == (0, '')
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_it_soon_and_the_record_is_whole(
     domain_id: int, tmp_path: Path, number: signal.Signals
 ) -> None:
     del domain_id
     path = tmp_path / 'deep' / 'run.record'
-    process = run_process('-p', f'record:={path}', '-p', 'real_time_factor:=0.0')
+    process = run_process(
+        '-p', f'record:={path}', '-p', 'real_time_factor:=0.0', module='husky_sim.start'
+    )
     assert process.stderr is not None
     assert 'obstacles' in process.stderr.readline()
     process.send_signal(number)

@@ -8,12 +8,14 @@ import sys
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.service_introspection import ServiceIntrospectionState
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
@@ -61,6 +63,11 @@ def stamped(node: Node) -> None:
 def robot(node: Node) -> None:
     node.declare_parameter('command_timeout_sec', 0.25)
     node.create_subscription(Twist, 'cmd_vel', lambda _: None, 10)
+
+
+def simulator(node: Node) -> None:
+    node.create_publisher(Clock, '/clock', 10)
+    node.create_publisher(Odometry, 'odometry/filtered', 10)
 
 
 def slow_driver(node: Node) -> None:

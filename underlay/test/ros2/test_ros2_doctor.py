@@ -30,7 +30,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 10 checks passed' in answer.lines
+    assert 'All 11 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -67,6 +67,33 @@ def test_two_nodes_of_one_name(processes: Any, ros2: Callable[..., Any]) -> None
     assert '/twin: 2 nodes have this name' in line
     assert '-r __node:=twin_2' in line
     assert 'share an exact name' in ros2('node', 'list').err
+
+
+def test_two_simulators_are_told_to_part(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('simulator', 'husky')
+    assert not [line for line in ros2('doctor').lines if ' (publishers): ' in line]
+    processes.node('simulator', 'fake')
+    line = _line(ros2('doctor'), 'publishers')
+    assert '/clock, /odometry/filtered: 2 nodes publish this: /fake, /husky' in line
+    assert 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID' in line
+
+
+def test_two_simulators_of_one_name_are_told_to_part(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('simulator', 'husky')
+    processes.node('simulator', 'husky')
+    answer = ros2('doctor')
+    assert '2 nodes publish this: /husky, /husky' in _line(answer, 'publishers')
+    assert '__node:=' not in answer.out
+    assert 'give one its own ROS_DOMAIN_ID' in _line(answer, 'names')
+
+
+def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('slow_driver', 'driver')
+    processes.node('slow_driver', 'other')
+    line = _line(ros2('doctor'), 'publishers')
+    assert '/cmd_vel: 2 nodes publish this: /driver, /other' in line
 
 
 def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., Any]) -> None:

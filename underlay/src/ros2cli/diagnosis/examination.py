@@ -39,6 +39,7 @@ def checks(args: argparse.Namespace) -> list[Check]:
         Check('range', 'discovery range', lambda: places.check_range(settings)),
         Check('silent', 'processes', lambda: nodes.check_silent(graph, settings.domain_id)),
         Check('names', 'node names', lambda: nodes.check_names(graph)),
+        Check('publishers', 'rival publishers', lambda: nodes.check_publishers(graph)),
         Check('types', 'topic types', lambda: connections.check_types(graph)),
         Check('qos', 'quality of service', lambda: connections.check_qos(graph)),
         Check('clock', 'simulation time', lambda: nodes.check_clock(graph)),

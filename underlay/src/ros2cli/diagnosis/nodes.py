@@ -7,23 +7,64 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
+from ros2cli import names
 from ros2cli.diagnosis.finding import Finding
-from ros2cli.graph import Graph, Role
+from ros2cli.graph import Graph, Node, Role
 
 _CLOCK = '/clock'
+# What tells one truth, or drives one robot: two publishers contradict each other.
+_SOLE_ENDS = (
+    'odometry/filtered',
+    'ground_truth/odom',
+    'husky_velocity_controller/odom',
+    'cmd_vel',
+)
+_APART = 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID'
 
 
 def check_names(graph: Graph) -> Iterator[Finding]:
     """Find nodes that share a name."""
+    rivals = {node.full_name for _, nodes in _rivals(graph) for node in nodes}
     for name, number in Counter(node.full_name for node in graph.nodes).items():
         if number > 1:
             yield Finding(
                 name,
                 f'{number} nodes have this name, so that parameters and services reach only one '
                 'of them',
-                'end one (Ctrl-C in its terminal), or start it with '
+                # Another name would not help those that publish the same.
+                _APART
+                if name in rivals
+                else 'end one (Ctrl-C in its terminal), or start it with '
                 f'`--ros-args -r __node:={name.rpartition("/")[2]}_2`',
             )
+
+
+def check_publishers(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that publish what only one may; all topics of the same nodes in one line."""
+    topics: dict[tuple[str, ...], list[str]] = {}
+    for topic, nodes in _rivals(graph):
+        topics.setdefault(tuple(sorted(map(_told, nodes))), []).append(topic)
+    for tellers, shared in topics.items():
+        yield Finding(
+            ', '.join(shared),
+            f'{len(tellers)} nodes publish this: {", ".join(tellers)}, so that they contradict '
+            'each other',
+            _APART,
+        )
+
+
+def _rivals(graph: Graph) -> Iterator[tuple[str, list[Node]]]:
+    for topic in graph.topics():
+        if topic == _CLOCK or topic.endswith(_SOLE_ENDS):
+            found = map(graph.node_of, graph.with_role(Role.PUBLISHER, topic))
+            nodes = list({id(node): node for node in found}.values())  # two may look alike
+            if len(nodes) > 1:
+                yield topic, nodes
+
+
+def _told(node: Node) -> str:
+    is_command = node.full_name.startswith(f'/{names.COMMAND_NODE}')
+    return 'a `ros2` command' if is_command else node.full_name
 
 
 def check_clock(graph: Graph) -> Iterator[Finding]:
