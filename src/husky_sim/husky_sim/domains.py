@@ -22,9 +22,9 @@ import weakref
 
 from husky_sim.errors import DomainError
 
-# Domains that a run may take for itself. The first 30 are left to people; from 102 to 214 the
-# ports are those that Linux gives to any program (ip_local_port_range).
-DOMAINS = (*range(30, 102), *range(215, 233))
+# Domains that a run may take for itself. The first 30 are left to people; from 102 on the ports are
+# those that Linux gives to any program (ip_local_port_range).
+DOMAINS = range(30, 102)
 
 _VARIABLE = 'ROS_DOMAIN_ID'
 _PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.3, 9.6.1.1: PB, DG
