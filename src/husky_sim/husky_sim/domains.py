@@ -22,8 +22,8 @@ import weakref
 
 from husky_sim.errors import DomainError
 
-# Domains that a run may take for itself. The first 30 are left to people; from 102 on the ports are
-# those that Linux gives to any program (ip_local_port_range).
+# Domains that a run may take for itself. The first 30 are left to people; from 102 on the ports
+# are those that Linux gives to any program (ip_local_port_range).
 DOMAINS = range(30, 102)
 
 _VARIABLE = 'ROS_DOMAIN_ID'
