@@ -14,6 +14,7 @@ import math
 import os
 from tokenize import TokenError
 from typing import Any, BinaryIO
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 import numpy.typing as npt
@@ -55,8 +56,10 @@ def _read_header(stream: BinaryIO) -> tuple[tuple[int, ...], np.dtype[Any]]:
     try:
         if np.lib.format.read_magic(stream) != (1, 0):
             raise ValueError('another version of the .npy format')
-        shape, fortran_order, dtype = np.lib.format.read_array_header_1_0(stream)
-    except (ValueError, TypeError, SyntaxError, TokenError, RecursionError) as error:
+        with catch_warnings():
+            simplefilter('error')  # numpy warns of headers that only Python 2 wrote
+            shape, fortran_order, dtype = np.lib.format.read_array_header_1_0(stream)
+    except (ValueError, TypeError, SyntaxError, TokenError, RecursionError, Warning) as error:
         raise ValueError(f'no block of a record at byte {where}') from error
     if fortran_order or dtype not in _KINDS or any(length < 0 for length in shape):
         raise ValueError(f'no block of a record at byte {where}')

@@ -39,7 +39,8 @@ class RobotTopics:
 
     :param namespace: before every topic; empty for the only robot, ending in / for one of many.
     :param on_command: called after every command was taken.
-    :param on_commander: called with how many publish commands now, when one comes or goes.
+    :param on_commander: called when one who publishes commands comes or goes, with how many did
+        so at the same time.
     :param form: in which packed messages are published.
     """
 
@@ -97,7 +98,7 @@ class RobotTopics:
             self._on_cmd_vel,
             QOS,
             event_callbacks=SubscriptionEventCallbacks(
-                matched=lambda event: on_commander(event.current_count)
+                matched=lambda event: on_commander(most_at_once(event))
             ),
         )
         # As the Husky's twist_mux has it: while true, no command reaches the wheels.
@@ -175,3 +176,9 @@ class RobotTopics:
     def close(self) -> None:
         """Let go of what the node does not own; may be called twice."""
         self._sensors.close()
+
+
+def most_at_once(event: Any) -> int:
+    """Return how many were matched at the same time since the last event of a subscription."""
+    before = event.current_count - event.current_count_change
+    return int(before + event.total_count_change)

@@ -56,12 +56,19 @@ class Run:
             f'{name} on {topic}',
         )
 
-    def brief_publisher(self, kind: Any, topic: str, name: str) -> None:
-        """Let a node publish a topic until the simulator takes one message of it, no longer."""
+    def command_once(self, name: str) -> None:
+        """Let a node publish commands until the simulator takes one of them, no longer."""
         node = Node(name, context=self._context())
-        publisher = node.create_publisher(kind, topic, 10)
-        self.until(publisher.get_subscription_count, f'{name} matched with {topic}')
-        publisher.publish(kind())
+        publisher = node.create_publisher(Twist, COMMANDS, 10)
+        (robot,) = self._simulator.simulation.robots
+        command = Twist()
+        command.linear.x = 0.25
+
+        def is_taken() -> bool:
+            publisher.publish(command)
+            return robot.controller.asked_speed_m_s == command.linear.x
+
+        self.until(is_taken, f'a command of {name}')
         node.destroy_node()
 
     def until(self, holds: Callable[[], Any], what: str) -> None:
@@ -142,7 +149,7 @@ def test_two_nodes_of_one_name_are_two(run: Run) -> None:
 def test_a_publisher_of_a_moment_is_noticed(run: Run) -> None:
     run.publisher(Twist, COMMANDS, 'driver')
     run.spin(seconds=0.2)
-    run.brief_publisher(Twist, COMMANDS, 'ghost')
+    run.command_once('ghost')
     run.spin(seconds=0.5)
     (found, *_) = run.disturbances()
     assert found.topic == COMMANDS
