@@ -10,6 +10,7 @@ Exit status 1 if anything stayed, took longer than 3 s, or drove otherwise.
 """
 
 import argparse
+from contextlib import suppress
 from dataclasses import dataclass, field
 import json
 from pathlib import Path
@@ -56,8 +57,14 @@ class Row:
 
 
 def descendants() -> list[psutil.Process]:
-    found = psutil.Process().children(recursive=True)
-    return [each for each in found if each.status() != psutil.STATUS_ZOMBIE]
+    return [each for each in psutil.Process().children(recursive=True) if lives(each)]
+
+
+def lives(process: psutil.Process) -> bool:
+    try:
+        return bool(process.status() != psutil.STATUS_ZOMBIE)
+    except psutil.NoSuchProcess:
+        return False
 
 
 def find(lab: psutil.Process, mark: str) -> psutil.Process | None:
@@ -96,8 +103,9 @@ def kill_once(mark: str, moment_sec: float, row: Row, folder: Path) -> None:
     row.took_sec.append(time.monotonic() - begun)
     for each in descendants():
         row.stayed += 1
-        print(f'  stayed: {" ".join(each.cmdline())[:120]}', flush=True)
-        each.kill()
+        with suppress(psutil.NoSuchProcess):
+            print(f'  stayed: {" ".join(each.cmdline())[:120]}', flush=True)
+            each.kill()
     child.wait()
     row.shared_memory += len(unused_files())
 
