@@ -38,6 +38,8 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     'grade': ('ros2', 'run', 'husky_driver', 'grade', COURSE, '--report', 'graded'),
     'rqt_graph': ('ros2', 'run', 'rqt_graph', 'rqt_graph'),
     'ros2 launch': ('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py', 'headless:=true'),
+    'lab drive': (LAB, 'drive', '--no-view', '--report', 'driven'),
+    'lab test': (LAB, 'test', 'test/test_drive.py'),
     'lab grade': (LAB, 'grade', COURSE, '--report', 'graded'),
     'lab view': (LAB, 'view', 'graded'),
     'lab exec': (LAB, 'exec', 'ros2', 'run', 'topic_demo', 'publisher'),
