@@ -7,14 +7,27 @@ What every test relies on.
 tests stays in one process. Each test that uses DDS has a domain of its own (husky_sim.domains).
 """
 
+import os
 from pathlib import PurePosixPath
 import signal
 from typing import Any
 
 import pytest
 
-# A shell's background job, and what it starts, ignores SIGINT; the tests send it to programs.
-signal.signal(signal.SIGINT, signal.default_int_handler)
+
+def _leave(*_: object) -> None:
+    os._exit(pytest.ExitCode.INTERRUPTED)
+
+
+# Until a test runs there is nothing to tell of, but from amid which import pytest was torn.
+signal.signal(signal.SIGINT, _leave)
+
+
+def pytest_runtest_logstart() -> None:
+    """Let an interrupt from now on end the tests, and pytest tell what has failed so far."""
+    # Also where it was ignored, as in a shell's background job: the tests send it to programs.
+    if signal.getsignal(signal.SIGINT) is _leave:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.hookimpl(optionalhook=True)

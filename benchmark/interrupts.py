@@ -9,20 +9,27 @@ Each run must end within 2 s of it, without a traceback, with nothing left that 
 """
 
 import argparse
+import codecs
 from collections.abc import Sequence
+import contextlib
 from dataclasses import dataclass
+import fcntl
 import os
 from pathlib import Path
+import pty
 import signal
 import subprocess
 import sys
 import tempfile
+import termios
+import threading
 import time
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSE = str(ROOT / 'config' / 'waypoints' / 'straight.yaml')
 LAB = str(ROOT / 'lab')
 END_WITHIN_SEC = 2.0
+CTRL_C = b'\x03'
 PAGE = ('--ros-args', '-p', 'port:=18380')
 COMMANDS: dict[str, tuple[str, ...]] = {
     'ros2 topic list': ('ros2', 'topic', 'list'),
@@ -44,14 +51,21 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     'lab view': (LAB, 'view', 'graded'),
     'lab exec': (LAB, 'exec', 'ros2', 'run', 'topic_demo', 'publisher'),
 }
-SIGNS = ('Traceback', 'KeyboardInterrupt', 'Fatal Python', 'Exception ignored', 'terminate called')
+SIGNS = (
+    'Traceback',
+    '\nKeyboardInterrupt',
+    'Fatal Python',
+    'Exception ignored',
+    'terminate called',
+)
 
 
 @dataclass(frozen=True)
 class Ending:
     """How a command took Ctrl-C."""
 
-    output: str
+    output: str  # after it
+    ended_before: bool
     took_sec: float | None  # None: it had to be killed
     left: tuple[int, ...]  # processes of its session that lived on
 
@@ -63,28 +77,56 @@ class Ending:
 
 
 def interrupt(command: Sequence[str], *, after_sec: float, folder: Path) -> Ending:
-    """Start a command as a terminal does, and interrupt its process group after a time."""
-    with tempfile.TemporaryFile('w+') as log:
-        child = subprocess.Popen(
-            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-            start_new_session=True,
-        )  # fmt: skip
-        time.sleep(after_sec)
-        begun = time.monotonic()
-        os.killpg(child.pid, signal.SIGINT)
-        took_sec: float | None = None
-        try:
-            child.wait(END_WITHIN_SEC)
-            took_sec = time.monotonic() - begun
-        except subprocess.TimeoutExpired:
-            pass
-        while (left := _session(child.pid)) and time.monotonic() < begun + END_WITHIN_SEC:
-            time.sleep(0.005)
-        for pid in left:
-            os.kill(pid, signal.SIGKILL)
-        child.wait()
-        log.seek(0)
-        return Ending(log.read(), took_sec, left)
+    """Start a command on a terminal, and press Ctrl-C there after a time."""
+    keyboard, terminal = pty.openpty()
+    child = subprocess.Popen(
+        command, cwd=folder, stdin=terminal, stdout=terminal, stderr=terminal,
+        start_new_session=True, preexec_fn=_take_terminal,
+    )  # fmt: skip
+    os.close(terminal)
+    read = Reader(keyboard)
+    time.sleep(after_sec)
+    before, ended_before = len(read.text), child.poll() is not None
+    begun = time.monotonic()
+    os.write(keyboard, CTRL_C)
+    took_sec: float | None = None
+    try:
+        child.wait(END_WITHIN_SEC)
+        took_sec = time.monotonic() - begun
+    except subprocess.TimeoutExpired:
+        pass
+    while (left := _session(child.pid)) and time.monotonic() < begun + END_WITHIN_SEC:
+        time.sleep(0.005)
+    for pid in left:
+        os.kill(pid, signal.SIGKILL)
+    child.wait()
+    read.to_end()
+    os.close(keyboard)
+    return Ending(read.text[before:].replace('^C', ''), ended_before, took_sec, left)
+
+
+def _take_terminal() -> None:
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell's background job ignores it
+
+
+class Reader:
+    """Reads what a terminal shows, beside."""
+
+    def __init__(self, keyboard: int) -> None:
+        self._keyboard = keyboard
+        self.text = ''
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def _read(self) -> None:
+        decoder = codecs.getincrementaldecoder('utf-8')('replace')
+        with contextlib.suppress(OSError):  # the last program that had the terminal has ended
+            while data := os.read(self._keyboard, 65536):
+                self.text += decoder.decode(data)
+
+    def to_end(self) -> None:
+        self._thread.join(1.0)
 
 
 def _session(leader: int) -> tuple[int, ...]:
@@ -115,10 +157,15 @@ def main() -> int:
                 for moment in moments
             }
             unclean = {moment: end for moment, end in endings.items() if not end.is_clean}
+            taken = [end for end in endings.values() if not end.ended_before]
+            said = [len(end.output.strip().splitlines()) for end in taken]
             slowest = max(moments, key=lambda moment: endings[moment].took_sec or END_WITHIN_SEC)
+            longest_sec = endings[slowest].took_sec or END_WITHIN_SEC
             print(
                 f'{name:16} {len(unclean)} of {len(moments)} unclean, '
-                f'{endings[slowest].took_sec or END_WITHIN_SEC:.2f} s at most, at {slowest:.2f} s'
+                f'{longest_sec:.2f} s at most, at {slowest:.2f} s; {said.count(0)} silent, '
+                f'{said.count(1)} with one line, {max(said, default=0)} lines at most; '
+                f'{len(endings) - len(taken)} had ended'
             )
             for moment, ending in unclean.items():
                 print(f'--- at {moment:.2f} s: {ending.took_sec} s, left {ending.left}')

@@ -28,6 +28,8 @@ class SpunNode:
         self._executor.add_node(node)
         self._closing: Future[None] = Future()
         self._thread = threading.Thread(target=self._spin, daemon=True)
+
+    def start(self) -> None:
         self._thread.start()
 
     def _spin(self) -> None:
@@ -38,7 +40,8 @@ class SpunNode:
         """Stop serving after the callback that runs, then let the node go; may be called twice."""
         if not self._closing.done():
             self._closing.set_result(None)
-        self._thread.join(timeout=10.0)
+        if self._thread.ident is not None:  # it was started
+            self._thread.join(timeout=10.0)
         assert not self._thread.is_alive(), f'{self.node.get_name()} still spins after 10 s'
         self._executor.shutdown()
         self.node.destroy_node()
@@ -69,7 +72,9 @@ class SpunNodes:
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         node = make(*arguments, context=context, parameter_overrides=overrides)
         before_spin(node)
+        # Kept first: an interrupt while the thread starts must not leave it running.
         self._spun.append(SpunNode(context, node))
+        self._spun[-1].start()
         return node
 
     def close(self, node: Node) -> None:

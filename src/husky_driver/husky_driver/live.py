@@ -34,6 +34,7 @@ from husky_driver.watcher import Watcher
 from husky_driver.waypoints import Course
 
 SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first message
+CLOSED_WITHIN_SEC = 5.0  # wall time, for a simulator and its record
 SILENCE_SEC = 10.0  # wall time: a simulator that says nothing for so long has died
 DISCOVERY_SEC = 6.0  # wall time: so long nodes may need to find each other
 HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
@@ -164,7 +165,8 @@ def _watch(
             elif now - heard_sec > SILENCE_SEC:
                 raise LiveRunFailed(f'the simulator died; see {folder / "simulator.log"}')
         exit_code = controller.exit_code
-        simulator.end()  # first: the record must not show how the controller was ended
+        # First: the record must not show how the controller was ended.
+        simulator.end(within_sec=CLOSED_WITHIN_SEC)
     notes = list(watcher.hints)
     if exit_code:
         how = f'exit code {exit_code}' if exit_code > 0 else signal.Signals(-exit_code).name

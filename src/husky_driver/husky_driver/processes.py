@@ -20,7 +20,6 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
-from types import FrameType
 from typing import IO
 from uuid import uuid4
 
@@ -28,8 +27,13 @@ from husky_sim.parent_death import die_with_parent
 from husky_sim.shared_memory import clean_shared_memory
 import psutil
 
-END_WITHIN_SEC = 1.2  # of what is asked to end by SIGINT; Ctrl-C must be done in 2 s
+END_WITHIN_SEC = 1.2  # of what is asked to end by SIGINT, when nobody waits for it
 FIRM_SEC = 0.4  # the same by SIGTERM
+# The same after Ctrl-C, which must be done in 2 s: with two children in a row, with what these
+# have started, and with their shared memory.
+HURRIED_SEC = 0.4
+HURRIED_FIRM_SEC = 0.2
+RUN_ENDS_WITHIN_SEC = 1.0  # of the one child of a run, which has a record to close
 POLL_SEC = 0.02
 
 _MARK = 'PLAYPEN_PROCESS'
@@ -86,8 +90,11 @@ class Process:
     def __enter__(self) -> Process:
         return self
 
-    def __exit__(self, *_: object) -> None:
-        self.end()
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is KeyboardInterrupt:
+            self.end(within_sec=HURRIED_SEC, firm_sec=HURRIED_FIRM_SEC)
+        else:
+            self.end()
 
     def wait(self, timeout_sec: float) -> bool:
         """Wait for its end, at most so long; tell whether it has ended."""
@@ -95,25 +102,35 @@ class Process:
             self._child.wait(timeout_sec)
         return self._child.returncode is not None
 
-    def signal(self, number: int) -> None:
+    def send(self, number: int) -> None:
         """Send a signal to all of its session."""
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self._child.pid, number)
 
-    def end(self, *, asked: bool = False) -> None:
+    def end(
+        self,
+        by: int = signal.SIGINT,
+        *,
+        within_sec: float = END_WITHIN_SEC,
+        firm_sec: float = FIRM_SEC,
+    ) -> None:
         """
         End it with everything it started: kindly, firmly, then at once.
 
-        :param asked: it has been asked kindly before.
+        :param by: the kind signal.
+        :param within_sec: how long it may take to end then.
+        :param firm_sec: how long it may take after SIGTERM.
         """
-        if not asked:
-            self.signal(signal.SIGINT)
-            self.wait(END_WITHIN_SEC)
-        for number in (signal.SIGTERM, signal.SIGKILL):
+        for number, wait_sec in (
+            (by, within_sec),
+            (signal.SIGTERM, firm_sec),
+            (signal.SIGKILL, firm_sec),
+        ):
             if self.exit_code is None:
-                self.signal(number)
-                self.wait(FIRM_SEC)
-        end_processes([each for each in _descendants() if _mark_of(each) == self._mark])
+                self.send(number)
+                self.wait(wait_sec)
+        mine = [each for each in _descendants() if _mark_of(each) == self._mark]
+        end_processes(mine, firm_sec=firm_sec)
 
 
 def _descendants() -> list[psutil.Process]:
@@ -138,51 +155,53 @@ def descendants_ended() -> Iterator[None]:
     """End every descendant that came meanwhile, also one that has lost its mark."""
     adopt_orphans()
     before = _descendants()
+    firm_sec = FIRM_SEC
     try:
         yield
+    except KeyboardInterrupt:
+        firm_sec = HURRIED_FIRM_SEC
+        raise
     finally:
-        end_processes([each for each in _descendants() if each not in before])
+        came = [each for each in _descendants() if each not in before]
+        end_processes(came, firm_sec=firm_sec)
 
 
-def end_processes(processes: list[psutil.Process]) -> None:
+def end_processes(processes: list[psutil.Process], *, firm_sec: float) -> None:
     """End processes that should have ended by themselves: firmly, then at once."""
     for number in (signal.SIGTERM, signal.SIGKILL):
         for process in processes:
             with contextlib.suppress(psutil.NoSuchProcess):
                 process.send_signal(number)
-        _, processes = psutil.wait_procs(processes, timeout=FIRM_SEC)
+        _, processes = psutil.wait_procs(processes, timeout=firm_sec)
 
 
 def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
     """
     Run a command until it ends, and everything that it has started with it.
 
-    Signals that ask this process to end are handed on.
-
     :returns: its exit status; minus the number of the signal that ended it.
     :raises SystemExit: when a signal has asked this process to end, with 128 and its number.
     """
     adopt_orphans()
     asked: list[int] = []
-    with Process(command, environment) as child:
-
-        def hand_on(number: int, _frame: FrameType | None) -> None:
-            asked.append(number)
-            child.signal(signal.SIGTERM if number == signal.SIGHUP else number)
-
-        numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-        before = {number: signal.signal(number, hand_on) for number in numbers}
-        try:
-            while not asked and not child.wait(POLL_SEC):
-                pass
-            if asked:
-                child.wait(END_WITHIN_SEC)
-        finally:
-            child.end(asked=bool(asked))
-            end_processes(_descendants())
-            clean_shared_memory()
-            for number, handler in before.items():
-                signal.signal(number, handler)
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {
+        number: signal.signal(number, lambda number, _: asked.append(number)) for number in numbers
+    }
+    firm_sec = FIRM_SEC
+    try:
+        child = Process(command, environment)
+        while not asked and not child.wait(POLL_SEC):
+            pass
+        if asked:
+            firm_sec = HURRIED_FIRM_SEC
+        kind = signal.SIGINT if signal.SIGINT in asked else signal.SIGTERM
+        child.end(kind, within_sec=RUN_ENDS_WITHIN_SEC, firm_sec=firm_sec)
+    finally:
+        end_processes(_descendants(), firm_sec=firm_sec)
+        clean_shared_memory()
+        for number, handler in before.items():
+            signal.signal(number, handler)
     if asked:
         print('\ninterrupted', file=sys.stderr)
         raise SystemExit(128 + asked[0])

@@ -27,13 +27,13 @@ def signals_held_back() -> Iterator[None]:
             signal.raise_signal(came[0])
 
 
-def _run(module: str, *, node: bool) -> int:
+def _run(module: str, *, node: bool, catches: bool = True) -> int:
     try:
         from husky_sim import start
     except ImportError:  # on a real robot there is no simulator, and Python's own start must do
         return int(import_module(module).main())
     run = start.run_node if node else start.run
-    return run(module, interrupted=_INTERRUPTED, catches=True)
+    return run(module, interrupted=_INTERRUPTED, catches=catches)
 
 
 def check() -> int:
@@ -43,7 +43,7 @@ def check() -> int:
 
 def drive() -> int:
     """Drive a path in the playpen, and report."""
-    return _run('husky_driver.drive_command', node=False)
+    return _run('husky_driver.drive_command', node=False, catches=False)
 
 
 def follow_path() -> int:
@@ -58,7 +58,7 @@ def grade() -> int:
 
 def supervise() -> int:
     """Run a command, and leave nothing of what it started."""
-    return _run('husky_driver.supervise', node=False)
+    return _run('husky_driver.supervise', node=False, catches=False)
 
 
 def teleop() -> int:

@@ -18,6 +18,7 @@ from husky_sim.parent_death import die_with_parent
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _BAD_INPUT = 2
+_AGAIN_SEC = 0.01
 _LAST_DOMAIN = 232  # above it the ports do not suffice: RTPS 2.5, 9.6.2.3
 _CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
 
@@ -27,10 +28,13 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
     Import a module and run its main().
 
     :param interrupted: the exit status of a start that was interrupted.
-    :param catches: main() is interrupted by a KeyboardInterrupt; else it sets its own handlers.
+    :param catches: main() is interrupted by a KeyboardInterrupt; else it sets its own handlers,
+        and until then has nothing to close.
     """
 
-    def leave(*_: object) -> NoReturn:
+    def leave(number: int, _: object) -> NoReturn:
+        if number != signal.SIGTERM and _is_at_keyboard():
+            os.write(2, b'\ninterrupted\n')
         os._exit(interrupted)  # an exception would come up in any import
 
     # No window of MuJoCo's is opened here; to look for one starts a second Python.
@@ -38,8 +42,16 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         if _imports(frame):
-            leave()
+            leave(number, frame)
         signal.default_int_handler(number, frame)
+
+    def interrupt_again(lost: 'sys.UnraisableHookArgs') -> None:
+        # In a callback of the garbage collector, say, an interrupt is printed and forgotten.
+        if lost.exc_type is KeyboardInterrupt:
+            signal.signal(signal.SIGALRM, interrupt)
+            signal.setitimer(signal.ITIMER_REAL, _AGAIN_SEC)
+        else:
+            sys.__unraisablehook__(lost)
 
     for number in _SIGNALS:
         signal.signal(number, leave)
@@ -50,6 +62,7 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
     try:
         main = import_module(module).main
         if catches:
+            sys.unraisablehook = interrupt_again
             for number in _SIGNALS:
                 signal.signal(number, interrupt)
         return int(main())
@@ -57,7 +70,7 @@ def run(module: str, *, interrupted: int = 0, catches: bool = False) -> int:
         return interrupted
     finally:
         # While Python takes itself apart, an interrupt would kill it.
-        for number in (*_SIGNALS, signal.SIGHUP):
+        for number in (*_SIGNALS, signal.SIGHUP, signal.SIGALRM):
             signal.signal(number, signal.SIG_IGN)
 
 
@@ -67,6 +80,14 @@ def _imports(frame: FrameType | None) -> bool:
             return True
         frame = frame.f_back
     return False
+
+
+def _is_at_keyboard() -> bool:
+    """Tell whether Ctrl-C was meant for this process; the children of a launch are silent."""
+    try:
+        return os.tcgetpgrp(2) == os.getpgrp()
+    except OSError:  # no terminal, or that of another session
+        return False
 
 
 def run_node(module: str, *, interrupted: int = 0, catches: bool = False) -> int:

@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Ctrl-C while a program still loads ends it without a word, whoever wrote it.
+Ctrl-C while a program still loads ends it with one word, whoever wrote it.
 
 Python imports this at its start (interrupt_while_loading.pth). A node imports ROS for half a
 second; interrupted there, Python would print from amid which of a hundred imports it was torn.
@@ -54,6 +54,15 @@ def _on_interrupt(number: int, frame: FrameType | None) -> None:
         global _was_interrupted  # noqa: PLW0603 -- a signal handler has no other place
         _was_interrupted = True
         signal.default_int_handler(number, frame)
+    leave(number, frame)
+
+
+def leave(number: int, _: FrameType | None) -> None:
+    """Handle SIGINT: say so in one line, and let it end this process."""
+    # The children of a launch are silent.
+    with contextlib.suppress(OSError):  # no terminal, or that of another session
+        if os.tcgetpgrp(2) == os.getpgrp():
+            os.write(2, b'\ninterrupted\n')
     signal.signal(number, signal.SIG_DFL)
     os.kill(os.getpid(), number)
 

@@ -14,6 +14,8 @@ import sys
 import threading
 from types import ModuleType
 
+from interrupt_while_loading import leave
+
 from ros2cli import nearest, verbs
 from ros2cli.errors import CommandError
 
@@ -41,7 +43,7 @@ def _interrupt_ends() -> Iterator[None]:
     """While a verb is loaded nothing is open yet: let an interrupt end the process at once."""
     before = signal.getsignal(signal.SIGINT)
     if before is not signal.SIG_IGN and threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(signal.SIGINT, leave)
     try:
         yield
     finally:
