@@ -30,6 +30,12 @@ def pytest_runtest_logstart() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+@pytest.fixture
+def slack() -> float:
+    """How many times as long as on a free machine something may take on this one."""
+    return max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """Keep the tests of a folder together; those in the browser are a third of theirs."""

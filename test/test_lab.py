@@ -9,6 +9,7 @@ import re
 import signal
 
 from playpen_testing.processes import Process, Processes
+from playpen_testing.shared_memory import left, own_files
 from playpen_testing.waiting import wait_until
 import pytest
 
@@ -120,28 +121,18 @@ def test_a_home_that_cannot_be_written_costs_no_run(
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_drive_leaves_nothing_behind(
-    processes: Processes, tmp_path: Path, number: signal.Signals
+    processes: Processes, tmp_path: Path, number: signal.Signals, slack: float
 ) -> None:
     run = drive(processes, tmp_path)
     run.wait_for_text('10 %', timeout_sec=40.0)
     started = [int(line.split('pid [')[1].split(']')[0]) for line in run.lines if 'pid [' in line]
     assert len(started) >= 2, 'the simulator and the driver'
-    shared = {name for pid in started for name in shared_memory_of(pid)}
+    shared = own_files(started)
+    assert shared, 'no shared memory is used'
     os.kill(run.pid, number)  # to the script alone: it must hand it on
-    assert run.wait(timeout_sec=2.5) in (128 + number, -number)
+    assert run.wait(timeout_sec=2.5 * slack) in (128 + number, -number)
     assert [pid for pid in started if Path(f'/proc/{pid}').exists()] == []
-    in_use = {name for pid in Path('/proc').glob('[0-9]*') for name in shared_memory_of(pid.name)}
-    left = {name for name in shared - in_use if Path(name).exists()}
-    assert left == set(), 'shared memory left behind'
-
-
-def shared_memory_of(pid: int | str) -> set[str]:
-    """Return the files of Fast DDS's shared memory that a process has mapped."""
-    try:
-        rows = Path(f'/proc/{pid}/maps').read_text().splitlines()
-    except OSError:
-        return set()  # it has ended meanwhile
-    return {row.split()[-1] for row in rows if '/dev/shm/fastrtps' in row}
+    assert left(shared) == [], 'shared memory left behind'
 
 
 def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ class DevTools:
         self._notice = notice
         self._numbers = itertools.count(1)
         self._answers: dict[int, dict[str, Any]] = {}
-        self._socket = connect(url, max_size=None)
+        self._socket = connect(url, max_size=None, ping_interval=None)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 

@@ -6,9 +6,6 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 import math
 from pathlib import Path
-import signal
-import subprocess
-import sys
 import time
 from typing import Any
 
@@ -176,14 +173,19 @@ def test_scanner_and_receiver_speak_at_their_rates(bench: Callable[..., Bench]) 
     run.probe.create_subscription(LaserScan, 'front/scan', scans.append, 50)
     run.probe.create_subscription(NavSatFix, 'navsat/fix', fixes.append, 50)
     run.until(lambda: len(scans) > 5 and len(fixes) > 20, 'scans and fixes')
-    steps = [stamp_sec(after) - stamp_sec(before) for before, after in pairwise(scans)]
-    assert steps == pytest.approx([0.1] * len(steps))
+    # Some may be lost on a busy machine: what came stands where the rate puts it.
+    assert periods_of(scans, 5) == {0}, '10 Hz: every fifth period'
     assert len(scans[0].ranges) == 720
     assert scans[0].header.frame_id == 'front_laser'
     assert scans[0].angle_max == pytest.approx(2.35619)
-    assert (stamp_sec(fixes[20]) - stamp_sec(fixes[0])) == pytest.approx(0.5, abs=0.021)
+    assert len(periods_of(fixes, 5)) == 4, '40 Hz: four of five periods'
     assert fixes[0].latitude == pytest.approx(49.9)
     assert fixes[0].position_covariance[0] > 0.0
+
+
+def periods_of(messages: list[Any], cycle: int) -> set[int]:
+    """Return in which control periods of a cycle messages are made."""
+    return {round(stamp_sec(each) / CONTROL_PERIOD_SEC) % cycle for each in messages}
 
 
 def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) -> None:
@@ -192,7 +194,7 @@ def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) 
     assert run.probe.count_publishers('odometry/filtered') == 0
 
 
-def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
+def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench], slack: float) -> None:
     run = bench(real_time_factor=0.5)
     run.matched()
 
@@ -204,15 +206,15 @@ def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
         )
         return time.monotonic() - begin
 
-    assert 1.9 < taken_sec(1.0) < 3.0
+    assert 1.9 < taken_sec(1.0) < 3.0 * slack
     refused, changed = run.simulator.set_parameters(
         [Parameter('real_time_factor', value=-1.0), Parameter('real_time_factor', value=2.0)]
     )
     assert not refused.successful
     assert changed.successful
-    assert 1.4 < taken_sec(3.0) < 3.0
+    assert 1.4 < taken_sec(3.0) < 3.0 * slack
     run.simulator.set_parameters([Parameter('real_time_factor', value=6.0)])
-    assert 0.45 < taken_sec(3.0) < 1.4
+    assert 0.45 < taken_sec(3.0) < 1.4 * slack
 
 
 def test_the_scene_of_a_fast_run_leaves_out_what_nobody_could_see(
@@ -320,12 +322,14 @@ def test_after_a_stall_it_tells_so_and_goes_on_with_whole_steps(
     )
 
 
-def test_a_pace_beyond_the_machine_leaves_it_listening(bench: Callable[..., Bench]) -> None:
+def test_a_pace_beyond_the_machine_leaves_it_listening(
+    bench: Callable[..., Bench], slack: float
+) -> None:
     run = bench(real_time_factor=1000.0)
     run.matched()
     spun_at = time.monotonic()
     run.executor.spin_once(timeout_sec=0.0)
-    assert time.monotonic() - spun_at < 0.3
+    assert time.monotonic() - spun_at < 0.3 * slack
     assert run.call(SetBool, 'pause', SetBool.Request(data=True)).success
     assert run.simulator.simulation.physics_warnings == 0
 
@@ -446,55 +450,3 @@ def test_a_setting_that_cannot_be_is_refused(
     with pytest.raises(error, match=message):
         SimulatorNode(context=context, parameter_overrides=overrides)
     context.try_shutdown()
-
-
-def run_process(*arguments: str, module: str = 'husky_sim.node') -> 'subprocess.Popen[str]':
-    return subprocess.Popen(
-        [sys.executable, '-m', module, '--ros-args', *arguments],
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int) -> None:
-    del domain_id
-    process = run_process('-p', 'world:=nowhere.xml')
-    _, said = process.communicate(timeout=20.0)
-    assert process.returncode == 2
-    assert said.count('\n') == 1
-    assert said.startswith("husky_sim: world='nowhere.xml': no such file")
-
-
-def test_a_signal_while_it_still_loads_ends_it_without_a_word(domain_id: int) -> None:
-    del domain_id
-    process = run_process(module='husky_sim.start')
-    maps = Path(f'/proc/{process.pid}/maps')
-    deadline = time.monotonic() + 20.0
-    while 'numpy' not in maps.read_text():
-        assert time.monotonic() < deadline, 'it never began to load'
-    process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=20.0)
-    assert (process.returncode, said) == (0, '')
-
-
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_ends_it_soon_and_the_record_is_whole(
-    domain_id: int, tmp_path: Path, number: signal.Signals
-) -> None:
-    del domain_id
-    path = tmp_path / 'deep' / 'run.record'
-    process = run_process(
-        '-p', f'record:={path}', '-p', 'real_time_factor:=0.0', module='husky_sim.start'
-    )
-    assert process.stderr is not None
-    assert 'obstacles' in process.stderr.readline()
-    process.send_signal(number)
-    begin = time.monotonic()
-    _, said = process.communicate(timeout=20.0)
-    assert time.monotonic() - begin < 2.0
-    assert process.returncode == 0
-    assert 'Traceback' not in said
-    record = read_record(path)
-    assert record.complete
-    assert len(record.obstacles) == 34
-    assert record.min_clearance_m(0) == pytest.approx(0.73, abs=0.02)

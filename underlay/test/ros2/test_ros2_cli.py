@@ -56,7 +56,9 @@ def test_every_verb_has_help_and_completion_words() -> None:
             assert verbs.first_line(package, name or command).endswith('.')
 
 
-def test_the_help_does_not_import_rclpy_and_is_quick(ros2: Callable[..., Any]) -> None:
+def test_the_help_does_not_import_rclpy_and_is_quick(
+    ros2: Callable[..., Any], slack: float
+) -> None:
     code = 'import sys; from ros2cli.cli import main\ntry: main(["--help"])\nexcept SystemExit: '
     code += 'print(sorted(m for m in sys.modules if m in ("rclpy", "yaml", "numpy")))'
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True)
@@ -66,7 +68,7 @@ def test_the_help_does_not_import_rclpy_and_is_quick(ros2: Callable[..., Any]) -
         start = time.perf_counter()
         ros2('--help')
         times.append(time.perf_counter() - start)
-    assert min(times) < 0.25
+    assert min(times) < 0.25 * slack
 
 
 @pytest.mark.parametrize(

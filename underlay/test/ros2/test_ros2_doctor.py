@@ -12,6 +12,7 @@ import subprocess
 import sys
 from typing import Any
 
+from husky_sim.domains import OwnDomain
 import pytest
 
 
@@ -109,11 +110,12 @@ def test_nodes_in_another_domain(
     processes: Any, ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     processes.node('plain', 'elsewhere')
-    monkeypatch.setenv('ROS_DOMAIN_ID', '44')
-    line = _line(ros2('doctor'), 'domain')
+    with OwnDomain() as here:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(here.number))
+        line = _line(ros2('doctor'), 'domain')
+        hint = ros2('node', 'list')
     assert 'export ROS_DOMAIN_ID=' in line
     assert str(domain) in line.partition('in domain ')[2].partition(' on this')[0].split(', ')
-    hint = ros2('node', 'list')
     assert hint.out == ''
     assert hint.err.startswith('hint: domain ')
 

@@ -45,7 +45,9 @@ def test_every_node_is_listed_in_every_run(crowd: list[str], ros2: Callable[...,
         assert (answer.status, answer.lines, answer.err) == (0, expected, '')
 
 
-def test_the_observer_alone_is_complete_twenty_times_of_twenty(crowd: list[str]) -> None:
+def test_the_observer_alone_is_complete_twenty_times_of_twenty(
+    crowd: list[str], slack: float
+) -> None:
     from ros2cli import discovery
 
     expected = {f'/{name}' for name in crowd}
@@ -54,7 +56,7 @@ def test_the_observer_alone_is_complete_twenty_times_of_twenty(crowd: list[str])
         graph = discovery.read_graph(quiet=True)
         assert {node.full_name for node in graph.nodes} == expected
         assert {'/chatter', '/rosout', '/parameter_events'} <= graph.topics().keys()
-    assert (time.monotonic() - start) / 20 < 0.8
+    assert (time.monotonic() - start) / 20 < 0.8 * slack
 
 
 @pytest.mark.usefixtures('crowd')

@@ -1,0 +1,64 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulator as a process: how it ends, and what it says then."""
+
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+from husky_sim.record import read_record
+import pytest
+
+
+def run_process(*arguments: str, module: str = 'husky_sim.node') -> 'subprocess.Popen[str]':
+    return subprocess.Popen(
+        [sys.executable, '-m', module, '--ros-args', *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int) -> None:
+    del domain_id
+    process = run_process('-p', 'world:=nowhere.xml')
+    _, said = process.communicate(timeout=20.0)
+    assert process.returncode == 2
+    assert said.count('\n') == 1
+    assert said.startswith("husky_sim: world='nowhere.xml': no such file")
+
+
+def test_a_signal_while_it_still_loads_ends_it_without_a_word(domain_id: int) -> None:
+    del domain_id
+    process = run_process(module='husky_sim.start')
+    maps = Path(f'/proc/{process.pid}/maps')
+    deadline = time.monotonic() + 20.0
+    while 'numpy' not in maps.read_text():
+        assert time.monotonic() < deadline, 'it never began to load'
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=20.0)
+    assert (process.returncode, said) == (0, '')
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_it_soon_and_the_record_is_whole(
+    domain_id: int, tmp_path: Path, number: signal.Signals, slack: float
+) -> None:
+    del domain_id
+    path = tmp_path / 'deep' / 'run.record'
+    process = run_process(
+        '-p', f'record:={path}', '-p', 'real_time_factor:=0.0', module='husky_sim.start'
+    )
+    assert process.stderr is not None
+    assert 'obstacles' in process.stderr.readline()
+    process.send_signal(number)
+    begin = time.monotonic()
+    _, said = process.communicate(timeout=20.0)
+    assert time.monotonic() - begin < 2.0 * slack
+    assert process.returncode == 0
+    assert 'Traceback' not in said
+    record = read_record(path)
+    assert record.complete
+    assert len(record.obstacles) == 34
+    assert record.min_clearance_m(0) == pytest.approx(0.73, abs=0.02)
