@@ -15,6 +15,7 @@ from playpen_testing.tab import Tab
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
+from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray
 
 PHONE = (390, 844)
@@ -103,13 +104,12 @@ def test_the_page_publishes_commands_only_while_it_drives(lab: Lab, page: Tab) -
 @pytest.mark.timeout(120)
 def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Tab) -> None:
     scenes = list[Float64MultiArray]()
-    subscription = lab.listener.create_subscription(
-        Float64MultiArray, 'husky_sim/scene', scenes.append, SCENE_QOS
-    )
+    # Ended as a whole: what is destroyed while its node spins in another thread ends the spinning.
+    stranger = lab.nodes.start(Node, 'stranger')
+    stranger.create_subscription(Float64MultiArray, 'husky_sim/scene', scenes.append, SCENE_QOS)
     wait_until(lambda: bool(scenes), timeout_sec=10.0, what='a scene')
-    lab.listener.destroy_subscription(subscription)
     scene = scenes[0]
-    publisher = lab.listener.create_publisher(Float64MultiArray, 'husky_sim/scene', SCENE_QOS)
+    publisher = stranger.create_publisher(Float64MultiArray, 'husky_sim/scene', SCENE_QOS)
     wait_until(
         lambda: publisher.get_subscription_count() > 0,
         timeout_sec=10.0,
@@ -126,7 +126,7 @@ def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Tab) -> Non
     scene.layout.dim[1].size = 3
     publisher.publish(scene)
     page.wait_for(f"{TROUBLE}.includes('no scene of 1 robots')", what='a word about the other')
-    lab.listener.destroy_publisher(publisher)
+    lab.nodes.close(stranger)
     page.wait_for(f'!{TROUBLE}', what='no trouble any more')
     page.wait_for(f'{number("time")} !== {json.dumps(shown_sec)}', what='time that goes on')
     assert page.errors == []

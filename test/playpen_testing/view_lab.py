@@ -35,6 +35,7 @@ class Lab:
     ) -> None:
         self.browser = browser
         self.folder = folder
+        self.nodes = nodes
         self._processes = processes
         self._environment = environment
         self.simulator = self.start_simulator()
@@ -44,7 +45,7 @@ class Lab:
             environment=environment,
         )
         topics = {'/clock': Clock, COMMANDS: Twist, 'ground_truth/odom': Odometry}
-        self.listener = nodes.start(Listener, topics)
+        self.listener = self.nodes.start(Listener, topics)
         self.listener.latest('ground_truth/odom')
         self.view.wait_for_text('look at http://')
         self.address = self.view.output.split('look at ')[1].split()[0]
