@@ -7,6 +7,7 @@ What every test relies on.
 tests stays in one process. Each test that uses DDS has a domain of its own (husky_sim.domains).
 """
 
+from collections.abc import Iterator
 import os
 from pathlib import PurePosixPath
 import signal
@@ -21,6 +22,7 @@ def _leave(*_: object) -> None:
 
 # Until a test runs there is nothing to tell of, but from amid which import pytest was torn.
 signal.signal(signal.SIGINT, _leave)
+signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
 
 
 def pytest_runtest_logstart() -> None:
@@ -28,6 +30,16 @@ def pytest_runtest_logstart() -> None:
     # Also where it was ignored, as in a shell's background job: the tests send it to programs.
     if signal.getsignal(signal.SIGINT) is _leave:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_sessionstart() -> Iterator[None]:
+    """Start the processes that run the tests with interrupts held back until they can take one."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
 
 
 @pytest.fixture

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 import re
 import signal
+from statistics import median
 import time
 from typing import Any, IO
 
@@ -133,8 +135,9 @@ def _judge_messages(heard: list[tuple[float, str]], most: float) -> Step:
     if wrong is not None:
         why = f'it says {wrong[:60]!r}; the sheet asks for "hello world <time in seconds>"'
         return failed(name, most, why, 0.5)
-    span = heard[-1][0] - heard[0][0] if len(heard) > 1 else 0.0
-    rate = (len(heard) - 1) / span if span else 0.0
+    # Their median: that the machine stood still for a moment is not the publisher's fault.
+    gaps = [after - before for (before, _), (after, _) in pairwise(heard)]
+    rate = 1.0 / max(median(gaps), 1e-3) if gaps else 0.0
     if abs(rate - RATE_HZ) > RATE_TOLERANCE * RATE_HZ:
         return failed(name, most, f'{rate:.1f} messages a second; the sheet asks for 10', 0.7)
     return Step(name, most, most, f'{rate:.1f} Hz on {TOPIC}, {TYPE}, "{heard[-1][1]}"')

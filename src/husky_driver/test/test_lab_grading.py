@@ -13,6 +13,7 @@ import sys
 import time
 
 from husky_driver.grade import main as grade
+from husky_driver.lab_graph import publisher_step
 from husky_driver.lab_steps import (
     build_step,
     driver_package,
@@ -52,6 +53,15 @@ import sys
 from husky_driver.lab_steps import build_step
 build_step(Path(sys.argv[1]), Path(sys.argv[2]), 15.0)
 """
+PUBLISHER = """#!%s
+import time, rclpy
+from std_msgs.msg import String
+rclpy.init()
+publisher = rclpy.create_node('publisher').create_publisher(String, 'topic_test', 10)
+for number in range(1000):
+    publisher.publish(String(data=f'hello world {time.time()}'))
+    time.sleep(%g if number != 15 else 1.0)
+"""
 SOURCE = Path(__file__).resolve().parents[2]
 
 
@@ -64,6 +74,18 @@ def workspace(tmp_path: Path) -> Path:
     template = SOURCE / 'husky_driver' / 'template' / 'my_driver'
     shutil.copytree(template, folder / 'src' / 'my_driver', ignore=ignore)
     return folder
+
+
+@pytest.mark.parametrize(('period_sec', 'points'), [(0.1, 20.0), (0.2, 14.0)])
+def test_a_publisher_that_stands_still_for_a_second_is_judged_by_the_rest(
+    tmp_path: Path, period_sec: float, points: float
+) -> None:
+    program = tmp_path / 'install' / 'topic_demo' / 'lib' / 'topic_demo' / 'publisher'
+    program.parent.mkdir(parents=True)
+    program.write_text(PUBLISHER % (sys.executable, period_sec))
+    program.chmod(0o755)
+    step = publisher_step(tmp_path, dict(os.environ), 20.0)
+    assert step.points == points, step
 
 
 @pytest.mark.timeout(180)
