@@ -132,7 +132,7 @@ def test_an_interrupted_drive_leaves_nothing_behind(
     os.kill(run.pid, number)  # to the script alone: it must hand it on
     assert run.wait(timeout_sec=2.5 * slack) in (128 + number, -number)
     assert [pid for pid in started if Path(f'/proc/{pid}').exists()] == []
-    assert left(shared) == [], 'shared memory left behind'
+    assert left(shared) == [], 'shared memory is left'
 
 
 def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_path: Path) -> None:

@@ -5,25 +5,41 @@
 from collections.abc import Iterable
 from pathlib import Path
 
+Files = dict[Path, int]  # and their inodes: a name that is free is taken by the next process
 
-def own_files(pids: Iterable[int]) -> set[Path]:
+
+def own_files(pids: Iterable[int]) -> Files:
     """Return the files that these processes have mapped, and no other process has."""
     ours = set(pids)
-    others = {int(process.name) for process in Path('/proc').glob('[0-9]*')} - ours
-    return _mapped_by(ours) - _mapped_by(others)
+    others = _mapped_by(_all_pids() - ours)
+    return {path: inode for path, inode in _mapped_by(ours).items() if path not in others}
 
 
-def _mapped_by(pids: Iterable[int]) -> set[Path]:
-    files: set[Path] = set()
+def left(files: Files) -> list[str]:
+    """Return which of the files are still there, with nobody who uses them."""
+    there = {path for path, inode in files.items() if _inode(path) == inode}
+    return sorted(path.name for path in there - _mapped_by(_all_pids()).keys())
+
+
+def _inode(path: Path) -> int | None:
+    try:
+        return path.stat().st_ino
+    except OSError:  # gone meanwhile
+        return None
+
+
+def _all_pids() -> set[int]:
+    return {int(process.name) for process in Path('/proc').glob('[0-9]*')}
+
+
+def _mapped_by(pids: Iterable[int]) -> Files:
+    files: Files = {}
     for pid in pids:
         try:
             rows = Path(f'/proc/{pid}/maps').read_text().splitlines()
         except OSError:  # it has ended meanwhile
             continue
-        files.update(Path(row.split()[5]) for row in rows if 'fastrtps' in row)
+        for inode, file in (row.split()[4:6] for row in rows if '/dev/shm/' in row):  # proc(5)
+            if 'fastrtps_' in file:
+                files[Path(file)] = int(inode)
     return files
-
-
-def left(files: Iterable[Path]) -> list[str]:
-    """Return which of the files are still there."""
-    return sorted(file.name for file in files if file.exists())
