@@ -45,7 +45,9 @@ from husky_driver.waypoints import Course, load_course
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
 DELIVERY_SEC = 1.0  # how long the first command may take to whom it was sent
-STOP_WITHIN_SEC = 1.5  # how long a robot is waited for when the drive is broken off
+STOP_WITHIN_SEC = (
+    1.0  # how long a robot is waited for when the drive is broken off: it takes a third
+)
 
 DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
 NO_STAMP = (-1, -1)
