@@ -4,7 +4,8 @@
 What every test relies on.
 
 `./lab test` runs two tests at a time: one alone leaves half of two cores idle. Each folder of
-tests stays in one process. Each test that uses DDS has a domain of its own (husky_sim.domains).
+tests stays in one process. Each test that uses DDS has a domain of its own, see
+husky_runtime.domains.
 """
 
 from collections.abc import Iterator

@@ -8,16 +8,11 @@ Run it with:  ./lab exec python benchmark/driving_figures.py
 
 import math
 
+from husky_course.robot import RobotStart
 from husky_sim.simulation import SimulatedRobot, Simulation
-from husky_sim.world import default_worlds
+from husky_sim.world.world import default_worlds
 
-from husky_sim.config import (
-    CONTROL_PERIOD_SEC,
-    GRIP,
-    GroundConfig,
-    RobotStart,
-    SimulationConfig,
-)
+from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, GroundConfig, SimulationConfig
 
 SPEEDS = (0.0, 0.25, 0.5, 0.75, 1.0)
 YAW_RATES = (0.2, 0.5, 1.0, 1.5)

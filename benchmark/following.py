@@ -15,9 +15,9 @@ import sys
 import tempfile
 import time
 
-from husky_driver.rehearsal import drive_course
-from husky_driver.scoring import Report, score
-from husky_driver.waypoints import Course, load_course
+from husky_course.waypoints.waypoint_file import Course, load_course
+from husky_grader.run.rehearsal import drive_course
+from husky_grader.scoring.scoring import Report, score
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSES = ROOT / 'config' / 'waypoints'

@@ -22,7 +22,7 @@ import subprocess
 import sys
 import time
 
-from husky_sim.domains import in_own_domain
+from husky_runtime.domains import in_own_domain
 
 _NODE = """
 import sys, rclpy

@@ -20,9 +20,9 @@ import sys
 import tempfile
 import time
 
-from husky_driver.processes import adopt_orphans
-from husky_sim.domains import in_own_domain
-from husky_sim.shared_memory import clean_shared_memory, unused_files
+from husky_runtime.children import adopt_orphans
+from husky_runtime.domains import in_own_domain
+from husky_runtime.shared_memory import clean_shared_memory, unused_files
 import psutil
 
 LAB = str(Path(__file__).resolve().parent.parent / 'lab')
@@ -35,7 +35,7 @@ PATIENCE_SEC = 30.0
 PROCESSES = {
     'simulator': '/husky_sim/husky_sim',
     'driver': '/husky_driver/follow_path',
-    'view': '/husky_sim/view',
+    'view': '/husky_view/view',
     'launch': 'drive.launch.py',
     './lab': '',
 }

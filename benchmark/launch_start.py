@@ -24,7 +24,7 @@ import sys
 import tempfile
 import time
 
-from husky_sim.domains import in_own_domain
+from husky_runtime.domains import in_own_domain
 
 _NODE = """
 import sys, time, rclpy

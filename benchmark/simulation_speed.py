@@ -27,7 +27,7 @@ import subprocess
 import sys
 from typing import Any
 
-from husky_sim.domains import in_own_domain
+from husky_runtime.domains import in_own_domain
 
 ROOT = Path(__file__).resolve().parent.parent
 LEAST_RATIO = 0.95

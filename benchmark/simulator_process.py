@@ -26,7 +26,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, Vector3
-from husky_sim.domains import in_own_domain
+from husky_runtime.domains import in_own_domain
 from nav_msgs.msg import Odometry
 import numpy as np
 import rclpy
@@ -69,7 +69,7 @@ class Ear(Node):
 def started(**parameters: Any) -> subprocess.Popen[bytes]:
     """Start the simulator."""
     words = [word for name, value in parameters.items() for word in ('-p', f'{name}:={value}')]
-    command = [sys.executable, '-m', 'husky_sim.node', '--ros-args', *words]
+    command = [sys.executable, '-m', 'husky_sim.ros.node', '--ros-args', *words]
     return subprocess.Popen(command, stderr=subprocess.DEVNULL)
 
 

@@ -21,8 +21,10 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_sim.node import SimulatorNode
-from husky_sim.world import default_worlds, load_world
+from husky_course.robot import RobotStart
+from husky_sim.ros import node as husky_sim_node
+from husky_sim.ros.node import SimulatorNode
+from husky_sim.world.world import default_worlds, load_world
 import mujoco
 from nav_msgs.msg import Odometry
 import rclpy
@@ -30,9 +32,6 @@ from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
-
-from husky_sim import node as husky_sim_node
-from husky_sim.config import RobotStart
 
 SPEED_M_S, YAW_RATE_RAD_S = 0.5, -0.5
 CONTROL = 'husky_velocity_controller/cmd_vel'

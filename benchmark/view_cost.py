@@ -24,8 +24,8 @@ import threading
 import time
 import urllib.request
 
-from husky_sim.domains import in_own_domain
-from husky_sim.node import SimulatorNode
+from husky_runtime.domains import in_own_domain
+from husky_sim.ros.node import SimulatorNode
 import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
@@ -37,7 +37,7 @@ from websockets.typing import Subprotocol
 from husky_sim.config import CONTROL_PERIOD_SEC
 
 PORT = 18880
-VIEW = ('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p', f'viewer_port:={PORT}')
+VIEW = ('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p', f'viewer_port:={PORT}')
 
 
 class Tab:

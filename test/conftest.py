@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
-from husky_sim.domains import OwnDomain
+from husky_runtime.domains import OwnDomain
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))

@@ -8,12 +8,12 @@ import signal
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from husky_driver.drive import Drive
-from husky_driver.node import FollowPath
-from husky_driver.scoring import score
-from husky_driver.waypoints import load_course
-from husky_sim.node import SimulatorNode
-from husky_sim.record import read_record, Record
+from husky_course.record.record import read_record, Record
+from husky_course.waypoints.waypoint_file import load_course
+from husky_driver.drive.drive import Drive
+from husky_driver.ros.node import FollowPath
+from husky_grader.scoring.scoring import score
+from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Processes

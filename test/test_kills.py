@@ -17,7 +17,7 @@ LAB = str(ROOT / 'lab')
 PARTS = {
     'simulator': '/husky_sim/husky_sim',
     'driver': '/husky_driver/follow_path',
-    'view': '/husky_sim/view',
+    'view': '/husky_view/view',
     'launch': 'drive.launch.py',
     'lab': 'drive',
 }

@@ -44,7 +44,7 @@ def test_every_word_of_the_lab_and_its_options_are_known(processes: Processes) -
     assert {'drive', 'test'} <= named
     assert {word for word in named if not re.search(rf'^  {word}\b', shown.output, re.M)} == set()
     options = {option for line in lines for option in re.findall(r'--[a-z][a-z-]+', line)}
-    known = shown.output + (ROOT / 'src/husky_driver/husky_driver/grade.py').read_text()
+    known = shown.output + (ROOT / 'src/husky_grader/husky_grader/grade.py').read_text()
     assert {option for option in options if option not in known} == set()
 
 

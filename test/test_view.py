@@ -8,7 +8,7 @@ import math
 import subprocess
 import sys
 
-from husky_sim.scene_topic import QOS as SCENE_QOS
+from husky_sim.ros.scene_topic import QOS as SCENE_QOS
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, labelled_input, number
 from playpen_testing.tab import Tab
@@ -221,9 +221,9 @@ def test_of_a_simulator_with_other_robots_the_page_is_made_anew(lab: Lab, page: 
 
 def test_a_simulator_without_a_viewer_loads_none_of_its_code() -> None:
     script = (
-        'import sys, husky_sim.node; '
+        'import sys, husky_sim.ros.node; '
         "print([m for m in sys.modules if m.split('.')[0] in ('viser', 'mjviser', 'trimesh')"
-        " or m.startswith('husky_sim.view')])"
+        " or m.startswith('husky_view')])"
     )
     done = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True)
     assert done.stdout.strip() == '[]', done.stdout + done.stderr

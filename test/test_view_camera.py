@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 import math
 import time
 
-from husky_sim.view.cameras import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
-from husky_sim.view.server import close_server, open_server
+from husky_view.picture.cameras import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
+from husky_view.server import close_server, open_server
 import numpy as np
 import numpy.typing as npt
 from playpen_testing.browser import Browser

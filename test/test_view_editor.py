@@ -5,7 +5,7 @@
 from collections.abc import Iterator, Sequence
 import math
 
-from husky_driver.waypoints import load_course
+from husky_course.waypoints.waypoint_file import load_course
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, labelled_input
 from playpen_testing.tab import Tab
@@ -13,7 +13,7 @@ from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
 import pytest
 
-from husky_driver import check
+from husky_grader import check
 
 SIZE = (1000, 700)
 NAME = 'clicked'

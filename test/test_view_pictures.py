@@ -12,10 +12,10 @@ import os
 from pathlib import Path
 import shutil
 
-from husky_sim.recorder import RunRecorder
+from husky_sim.recording.recorder import RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.view import palette
-from husky_sim.world import default_worlds
+from husky_sim.world.world import default_worlds
+from husky_view.picture import palette
 from matplotlib.colors import rgb_to_hsv
 import numpy as np
 from PIL import Image
@@ -162,7 +162,7 @@ def test_a_replay_shows_the_collision_in_red(
         record.append()
     record.close()
     shutil.copy(COURSE, tmp_path / 'waypoints.yaml')
-    replay = processes.start('ros2', 'run', 'husky_sim', 'replay', str(tmp_path))
+    replay = processes.start('ros2', 'run', 'husky_view', 'replay', str(tmp_path))
     replay.wait_for_text('look at http://')
     page = browser.open(replay.output.split('look at ')[1].split()[0], *DESK, drawn=True)
     page.click(

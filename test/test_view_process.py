@@ -16,7 +16,7 @@ from playpen_testing.waiting import wait_until
 import pytest
 from rosgraph_msgs.msg import Clock
 
-VIEW = ('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p')
+VIEW = ('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p')
 
 
 def stamp_sec(clock: Clock) -> float:

@@ -7,9 +7,9 @@ from pathlib import Path
 import signal
 import time
 
-from husky_sim.recorder import RunRecorder
+from husky_sim.recording.recorder import RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world import default_worlds
+from husky_sim.world.world import default_worlds
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, number
 from playpen_testing.processes import Process, Processes
@@ -39,7 +39,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def replay(report: Path) -> Iterator[Process]:
     with Processes() as processes:
         started = processes.start(
-            'ros2', 'run', 'husky_sim', 'replay', str(report), '--port', '18180'
+            'ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18180'
         )
         started.wait_for_text('look at http://')
         yield started
@@ -86,7 +86,7 @@ def test_the_slider_reaches_the_end_and_play_begins_again(page: Tab) -> None:
 def test_ctrl_c_ends_a_replay_within_two_seconds(report: Path, slack: float) -> None:
     with Processes() as processes:
         replay = processes.start(
-            'ros2', 'run', 'husky_sim', 'replay', str(report), '--port', '18280'
+            'ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18280'
         )
         replay.wait_for_text('look at http://')
         begun = time.monotonic()

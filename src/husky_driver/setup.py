@@ -30,20 +30,20 @@ setup(
         installed(config, '*.schema.json', 'config'),
         installed(config / 'waypoints', '*.yaml', 'config/waypoints'),
     ],
-    install_requires=['setuptools'],
+    install_requires=['setuptools', 'numpy'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
     maintainer_email='maintainers@playpen-lab.example',
-    description='Drives the Husky along a path of waypoints, and judges how well it did.',
+    description='Drives the Husky along a path of waypoints.',
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            'drive = husky_driver.start:drive',
-            'follow_path = husky_driver.start:follow_path',
-            'check = husky_driver.start:check',
-            'grade = husky_driver.start:grade',
-            'supervise = husky_driver.start:supervise',
-            'teleop = husky_driver.start:teleop',
+            'follow_path = husky_driver.programs:follow_path',
+            'teleop = husky_driver.programs:teleop',
+            # Where students looked for them before.
+            'check = husky_driver.programs:moved',
+            'drive = husky_driver.programs:moved',
+            'grade = husky_driver.programs:moved',
         ],
     },
 )

@@ -9,7 +9,7 @@ import signal
 import subprocess
 from types import TracebackType
 
-from husky_sim.parent_death import die_with_parent
+from husky_runtime.parent_death import die_with_parent
 
 from playpen_testing.chromium import Program
 from playpen_testing.devtools import DevTools

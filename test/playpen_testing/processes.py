@@ -11,7 +11,7 @@ import subprocess
 import threading
 from types import TracebackType
 
-from husky_sim.parent_death import die_with_parent
+from husky_runtime.parent_death import die_with_parent
 
 from playpen_testing.waiting import wait_until
 

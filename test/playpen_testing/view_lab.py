@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from geometry_msgs.msg import Twist
-from husky_sim.domains import OwnDomain
+from husky_runtime.domains import OwnDomain
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
@@ -40,7 +40,7 @@ class Lab:
         self._environment = environment
         self.simulator = self.start_simulator()
         self.view = processes.start(
-            *('ros2', 'run', 'husky_sim', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
+            *('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
             *('-p', f'waypoints_folder:={folder}'),
             environment=environment,
         )

@@ -12,7 +12,7 @@ import sys
 import textwrap
 import time
 
-from husky_sim.domains import OwnDomain
+from husky_runtime.domains import OwnDomain
 import pytest
 
 SOURCES = Path(__file__).resolve().parent.parent / 'src'

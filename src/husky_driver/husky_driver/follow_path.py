@@ -9,18 +9,18 @@ import signal
 import sys
 from types import FrameType
 
+from husky_course.waypoints.waypoint_file import Course, load_course
+from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.executor import make_executor
+from husky_runtime.start import signals_held_back
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from husky_driver.command_line import BAD_INPUT, Parser
-from husky_driver.distance_drive import DistanceDrive
-from husky_driver.drive import Drive
-from husky_driver.executor import make_executor
-from husky_driver.node import FollowPath, INTERRUPTED, TERMINATED
+from husky_driver.drive.distance_drive import DistanceDrive
+from husky_driver.drive.drive import Drive
 from husky_driver.prompt import ask_move
-from husky_driver.start import signals_held_back
-from husky_driver.waypoints import Course, load_course
+from husky_driver.ros.node import FollowPath, INTERRUPTED, TERMINATED
 
 
 def main(args: Sequence[str] | None = None) -> int:
@@ -81,13 +81,10 @@ def _checked(node: FollowPath, course: Course) -> Drive:
     """
     settings, log = node.settings, node.get_logger()
     if settings.check != 'off':
-        try:
-            with signals_held_back():
-                from husky_driver.clearance import survey
-        except ImportError:  # on a real robot there is no simulator that knows the obstacles
-            return node.new_drive(course)
+        with signals_held_back():
+            from husky_driver.course_check import near_passes
         x, y, yaw = settings.start
-        near = survey(course, world=settings.world, start=(x, y, yaw)).near
+        near = near_passes(course, world=settings.world, start=(x, y, yaw))
         for place in near:
             log.warning(f'{course.file}: {place}')
         if near and settings.check == 'refuse':

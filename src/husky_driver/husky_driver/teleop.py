@@ -16,6 +16,9 @@ import tty
 from typing import Any
 
 from geometry_msgs.msg import Twist
+from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.executor import make_executor
+from husky_runtime.start import signals_held_back
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -24,11 +27,8 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 
-from husky_driver.command_line import BAD_INPUT, Parser
-from husky_driver.executor import make_executor
 from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, split_keys
 from husky_driver.motion import Command, STOP
-from husky_driver.start import signals_held_back
 
 PERIOD_SEC = 0.05
 DELIVERY_SEC = 0.5  # how long the last command, a stop, may take to whoever listens

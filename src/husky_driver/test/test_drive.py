@@ -7,11 +7,11 @@ from pathlib import Path
 import random
 from typing import Any
 
-from husky_driver.distance_drive import DistanceDrive
-from husky_driver.drive import Drive
+from husky_course.waypoints.waypoint_file import Course, load_course, parse_course
+from husky_driver.drive.distance_drive import DistanceDrive
+from husky_driver.drive.drive import Drive
+from husky_driver.drive.slip import NO_SLIP
 from husky_driver.motion import Command, Odometry
-from husky_driver.slip import NO_SLIP
-from husky_driver.waypoints import Course, load_course, parse_course
 import pytest
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from husky_driver.lookout import FRONT_M, LASER_X_M, look_along, Lookout, Scan, Sighting
-from husky_driver.path import smooth_curve
+from husky_course.route.path import smooth_curve
+from husky_driver.checks.lookout import FRONT_M, LASER_X_M, look_along, Lookout, Scan, Sighting
 import pytest
 
 BEAMS, FIRST = 721, -math.pi / 2

@@ -16,8 +16,8 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_driver.executor import make_executor
 from husky_driver.motion import Command
+from husky_runtime.executor import make_executor
 from nav_msgs.msg import Odometry
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue

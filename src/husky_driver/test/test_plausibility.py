@@ -3,8 +3,8 @@
 import math
 
 from geometry_msgs.msg import Quaternion
+from husky_driver.checks.plausibility import no_rotation, OdometryCheck
 from husky_driver.motion import Odometry
-from husky_driver.plausibility import no_rotation, OdometryCheck
 from hypothesis import given, settings, strategies
 import pytest
 

@@ -3,7 +3,7 @@
 from io import StringIO
 import math
 
-from husky_driver.progress import Progress, Tally
+from husky_driver.ros.progress import Progress, Tally
 import pytest
 
 

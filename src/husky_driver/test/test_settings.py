@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-from husky_driver.settings import refuse_unknown, Settings
+from husky_driver.ros.settings import refuse_unknown, Settings
 import pytest
 
 

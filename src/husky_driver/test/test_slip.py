@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+from husky_driver.drive.slip import NO_SLIP, SlipCorrection, SlipModel
 from husky_driver.motion import Odometry
-from husky_driver.slip import NO_SLIP, SlipCorrection, SlipModel
 import pytest
 
 

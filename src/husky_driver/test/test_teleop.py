@@ -12,9 +12,9 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_driver.executor import make_executor
 from husky_driver.keys import Keyboard, MOVES, split_keys
 from husky_driver.motion import Command, STOP
+from husky_runtime.executor import make_executor
 import pytest
 import rclpy
 

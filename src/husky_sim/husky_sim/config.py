@@ -11,11 +11,10 @@ are its description and its range as a ROS parameter.
 from dataclasses import dataclass, field
 from typing import Any
 
+from husky_course.robot import RobotStart
+
 CONTROL_PERIOD_SEC = 0.02
 """The velocity controller, the odometry and the IMU all run at 50 Hz."""
-
-ROBOT_LENGTH_M = 0.9874
-ROBOT_WIDTH_M = 0.6851
 
 
 def setting(default: Any, description: str, low: float = 0.0, high: float = 0.0) -> Any:
@@ -69,10 +68,9 @@ class SensorConfig:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RobotStart:
-    """A robot's name and where it starts: metres and radians in the frame `world`."""
+class StartConfig:
+    """Where the only robot starts: metres and radians in the frame `world`."""
 
-    name: str = 'husky'
     x: float = setting(0.0, 'Start in the frame world, m.', -1000.0, 1000.0)
     y: float = setting(0.0, 'Start in the frame world, m.', -1000.0, 1000.0)
     yaw: float = setting(0.0, 'Heading at the start, rad.', -1000.0, 1000.0)

@@ -6,8 +6,7 @@ What can be wrong with what the simulator is given.
 SimulatorError
 ├── WorldError        the file, or what stands in it
 ├── StartPoseError    where a robot should start
-├── SettingError      any other parameter
-└── DomainError       the DDS domain: another simulator is there, or none is free
+└── SettingError      any other parameter
 
 Each message is one line for the person who started the simulator.
 """
@@ -27,7 +26,3 @@ class StartPoseError(SimulatorError):
 
 class SettingError(SimulatorError):
     """A parameter has a value that is not allowed."""
-
-
-class DomainError(SimulatorError):
-    """A DDS domain is taken."""

@@ -7,16 +7,17 @@ It knows neither ROS nor the wall clock, so a run is a function of the world fil
 and the commands, bit for bit.
 """
 
+from husky_course.robot import RobotStart
 import mujoco
 
-from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, RobotStart, SimulationConfig
-from husky_sim.contacts import Touch, TouchDetector
-from husky_sim.diff_drive import VelocityController, WheelOdometry
-from husky_sim.husky import Husky, set_grip
-from husky_sim.imu import Imu, new_noise
-from husky_sim.localization import PlanarFilter
-from husky_sim.sensors import Sensors
-from husky_sim.world import load_world, World
+from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, SimulationConfig
+from husky_sim.robot.contacts import Touch, TouchDetector
+from husky_sim.robot.diff_drive import VelocityController, WheelOdometry
+from husky_sim.robot.husky import Husky, set_grip
+from husky_sim.sensors.imu import Imu, new_noise
+from husky_sim.sensors.localization import PlanarFilter
+from husky_sim.sensors.sensors import Sensors
+from husky_sim.world.world import load_world, World
 
 PERIOD_NS = round(CONTROL_PERIOD_SEC * 1e9)
 

@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulate a Husky in the playpen."""
 
-from husky_sim.shared_memory import clean_shared_memory
+from ament_index_python import get_resource, get_resources
+from husky_runtime.shared_memory import clean_shared_memory
 from launch import LaunchContext, LaunchDescription
-from launch.actions import DeclareLaunchArgument, Shutdown
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import IfCondition
 from launch.events.process import ProcessExited
 from launch.substitutions import LaunchConfiguration, NotSubstitution, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
+
+VIEWS = 'husky_sim.view'  # the type of the resource in the ament index
 
 # What is handed on to the simulator as parameters: name, default, type, description.
 PARAMETERS = (
@@ -29,6 +32,23 @@ def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
     if event.returncode < 0:
         clean_shared_memory()  # a killed process leaves its own
     return None if context.is_shutdown else Shutdown(reason='the simulator has ended')
+
+
+def _views(_context: LaunchContext, page: dict[str, ParameterValue]) -> list[Node]:
+    """Start the views: a package that has one registers its executable in the ament index."""
+    packages = get_resources(VIEWS)
+    if not packages:
+        raise RuntimeError('viewer:=true needs a view, and none is installed: build husky_view')
+    return [
+        Node(
+            package=package,
+            executable=get_resource(VIEWS, package)[0].strip(),
+            namespace=LaunchConfiguration('namespace'),
+            output='screen',
+            parameters=[page],
+        )
+        for package in packages
+    ]
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -92,13 +112,8 @@ def generate_launch_description() -> LaunchDescription:
                 parameters=[LaunchConfiguration('params_file'), given],
                 on_exit=_end_all,
             ),
-            Node(
-                package='husky_sim',
-                executable='view',
-                namespace=LaunchConfiguration('namespace'),
-                output='screen',
-                parameters=[page],
-                condition=IfCondition(LaunchConfiguration('viewer')),
+            OpaqueFunction(
+                function=_views, args=[page], condition=IfCondition(LaunchConfiguration('viewer'))
             ),
         ]
     )

@@ -5,11 +5,12 @@
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from husky_sim.domains import OwnDomain
+from husky_course.robot import RobotStart
+from husky_runtime.domains import OwnDomain
 from husky_sim.simulation import Simulation
 import pytest
 
-from husky_sim.config import CONTROL_PERIOD_SEC, RobotStart, SimulationConfig
+from husky_sim.config import CONTROL_PERIOD_SEC, SimulationConfig
 
 WORLDS = Path(__file__).resolve().parents[3] / 'worlds'
 

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any
 from unittest import mock
 
-from husky_sim.cdr import decode, encode, encode_with_places
+from husky_sim.messages.cdr import decode, encode, encode_with_places
 from hypothesis import example, given, settings, strategies
 import numpy as np
 import pytest
@@ -69,7 +69,7 @@ def messages_of(kind: Any) -> Any:
 
 def padding_of(message: Any) -> set[int]:
     """Return the places of the bytes that stand for nothing."""
-    with mock.patch('husky_sim.cdr_stream._PADDING', b'\xff'):
+    with mock.patch('husky_sim.messages.cdr_stream._PADDING', b'\xff'):
         filled = encode(message)
     pairs = enumerate(zip(filled, encode(message), strict=True))
     return {place for place, (one, other) in pairs if one != other}

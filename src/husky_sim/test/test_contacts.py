@@ -7,11 +7,12 @@ import csv
 import math
 from pathlib import Path
 
-from husky_sim.contacts import Touch
+from husky_course.robot import ROBOT_LENGTH_M, RobotStart
+from husky_sim.robot.contacts import Touch
 from husky_sim.simulation import Simulation
 import pytest
 
-from husky_sim.config import ROBOT_LENGTH_M, RobotStart, SimulationConfig
+from husky_sim.config import SimulationConfig
 
 OnAsphalt = Callable[..., Simulation]
 WORLDS = Path(__file__).resolve().parents[3] / 'worlds'

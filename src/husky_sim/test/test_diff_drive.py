@@ -4,7 +4,7 @@
 
 import math
 
-from husky_sim.diff_drive import VelocityController, WheelOdometry, wrapped
+from husky_sim.robot.diff_drive import VelocityController, WheelOdometry, wrapped
 from hypothesis import given
 from hypothesis import strategies as st
 import pytest

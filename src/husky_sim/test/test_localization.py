@@ -6,8 +6,8 @@ from collections.abc import Callable
 import math
 from pathlib import Path
 
-from husky_sim.imu import disturbed, new_noise
-from husky_sim.localization import PlanarFilter
+from husky_sim.sensors.imu import disturbed, new_noise
+from husky_sim.sensors.localization import PlanarFilter
 from husky_sim.simulation import SimulatedRobot, Simulation
 import numpy as np
 import pytest

@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_sim.navsat import VARIANCE_M2
-from husky_sim.sensor_topics import new_scan
+from husky_course.robot import RobotStart
+from husky_sim.messages import messages
+from husky_sim.ros.sensor_topics import new_scan
+from husky_sim.sensors.navsat import VARIANCE_M2
 from husky_sim.simulation import Simulation
 import mujoco
 from nav_msgs.msg import Odometry
@@ -18,8 +20,7 @@ import pytest
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Imu, JointState, NavSatFix
 
-from husky_sim import messages
-from husky_sim.config import RobotStart, SimulationConfig
+from husky_sim.config import SimulationConfig
 
 Drive = Callable[..., None]
 STAMP = (2_000_000_000, 987_654_321)

@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_sim.node import SimulatorNode
+from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 import pytest
 import rclpy
@@ -88,7 +88,7 @@ class Stand:
 
 @pytest.fixture
 def stand(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stand]:
-    monkeypatch.setattr('husky_sim.packed_message.deserialize_message', refuse)
+    monkeypatch.setattr('husky_sim.messages.packed_message.deserialize_message', refuse)
     made = Stand(domain_id)
     yield made
     made.close()

@@ -4,15 +4,14 @@
 
 import math
 
-from husky_sim.outline import clearances, least_clearance, Outline
-from husky_sim.silhouette import outline_of
+from husky_course.obstacles.outline import clearances, least_clearance, Outline
+from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
+from husky_sim.world.silhouette import outline_of
 from hypothesis import given
 from hypothesis import strategies as st
 import mujoco
 import numpy as np
 import pytest
-
-from husky_sim.config import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 
 HALF_LENGTH, HALF_WIDTH = ROBOT_LENGTH_M / 2.0, ROBOT_WIDTH_M / 2.0
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulated time against a wall clock that the tests turn by hand."""
 
-from husky_sim.pacing import Pacer
+from husky_sim.ros.pacing import Pacer
 import pytest
 
 

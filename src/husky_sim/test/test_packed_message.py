@@ -12,8 +12,9 @@ from typing import Any
 from unittest import mock
 
 from geometry_msgs.msg import Point, Twist
-from husky_sim.cdr import decode, encode
-from husky_sim.packed_message import PackedMessage, prove, proven_form
+from husky_sim.messages import messages, packed_message
+from husky_sim.messages.cdr import decode, encode
+from husky_sim.messages.packed_message import PackedMessage, prove, proven_form
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
@@ -21,13 +22,11 @@ import rclpy.serialization
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import NavSatFix
 
-from husky_sim import messages, packed_message
-
 PROCESSES = 20  # 200 of them: benchmark/fresh_packing.py
 PROGRAM = """
 from hashlib import sha256
-from husky_sim.messages import packed_messages
-from husky_sim.packed_message import prove
+from husky_sim.messages.messages import packed_messages
+from husky_sim.messages.packed_message import prove
 
 for message in packed_messages():
     prove(message)
@@ -53,7 +52,7 @@ def test_padding_of_any_byte_changes_nothing(make: Callable[[], PackedMessage]) 
     plain = distinct(make())
     expected = plain.unpacked()
     for byte in range(256):
-        with mock.patch('husky_sim.cdr_stream._PADDING', bytes([byte])):
+        with mock.patch('husky_sim.messages.cdr_stream._PADDING', bytes([byte])):
             filled = distinct(make())
             foreign = encode(expected)
         # Within what is packed at once, the padding is packed too.
@@ -72,7 +71,7 @@ def test_what_the_memory_held_gets_into_no_message(
     def filled(message: Any, kind: Any) -> bytes:
         """Serialize as over memory that held another byte each time."""
         data, form = bytearray(serialize(message, kind)), encode(message)
-        with mock.patch('husky_sim.cdr_stream._PADDING', b'\xff'):
+        with mock.patch('husky_sim.messages.cdr_stream._PADDING', b'\xff'):
             marked = encode(message)
         padding = [place for place, byte in enumerate(form) if byte != marked[place]]
         for place in [*padding, *range(len(form), len(data))]:

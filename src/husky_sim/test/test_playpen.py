@@ -6,12 +6,11 @@ import csv
 from pathlib import Path
 from typing import Any
 
-from husky_sim.world import load_world, World
+from husky_course.robot import RobotStart
+from husky_sim.world.world import load_world, World
 import mujoco
 import numpy as np
 import pytest
-
-from husky_sim.config import RobotStart
 
 # Poses and masses are those of the world state block of clearpath_playpen.world, outlines those
 # of its collision boxes and of the meshes it names.

@@ -8,11 +8,11 @@ import subprocess
 import sys
 import time
 
-from husky_sim.record import read_record
+from husky_course.record.record import read_record
 import pytest
 
 
-def run_process(*arguments: str, module: str = 'husky_sim.node') -> 'subprocess.Popen[str]':
+def run_process(*arguments: str, module: str = 'husky_sim.ros.node') -> 'subprocess.Popen[str]':
     return subprocess.Popen(
         [sys.executable, '-m', module, '--ros-args', *arguments],
         stderr=subprocess.PIPE,
@@ -31,7 +31,7 @@ def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int)
 
 def test_a_signal_while_it_still_loads_ends_it_without_a_word(domain_id: int) -> None:
     del domain_id
-    process = run_process(module='husky_sim.start')
+    process = run_process(module='husky_sim.programs')
     maps = Path(f'/proc/{process.pid}/maps')
     deadline = time.monotonic() + 20.0
     while 'numpy' not in maps.read_text():
@@ -48,7 +48,7 @@ def test_a_signal_ends_it_soon_and_the_record_is_whole(
     del domain_id
     path = tmp_path / 'deep' / 'run.record'
     process = run_process(
-        '-p', f'record:={path}', '-p', 'real_time_factor:=0.0', module='husky_sim.start'
+        '-p', f'record:={path}', '-p', 'real_time_factor:=0.0', module='husky_sim.programs'
     )
     assert process.stderr is not None
     assert 'obstacles' in process.stderr.readline()

@@ -14,12 +14,12 @@ import time
 import tracemalloc
 from typing import Any
 
-from husky_sim.blocks import block_of, read_blocks
+from husky_course.record.blocks import block_of, read_blocks
+from husky_course.record.record import COLUMNS, FILE_NAME, read_record, RecordRefused
 from husky_sim.errors import SettingError
-from husky_sim.record import COLUMNS, FILE_NAME, read_record, RecordRefused
-from husky_sim.recorder import open_recorder, RunRecorder
+from husky_sim.recording.recorder import open_recorder, RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world import default_worlds
+from husky_sim.world.world import default_worlds
 import numpy as np
 import pytest
 
@@ -111,9 +111,9 @@ def test_a_record_cut_off_anywhere_is_read_up_to_there(path: Path, tmp_path: Pat
 
 PROGRAM = """
 import sys
-from husky_sim.recorder import RunRecorder
+from husky_sim.recording.recorder import RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world import default_worlds
+from husky_sim.world.world import default_worlds
 from husky_sim.config import SimulationConfig
 simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'empty.xml')))
 recorder = RunRecorder(simulation, sys.argv[1])

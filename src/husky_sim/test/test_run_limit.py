@@ -7,7 +7,8 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_sim.node import SimulatorNode
+from husky_sim.ros import node as simulator_node
+from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 import pytest
 import rclpy
@@ -15,8 +16,6 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-
-from husky_sim import node as simulator_node
 
 
 def run_until(

@@ -7,16 +7,17 @@ import math
 from pathlib import Path
 
 from builtin_interfaces.msg import Time
-from husky_sim.camera import Camera
+from husky_course.robot import RobotStart
 from husky_sim.errors import SettingError
-from husky_sim.sensor_topics import new_camera_info, new_image
-from husky_sim.sensors import Rate
+from husky_sim.ros.sensor_topics import new_camera_info, new_image
+from husky_sim.sensors import lidar, navsat
+from husky_sim.sensors.camera import Camera
+from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import Simulation
 import numpy as np
 import pytest
 
-from husky_sim import lidar, navsat
-from husky_sim.config import RobotStart, SensorConfig, SimulationConfig
+from husky_sim.config import SensorConfig, SimulationConfig
 
 OnAsphalt = Callable[..., Simulation]
 Drive = Callable[..., None]
@@ -207,7 +208,7 @@ def test_where_nothing_can_be_drawn_the_camera_says_so_in_one_line(
     def refuse(name: str) -> None:
         raise ImportError(f'no {name}:\nlibEGL.so is missing')
 
-    monkeypatch.setattr('husky_sim.camera.import_module', refuse)
+    monkeypatch.setattr('husky_sim.sensors.camera.import_module', refuse)
     simulation = simulate()
     with pytest.raises(SettingError, match='set camera_rate_hz to 0') as refused:
         Camera('husky', simulation.model, simulation.data)

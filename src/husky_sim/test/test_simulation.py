@@ -9,10 +9,11 @@ import struct
 import subprocess
 import sys
 
+from husky_course.robot import RobotStart
 from husky_sim.simulation import Simulation
 import pytest
 
-from husky_sim.config import RobotStart, SensorConfig, SimulationConfig
+from husky_sim.config import SensorConfig, SimulationConfig
 
 WORLD = str(Path(__file__).resolve().parents[3] / 'worlds' / 'playpen.xml')
 

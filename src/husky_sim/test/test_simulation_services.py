@@ -13,8 +13,8 @@ import sys
 from types import SimpleNamespace
 from typing import Any
 
-from husky_sim.node import SimulatorNode
-from husky_sim.simulation_services import add_simulation_services
+from husky_sim.ros.node import SimulatorNode
+from husky_sim.ros.simulation_services import add_simulation_services
 import pytest
 from rclpy.context import Context
 from rclpy.parameter import Parameter

@@ -14,13 +14,13 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
+from husky_sim.ros import transforms
 from husky_sim.simulation import Simulation
 import mujoco
 import numpy as np
 import pytest
 from rclpy.qos import DurabilityPolicy
 
-from husky_sim import transforms
 from husky_sim.config import SimulationConfig
 
 Drive = Callable[..., None]

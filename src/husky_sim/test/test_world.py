@@ -6,13 +6,14 @@ from collections.abc import Callable
 import math
 from pathlib import Path
 
+from husky_course.robot import RobotStart
 from husky_sim.errors import StartPoseError, WorldError
 from husky_sim.simulation import Simulation
-from husky_sim.world import load_world
+from husky_sim.world.world import load_world
 import mujoco
 import pytest
 
-from husky_sim.config import RobotStart, SimulationConfig
+from husky_sim.config import SimulationConfig
 
 FLOOR = '<geom name="floor" type="plane" size="5 5 1"/>'
 

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-from husky_sim.domains import OwnDomain
+from husky_runtime.domains import OwnDomain
 import pytest
 
 HERE = Path(__file__).resolve().parent

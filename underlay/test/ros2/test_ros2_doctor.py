@@ -12,7 +12,7 @@ import subprocess
 import sys
 from typing import Any
 
-from husky_sim.domains import OwnDomain
+from husky_runtime.domains import OwnDomain
 import pytest
 
 

@@ -1,0 +1,146 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Look along a course, before anything moves, for obstacles that the robot would pass too near."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+import numpy as np
+
+from husky_course.obstacles.outline import clearances, Outline
+from husky_course.route.path import Curve
+from husky_course.route.route import lead_in, Leg, plan_route
+from husky_course.waypoints.waypoint_file import Course
+
+ENOUGH_M = 0.15  # what a good drive may be off the path, and a little
+STEP_M = 0.05
+TURN_STEP_RAD = 0.1
+
+Pose = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class NearPass:
+    """Where the robot would come too near; `waypoint` is the one it drives to."""
+
+    waypoint: int
+    line: int
+    obstacle: str
+    clearance_m: float
+    x: float  # in the frame world
+    y: float
+
+    def __str__(self) -> str:
+        """Return the warning for the person who wrote the course."""
+        how = 'touches' if self.clearance_m <= 0.0 else f'passes {self.clearance_m:.2f} m from'
+        return (
+            f'line {self.line}: on the way to waypoint {self.waypoint + 1} the robot {how} '
+            f'{self.obstacle} near ({self.x:.2f}, {self.y:.2f}); keep {ENOUGH_M} m away'
+        )
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What was found along a course."""
+
+    obstacles: tuple[Outline, ...]
+    near: tuple[NearPass, ...]
+    least_m: float | None
+    nearest: str
+
+
+def survey(
+    course: Course, obstacles: Sequence[Outline], *, start: Pose = (0.0, 0.0, 0.0)
+) -> Survey:
+    """
+    Return where the robot, driving exactly on the course, would come too near to an obstacle.
+
+    :param start: where the robot starts in the frame world: m, m, rad.
+    """
+    found = tuple(obstacles)
+    if not found:
+        return Survey(found, (), None, '')
+    poses, numbers = _poses(course, start)
+    table = np.array([clearances(poses, [obstacle]) for obstacle in found])
+    nearest = int(table.min(axis=1).argmin())
+    return Survey(
+        obstacles=found,
+        near=tuple(_near_passes(course, poses, numbers, table, [o.name for o in found])),
+        least_m=float(table.min()),
+        nearest=found[nearest].name,
+    )
+
+
+def _near_passes(
+    course: Course, poses: np.ndarray, numbers: np.ndarray, table: np.ndarray, names: list[str]
+) -> list[NearPass]:
+    """Return the nearest place for each pair of waypoint and obstacle."""
+    passes = []
+    for number in sorted(set(numbers.tolist())):
+        part = np.nonzero(numbers == number)[0]
+        for name, distances in zip(names, table[:, part], strict=True):
+            k = int(distances.argmin())
+            if distances[k] < ENOUGH_M:
+                x, y, _ = poses[part[k]]
+                waypoint = number % len(course.waypoints)
+                line = course.waypoints[waypoint].line
+                passes.append(
+                    NearPass(waypoint, line, name, float(distances[k]), float(x), float(y))
+                )
+    return passes
+
+
+def _poses(course: Course, start: Pose) -> tuple[np.ndarray, np.ndarray]:
+    """Return poses in the frame world, and the number of the waypoint each one leads to."""
+    poses: list[Pose] = []
+    numbers: list[int] = []
+    heading = 0.0
+    way = lead_in(course, (0.0, 0.0))
+    for leg in [*([way] if way else []), *plan_route(course)]:
+        back = math.pi if leg.reverse else 0.0
+        first = (leg.curve.x[0], leg.curve.y[0])
+        facing = leg.curve.heading[0] + back
+        turn = _turn(*first, heading, facing)
+        poses += turn
+        numbers += [leg.first] * len(turn)
+        driven = _drive(leg.curve, back)
+        poses += driven
+        numbers += _numbers(leg, len(driven))
+        heading = leg.curve.heading[-1] + back
+        if leg.end_yaw_rad is not None:
+            turn = _turn(leg.curve.x[-1], leg.curve.y[-1], heading, leg.end_yaw_rad)
+            poses += turn
+            numbers += [leg.last] * len(turn)
+            heading = leg.end_yaw_rad
+    x0, y0, yaw0 = start
+    cos, sin = math.cos(yaw0), math.sin(yaw0)
+    table = np.array(poses)
+    turned = np.array([[cos, sin], [-sin, cos]])
+    table[:, :2] = table[:, :2] @ turned + (x0, y0)
+    table[:, 2] += yaw0
+    return table, np.array(numbers)
+
+
+def _turn(x: float, y: float, begin: float, end: float) -> list[Pose]:
+    angle = math.remainder(end - begin, 2 * math.pi)
+    count = math.ceil(abs(angle) / TURN_STEP_RAD)
+    return [(x, y, begin + angle * k / count) for k in range(count)]
+
+
+def _drive(curve: Curve, back: float) -> list[Pose]:
+    count = max(2, math.ceil(curve.length_m / STEP_M))
+    places = [curve.length_m * k / count for k in range(count + 1)]
+    return [(*curve.point_at(s), curve.heading_at(s) + back) for s in places]
+
+
+def _numbers(leg: Leg, count: int) -> list[int]:
+    knots, result, piece = leg.curve.knot_s, [], 0
+    for k in range(count):
+        s = leg.curve.length_m * k / (count - 1)
+        while piece < len(knots) - 2 and s > knots[piece + 1]:
+            piece += 1
+        result.append(leg.first + piece + 1)
+    return result

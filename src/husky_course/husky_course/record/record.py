@@ -1,0 +1,312 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The record of a run: everything that a report or a replay needs, in one file of blocks.
+
+First a header (JSON: world, robots, obstacles, ...), then tables of one row a control period, and
+between them lists of events (JSON: collisions, pushed bodies, disturbances, the end). `recorder`
+writes it while the run goes on, this module reads it, and nothing else does either.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from husky_course.obstacles.outline import least_clearance, Outline
+from husky_course.record.blocks import read_blocks
+from husky_course.record.events import Touch
+from husky_course.robot import RobotStart
+
+FORMAT = 'husky_playpen_record'
+VERSION = 2
+FILE_NAME = 'run.record'
+COLUMNS = (
+    'time_sec',
+    'x',
+    'y',
+    'yaw',
+    'odom_x',
+    'odom_y',
+    'odom_yaw',
+    'speed_m_s',
+    'yaw_rate_rad_s',
+    'command_speed_m_s',
+    'command_yaw_rate_rad_s',
+)
+MAX_SPEED_M_S = 3.0
+"""Three times what the wheels can do: faster is no Husky."""
+MAX_POSITION_M = 1e6
+MAX_YAW_RAD = 1e6
+MAX_ASKED = 1e3
+"""Of speeds and yaw rates, asked or driven, m/s and rad/s."""
+MAX_OBSTACLES = 10_000
+
+_BOUNDS = {
+    **dict.fromkeys(('x', 'y', 'odom_x', 'odom_y'), MAX_POSITION_M),
+    **dict.fromkeys(('yaw', 'odom_yaw'), MAX_YAW_RAD),
+    **dict.fromkeys(('speed_m_s', 'yaw_rate_rad_s'), MAX_ASKED),
+    **dict.fromkeys(('command_speed_m_s', 'command_yaw_rate_rad_s'), MAX_ASKED),
+}
+
+Array = npt.NDArray[np.float64]
+
+
+class RecordRefused(ValueError):
+    """A file is no record that can be believed; the message is one line for a person."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Disturbance:
+    """Somebody else spoke on a topic of this run: when it was noticed, where, and who."""
+
+    time_sec: float
+    topic: str
+    nodes: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Push:
+    """Where a body went that was pushed."""
+
+    time_sec: Array
+    qpos: Array  # (n, joint coordinates of the body)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Record:
+    """A run: one row of `rows` for every control period; the first is the start."""
+
+    file: str
+    world: str
+    robots: tuple[RobotStart, ...]
+    obstacles: tuple[Outline, ...]
+    rows: Array  # (periods + 1, robots, len(COLUMNS))
+    collisions: tuple[Touch, ...] = ()
+    pushed: Mapping[str, Push] = field(default_factory=dict)  # by the name of the body
+    disturbances: tuple[Disturbance, ...] = ()
+    complete: bool = True  # false: the simulator ended before it could say so
+
+    def column(self, robot: int, name: str) -> Array:
+        """Return one column of a robot, a view."""
+        return self.rows[:, robot, COLUMNS.index(name)]
+
+    def begin(self, robot: int) -> int:
+        """Return the entry at which a robot got its first command, or was touched before."""
+        command = COLUMNS.index('command_speed_m_s')
+        told = self.rows[:, robot, command : command + 2].any(axis=1)
+        begin = max(int(told.argmax()) - 1, 0)  # an entry holds the command of what it ends
+        name = self.robots[robot].name
+        first_sec = min((t.time_sec for t in self.collisions if t.robot == name), default=math.inf)
+        touched = int(np.searchsorted(self.rows[:, robot, 0], first_sec + 1e-9)) - 1
+        return min(begin, max(touched, 0))
+
+    def min_clearance_m(self, robot: int) -> float | None:
+        """Return how near a robot came to an obstacle; None where there is none."""
+        if not self.obstacles:
+            return None
+        first = COLUMNS.index('x')
+        return least_clearance(self.rows[:, robot, first : first + 3], self.obstacles)
+
+
+def read_record(path: str | Path) -> Record:
+    """
+    Read a record, or the one in a report's folder.
+
+    :raises RecordRefused: if there is none, or nobody could have driven it.
+    """
+    file = Path(path)
+    if file.is_dir():
+        file = file / FILE_NAME
+    try:
+        if file.exists() and not file.is_file():
+            raise RecordRefused(f'{file}: not a file; give the record of a run')
+        with file.open('rb') as stream:
+            return _read(str(file), read_blocks(stream), file.stat().st_size)
+    except OSError as error:
+        raise RecordRefused(
+            f'{file}: cannot be read: {error.strerror}; give the record of a run, or the folder '
+            'of its report'
+        ) from error
+    except RecordRefused:
+        raise
+    except (ValueError, KeyError, TypeError, OverflowError, MemoryError) as error:
+        raise RecordRefused(
+            f'{file}: damaged, or not the record of a run ({error}); drive it again'
+        ) from error
+
+
+def _read(file: str, blocks: Iterator[Any], size: int) -> Record:
+    header = next(blocks, None)
+    if not isinstance(header, dict) or header.get('format') != FORMAT:
+        raise RecordRefused(f'{file}: not the record of a run (format is not {FORMAT!r})')
+    if header['version'] != VERSION:
+        raise RecordRefused(
+            f'{file}: version {header["version"]!r}, but only {VERSION} is known here; drive again'
+        )
+    if tuple(header['columns']) != COLUMNS:
+        raise ValueError('other columns')
+    robots = tuple(_robot(entry) for entry in header['robots'])
+    if not robots:
+        raise ValueError('no robots')
+    table = np.empty((size // (8 * len(robots) * len(COLUMNS)), len(robots), len(COLUMNS)))
+    count, events = 0, _Events(frozenset(robot.name for robot in robots))
+    for block in blocks:
+        if isinstance(block, np.ndarray):
+            if block.shape[1:] != table.shape[1:]:
+                raise ValueError('a table of another shape')
+            table[count : count + len(block)] = block
+            count += len(block)
+        else:
+            events.take(block)
+    rows = table[:count]
+    _check_rows(rows, robots, _number(header['control_period_sec']))
+    return Record(
+        file=file,
+        world=_text(header['world']),
+        robots=robots,
+        obstacles=_outlines(header['obstacles']),
+        rows=rows,
+        collisions=events.collisions(float(rows[-1, 0, 0])),
+        pushed=events.pushed(),
+        disturbances=tuple(events.disturbances),
+        complete=events.complete,
+    )
+
+
+class _Events:
+    """Collects what happened between the rows."""
+
+    def __init__(self, robots: frozenset[str]) -> None:
+        self._robots = robots
+        self._touches: list[Touch] = []
+        self._pushes: dict[str, tuple[list[float], list[list[float]]]] = {}
+        self.disturbances: list[Disturbance] = []
+        self.complete = False
+
+    def take(self, events: Any) -> None:
+        for event in events:
+            kind = event['event']
+            if kind == 'collision':
+                self._touches.append(self._touch(event))
+            elif kind == 'pushed':
+                times, poses = self._pushes.setdefault(_text(event['body']), ([], []))
+                times.append(_number(event['time_sec']))
+                poses.append([_number(value) for value in event['qpos']])
+            elif kind == 'disturbance':
+                self.disturbances.append(_disturbance(event))
+            elif kind == 'end':
+                self.complete = True
+            else:
+                raise ValueError(f'unknown event {kind!r}')
+
+    def _touch(self, event: Mapping[str, Any]) -> Touch:
+        x, y, z = (_number(value) for value in event['position'])
+        if event['robot'] not in self._robots:
+            raise ValueError(f'a collision of {event["robot"]!r}, which is no robot of the run')
+        return Touch(
+            robot=event['robot'],
+            obstacle=_text(event['obstacle']),
+            part=_text(event['part']),
+            time_sec=_number(event['time_sec']),
+            force_n=_number(event['force_n']),
+            position=(x, y, z),
+        )
+
+    def collisions(self, end_sec: float) -> tuple[Touch, ...]:
+        """Return them in order; of a record that was cut off, those that its rows reach."""
+        if any(touch.time_sec < 0.0 for touch in self._touches):
+            raise ValueError('a collision before the run')
+        inside = [touch for touch in self._touches if touch.time_sec <= end_sec + 1e-9]
+        if self.complete and len(inside) < len(self._touches):
+            raise ValueError('a collision after the run')
+        return tuple(sorted(inside, key=lambda touch: touch.time_sec))
+
+    def pushed(self) -> dict[str, Push]:
+        return {
+            name: Push(time_sec=np.array(times), qpos=np.array(poses, dtype=np.float64))
+            for name, (times, poses) in self._pushes.items()
+        }
+
+
+def _check_rows(rows: Array, robots: tuple[RobotStart, ...], period_sec: float) -> None:
+    """Refuse what no simulation gives: holes, NaN, time that runs back, jumps."""
+    if not len(rows):
+        raise ValueError('no entries')
+    if not np.isfinite(rows).all():
+        raise ValueError('NaN or infinity among its numbers')
+    for name, most in _BOUNDS.items():
+        column = np.abs(rows[:, :, COLUMNS.index(name)])
+        if column.max() > most:
+            raise ValueError(f'{name} of {column.max():.3g}, but {most:g} is the most')
+    time = rows[:, :, 0]
+    steps = np.diff(time, axis=0)
+    if not 0.0 < period_sec <= 1.0 or time.min() < 0.0 or (np.ptp(time, axis=1) > 0.0).any():
+        raise ValueError('times that are none')
+    if (wrong := np.flatnonzero(np.abs(steps - period_sec).max(axis=1, initial=0.0) > 1e-6)).size:
+        begin, end = time[wrong[0] : wrong[0] + 2, 0]
+        raise ValueError(f'its time goes from {begin:.2f} s to {end:.2f} s in one step')
+    most_m = MAX_SPEED_M_S * period_sec + 1e-3
+    for place, robot in enumerate(robots):
+        for name in ('x', 'odom_x'):
+            first = COLUMNS.index(name)
+            way = np.diff(rows[:, place, first : first + 2], axis=0)
+            jumps = np.flatnonzero(np.hypot(way[:, 0], way[:, 1]) > most_m)
+            if jumps.size:
+                raise ValueError(
+                    f'{robot.name} jumps {np.hypot(*way[jumps[0]]):.2f} m at '
+                    f'{time[jumps[0] + 1, 0]:.2f} s, which no Husky can'
+                )
+
+
+def _robot(entry: Mapping[str, Any]) -> RobotStart:
+    x, y, yaw = _pose(entry['start'])
+    return RobotStart(name=_text(entry['name']), x=x, y=y, yaw=yaw)
+
+
+def _outlines(entries: Any) -> tuple[Outline, ...]:
+    if len(entries) > MAX_OBSTACLES:
+        raise ValueError(f'{len(entries)} obstacles, but {MAX_OBSTACLES} are the most')
+    return tuple(_outline(entry) for entry in entries)
+
+
+def _outline(entry: Mapping[str, Any]) -> Outline:
+    x, y, yaw = _pose([entry[name] for name in ('x', 'y', 'yaw')])
+    size = tuple(_number(value) for value in entry['size'])
+    if len(size) not in (1, 2):
+        raise ValueError('an obstacle that is neither circle nor rectangle')
+    if min(size) <= 0.0 or max(size) > MAX_POSITION_M:
+        raise ValueError(f'an obstacle of the size {size}')
+    return Outline(name=_text(entry['name']), x=x, y=y, yaw=yaw, size=size)
+
+
+def _disturbance(event: Mapping[str, Any]) -> Disturbance:
+    return Disturbance(
+        time_sec=_number(event['time_sec']),
+        topic=_text(event['topic']),
+        nodes=tuple(_text(name) for name in event['nodes']),
+    )
+
+
+def _pose(values: Any) -> tuple[float, float, float]:
+    x, y, yaw = (_number(value) for value in values)
+    if max(abs(x), abs(y)) > MAX_POSITION_M or abs(yaw) > MAX_YAW_RAD:
+        raise ValueError(f'a place at ({x:.3g}, {y:.3g}) with yaw {yaw:.3g}')
+    return x, y, yaw
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError(f'{value!r:.40} instead of a number')
+    return float(value)
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f'{value!r:.40} instead of a text')
+    value.encode()  # half a surrogate pair cannot be: UnicodeEncodeError is a ValueError
+    return value

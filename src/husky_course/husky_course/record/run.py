@@ -1,0 +1,111 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The record of a run as a judge sees it: one robot, in the robot's own frame `odom`.
+
+Its time begins with the drive, which begins with the first command: what the robot waited before
+has negative times.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+import hashlib
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from husky_course.obstacles.outline import Outline
+from husky_course.record.events import Touch as Collision
+from husky_course.record.record import COLUMNS, Disturbance, Record, RecordRefused
+
+__all__ = ['Collision', 'Outline', 'RecordRefused', 'RunRecord', 'read_run']
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class RunRecord:
+    """One robot's run; every array has one entry a control period."""
+
+    time_sec: Array  # since the drive began
+    x: Array  # true pose in the frame the robot's odometry started in
+    y: Array
+    yaw: Array
+    odom_x: Array
+    odom_y: Array
+    odom_yaw: Array
+    speed_m_s: Array
+    yaw_rate_rad_s: Array
+    command_speed_m_s: Array
+    command_yaw_rate_rad_s: Array
+    begin: int  # the entry at which the drive began
+    start: tuple[float, float, float]  # in the frame world
+    collisions: tuple[Collision, ...]
+    disturbances: tuple[Disturbance, ...]
+    obstacles: tuple[Outline, ...]
+    min_clearance_m: float | None
+    trajectory_sha256: str
+    complete: bool  # false: the simulator ended before it could say so
+
+    def to_world(self, x: Array, y: Array) -> tuple[Array, Array]:
+        x0, y0, yaw0 = self.start
+        cos, sin = math.cos(yaw0), math.sin(yaw0)
+        return x0 + cos * x - sin * y, y0 + sin * x + cos * y
+
+
+def read_run(record: Record, robot: str | None = None) -> RunRecord:
+    """
+    Return one robot's run.
+
+    :param robot: its name; None takes the only one.
+    :raises RecordRefused: when the robot is not in the record.
+    """
+    place = _place_of(record, robot)
+    start = record.robots[place]
+    begin = record.begin(place)
+    begin_sec = float(record.rows[begin, place, 0])
+    table = {column: record.column(place, column) for column in COLUMNS}
+    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
+    moved_x, moved_y = table['x'] - start.x, table['y'] - start.y
+    yaw = table['yaw'] - start.yaw
+    table |= {
+        'time_sec': table['time_sec'] - begin_sec,
+        'x': cos * moved_x + sin * moved_y,
+        'y': cos * moved_y - sin * moved_x,
+        'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
+    }
+    return RunRecord(
+        **table,
+        begin=begin,
+        start=(start.x, start.y, start.yaw),
+        collisions=tuple(
+            replace(touch, time_sec=touch.time_sec - begin_sec)
+            for touch in record.collisions
+            if touch.robot == start.name
+        ),
+        # What was there before the drive was there when it began.
+        disturbances=tuple(
+            replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
+            for entry in record.disturbances
+        ),
+        obstacles=record.obstacles,
+        min_clearance_m=record.min_clearance_m(place),
+        trajectory_sha256=_digest(record, place),
+        complete=record.complete,
+    )
+
+
+def _digest(record: Record, place: int) -> str:
+    """Hash time and true pose of every period, as they are: four little-endian doubles each."""
+    return hashlib.sha256(record.rows[:, place, :4].astype('<f8').tobytes()).hexdigest()
+
+
+def _place_of(record: Record, robot: str | None) -> int:
+    names = [start.name for start in record.robots]
+    if robot is None and len(names) > 1:
+        raise RecordRefused(f'the record has {len(names)} robots; name one of: {", ".join(names)}')
+    if robot is not None and robot not in names:
+        raise RecordRefused(f'robot {robot!r} is not in the record; it has: {", ".join(names)}')
+    return 0 if robot is None else names.index(robot)

@@ -1,0 +1,281 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read a waypoint file into a checked, frozen course; every mistake is named at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+import math
+from pathlib import Path
+import re
+
+from husky_course.waypoints.yaml_tree import FileRefused, parse_yaml, Problem, read_yaml, Value
+
+MIN_SPEED_M_S = 0.05
+MAX_SPEED_M_S = 1.0  # the velocity controller's limit
+MIN_TOLERANCE_M = 0.05
+MAX_TOLERANCE_M = 1.0
+MAX_COORDINATE_M = 1000.0
+MAX_DWELL_SEC = 600.0
+MAX_WAYPOINTS = 1000
+MAX_LENGTH_M = 2000.0
+MIN_SPACING_M = 0.05
+
+FRAMES = ('odom',)
+CORNERS = ('smooth', 'sharp')
+
+_NUMBER = re.compile(r'[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?', re.ASCII)
+
+
+@dataclass(frozen=True)
+class Waypoint:
+    """A place to drive through, in the frame `odom`; `line` is where the file names it."""
+
+    x_m: float
+    y_m: float
+    speed_m_s: float | None = None  # on the way to this waypoint; None: the course's speed
+    yaw_rad: float | None = None  # stop here and turn to this heading
+    dwell_sec: float = 0.0  # stand here for so long
+    reverse: bool = False  # drive backwards on the way to this waypoint
+    line: int = 0
+
+
+@dataclass(frozen=True)
+class Course:
+    """What a waypoint file asks for."""
+
+    name: str
+    waypoints: tuple[Waypoint, ...]
+    frame: str = 'odom'
+    speed_m_s: float = 0.5
+    tolerance_m: float = 0.25
+    loop: bool = False
+    corners: str = 'smooth'
+    file: str = field(default='', compare=False)
+
+    @property
+    def stops(self) -> tuple[Waypoint, ...]:
+        """Waypoints in the order of driving; a loop comes back to the first."""
+        return (*self.waypoints, self.waypoints[0]) if self.loop else self.waypoints
+
+
+def load_course(path: str | Path) -> Course:
+    """
+    Return the course in a waypoint file.
+
+    :raises FileRefused: with every mistake, each with its line, column and field.
+    """
+    path = Path(path)
+    return _Checker(str(path)).course(read_yaml(path), path.stem)
+
+
+def parse_course(text: str, name: str = 'waypoints.yaml') -> Course:
+    """Return the course in the text of a waypoint file; see `load_course`."""
+    return _Checker(name).course(parse_yaml(text, name), Path(name).stem)
+
+
+class _Checker:
+    """Collects what is wrong while it reads, so that one run shows all of it."""
+
+    def __init__(self, file: str) -> None:
+        self._file = file
+        self._problems: list[Problem] = []
+
+    def course(self, root: Value, name: str) -> Course:
+        given: dict[str, object] = {}
+        if root.kind != 'mapping':
+            example = "begin with 'waypoints:' and one '- [x, y]' a line"
+            self._wrong(root, '', f'{root} instead of a waypoint file; {example}')
+        else:
+            given = self._fields(root, '', _COURSE_FIELDS)
+            if 'waypoints' not in {key.text for key, _ in root.pairs}:
+                self._wrong(root, 'waypoints', "missing; add 'waypoints:' and '- [x, y]' lines")
+        waypoints = given.get('waypoints')
+        if isinstance(waypoints, tuple):
+            self._check_spacing(waypoints, bool(given.get('loop')))
+            if not given.get('loop'):
+                self._check_first(waypoints[0])
+        if self._problems:
+            raise FileRefused(self._file, self._problems)
+        return Course(name=name, file=self._file, **given)  # type: ignore[arg-type]
+
+    def _wrong(self, where: Value, field_name: str, message: str) -> None:
+        self._problems.append(Problem(where.line, where.column, field_name, message))
+
+    def _fields(
+        self,
+        mapping: Value,
+        prefix: str,
+        allowed: dict[str, tuple[str, Callable[[_Checker, Value, str], object]]],
+    ) -> dict[str, object]:
+        """Return the values of a mapping by attribute name; wrong ones are left out."""
+        seen: dict[str, int] = {}
+        result: dict[str, object] = {}
+        for key, value in mapping.pairs:
+            if key.kind != 'scalar' or key.text not in allowed:
+                self._wrong(key, prefix.rstrip('.'), f'{key} is no field; {_choice(key, allowed)}')
+                continue
+            name = prefix + key.text
+            if key.text in seen:
+                self._wrong(key, name, f'given again; it is already in line {seen[key.text]}')
+                continue
+            seen[key.text] = key.line
+            attribute, read = allowed[key.text]
+            checked = read(self, value, name)
+            if checked is not None:
+                result[attribute] = checked
+        return result
+
+    def number(
+        self, value: Value, name: str, low: float, high: float, unit: str, hint: str = ''
+    ) -> float | None:
+        allowed = f'allowed is {low:g} to {high:g} {unit}'
+        if value.kind != 'scalar' or value.quoted or not _NUMBER.fullmatch(value.text):
+            why = ' (a number without quotes)' if value.quoted else _number_hint(value)
+            self._wrong(value, name, f'{value} is not a number{why}; {allowed}')
+            return None
+        number = float(value.text)
+        if not low <= number <= high:
+            self._wrong(value, name, f'{value} is out of range; {allowed}{hint}')
+            return None
+        return number
+
+    def truth(self, value: Value, name: str) -> bool | None:
+        if value.kind == 'scalar' and not value.quoted and value.text in ('true', 'false'):
+            return value.text == 'true'
+        near = {'yes': 'true', 'on': 'true', '1': 'true', 'no': 'false', 'off': 'false'}
+        near |= {'0': 'false', 'true': 'true', 'false': 'false'}
+        meant = near.get(value.text.lower()) if value.kind == 'scalar' else None
+        hint = f'; did you mean {meant}?' if meant else ''
+        self._wrong(value, name, f'{value} is not allowed; write true or false{hint}')
+        return None
+
+    def word(self, value: Value, name: str, allowed: tuple[str, ...]) -> str | None:
+        if value.kind == 'scalar' and value.text in allowed:
+            return value.text
+        self._wrong(value, name, f'{value} is not allowed; {_choice(value, allowed)}')
+        return None
+
+    def waypoints(self, value: Value, name: str) -> tuple[Waypoint, ...] | None:
+        if value.kind != 'list':
+            self._wrong(value, name, f"{value} instead of a list; write one '- [x, y]' a line")
+            return None
+        if not 2 <= len(value.items) <= MAX_WAYPOINTS:
+            count = len(value.items)
+            self._wrong(value, name, f'{count} given; allowed are 2 to {MAX_WAYPOINTS}')
+            return None
+        read = [self._waypoint(item, f'{name}[{i}]') for i, item in enumerate(value.items)]
+        complete = tuple(point for point in read if point is not None)
+        return complete if len(complete) == len(read) else None
+
+    def _waypoint(self, value: Value, name: str) -> Waypoint | None:
+        if value.kind == 'list':
+            return self._pair(value, name)
+        if value.kind != 'mapping':
+            self._wrong(value, name, f'{value} is no waypoint; write [x, y] or {{x: .., y: ..}}')
+            return None
+        before = len(self._problems)
+        given = self._fields(value, name + '.', _WAYPOINT_FIELDS)
+        keys = {key.text for key, _ in value.pairs}
+        for axis in ('x', 'y'):
+            if axis not in keys:
+                self._wrong(value, f'{name}.{axis}', 'missing; every waypoint needs x and y')
+        if len(self._problems) > before:
+            return None
+        return Waypoint(line=value.line, **given)  # type: ignore[arg-type]
+
+    def _pair(self, value: Value, name: str) -> Waypoint | None:
+        if len(value.items) != 2:
+            count = len(value.items)
+            comma = ', with a decimal point and not a comma' if count in (3, 4) else ''
+            self._wrong(value, name, f'{count} values instead of 2; write [x, y]{comma}')
+            return None
+        x = _coordinate(self, value.items[0], f'{name}.x')
+        y = _coordinate(self, value.items[1], f'{name}.y')
+        return None if x is None or y is None else Waypoint(x, y, line=value.line)
+
+    def _check_first(self, first: Waypoint) -> None:
+        """Refuse what nobody would obey: the drive begins there; a loop also ends there."""
+        asked = {'yaw': first.yaw_rad is not None, 'dwell': first.dwell_sec > 0.0}
+        for name in (name for name, given in asked.items() if given):
+            message = 'not for the first waypoint, where the drive begins; leave it out'
+            where = Value(first.line, 1, 'scalar')
+            self._wrong(where, f'waypoints[0].{name}', message)
+
+    def _check_spacing(self, points: tuple[Waypoint, ...], loop: bool) -> None:
+        if loop and len(points) < 3:
+            where = Value(points[0].line, 1, 'scalar')
+            self._wrong(where, 'waypoints', '2 given; a loop needs at least 3')
+        pairs = [(i, i + 1) for i in range(len(points) - 1)]
+        if loop:
+            pairs.append((len(points) - 1, 0))
+        length = 0.0
+        for i, j in pairs:
+            a, b = points[i], points[j]
+            distance = math.hypot(b.x_m - a.x_m, b.y_m - a.y_m)
+            length += distance
+            if distance < MIN_SPACING_M:
+                late, early = (j, i) if j else (i, j)
+                hint = '; leave it out, a loop comes back by itself' if j == 0 else ''
+                where = Value(points[late].line, 1, 'scalar')
+                message = f'{distance:.3f} m from waypoints[{early}]; at least {MIN_SPACING_M} m'
+                self._wrong(where, f'waypoints[{late}]', message + hint)
+        if length > MAX_LENGTH_M:
+            where = Value(points[0].line, 1, 'scalar')
+            message = f'{length:.0f} m from first to last; allowed is up to {MAX_LENGTH_M:g} m'
+            self._wrong(where, 'waypoints', message)
+
+
+def _choice(value: Value, allowed: Iterable[str]) -> str:
+    text = value.text if value.kind == 'scalar' else ''
+    near = get_close_matches(text.lower()[:40], list(allowed), n=1, cutoff=0.5)
+    names = ', '.join(allowed)
+    return (f'did you mean {near[0]}? ' if near else '') + f'allowed: {names}'
+
+
+def _number_hint(value: Value) -> str:
+    text = value.text if value.kind == 'scalar' else ''
+    if re.fullmatch(r'[-+]?\d+,\d+', text, re.ASCII):
+        return f' (write {text.replace(",", ".")})'
+    unit = re.fullmatch(r'([-+]?\d*\.?\d+)\s*[a-zA-Z/%°]+\d?', text, re.ASCII)
+    return f' (write {unit[1]}, without the unit)' if unit else ''
+
+
+def _coordinate(checker: _Checker, value: Value, name: str) -> float | None:
+    return checker.number(value, name, -MAX_COORDINATE_M, MAX_COORDINATE_M, 'm')
+
+
+def _speed(checker: _Checker, value: Value, name: str) -> float | None:
+    hint = '; to drive backwards write reverse: true' if value.text.startswith('-') else ''
+    return checker.number(value, name, MIN_SPEED_M_S, MAX_SPEED_M_S, 'm/s', hint)
+
+
+def _yaw(checker: _Checker, value: Value, name: str) -> float | None:
+    hint = ''
+    if _NUMBER.fullmatch(value.text) and 2 * math.pi < abs(float(value.text)) <= 720:
+        radians = math.remainder(math.radians(float(value.text)), 2 * math.pi)
+        hint = f'; {value.text} degrees would be {radians:.4f}'
+    return checker.number(value, name, -6.2832, 6.2832, 'rad', hint)
+
+
+_COURSE_FIELDS: dict[str, tuple[str, Callable[[_Checker, Value, str], object]]] = {
+    'frame': ('frame', lambda c, v, n: c.word(v, n, FRAMES)),
+    'speed': ('speed_m_s', _speed),
+    'tolerance': (
+        'tolerance_m',
+        lambda c, v, n: c.number(v, n, MIN_TOLERANCE_M, MAX_TOLERANCE_M, 'm'),
+    ),
+    'loop': ('loop', _Checker.truth),
+    'corners': ('corners', lambda c, v, n: c.word(v, n, CORNERS)),
+    'waypoints': ('waypoints', _Checker.waypoints),
+}
+_WAYPOINT_FIELDS: dict[str, tuple[str, Callable[[_Checker, Value, str], object]]] = {
+    'x': ('x_m', _coordinate),
+    'y': ('y_m', _coordinate),
+    'speed': ('speed_m_s', _speed),
+    'yaw': ('yaw_rad', _yaw),
+    'dwell': ('dwell_sec', lambda c, v, n: c.number(v, n, 0.0, MAX_DWELL_SEC, 's')),
+    'reverse': ('reverse', _Checker.truth),
+}

@@ -1,0 +1,146 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Follow a curve: a pose on it gives a speed and a yaw rate.
+
+Steering: the curve's own yaw rate as feed-forward plus linear feedback of offset and heading error
+in the frame of the nearest point (Samson, "Time-varying feedback stabilization of car-like
+wheeled mobile robots", IJRR 12(1), 1993; De Luca, Oriolo, Samson, "Feedback control of a
+nonholonomic car-like robot", 1998). Unlike pure pursuit it does not cut corners. Speed:
+regulated by curvature and by the distance to the end, as in regulated pure pursuit (Macenski,
+Singh, Martin, Gines, arXiv 2305.20026).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from husky_course.route.path import Curve
+
+_TWO_PI = 2 * math.pi
+
+
+@dataclass(frozen=True)
+class DriveLimits:
+    """What the Husky's velocity controller allows, and how much of it the tracker uses."""
+
+    speed_m_s: float = 1.0
+    yaw_rate_rad_s: float = 2.0
+    acceleration_m_s2: float = 3.0
+    yaw_acceleration_rad_s2: float = 6.0
+    braking_m_s2: float = 1.2  # planned, gentle enough to stop on the point
+    lateral_m_s2: float = 1.0  # in bends; wheels begin to slide at about 4
+    bend_yaw_rate_rad_s: float = 1.5  # leaves the rest to the feedback
+    turn_yaw_rate_rad_s: float = 2.0  # turning on the spot
+    turn_braking_rad_s2: float = 4.5
+
+
+@dataclass(frozen=True)
+class TrackerGains:
+    """Feedback in the frame of the path; lengths instead of times, so that speed cancels."""
+
+    offset_per_m2: float = 9.0  # natural frequency squared, 3 per metre
+    heading_per_m: float = 6.0  # twice the natural frequency: no overshoot
+    max_offset_m: float = 0.3  # further away it still steers like this far away
+    delay_sec: float = 0.04  # from odometry to the wheels turning at the new speed
+    preview_sec: float = 0.08  # the curve's yaw rate is commanded this much ahead
+    end_rate_per_s: float = 8.0  # speed over distance left, close to the end
+
+
+def plan_speeds(curve: Curve, asked_m_s: Sequence[float], limits: DriveLimits) -> list[float]:
+    """
+    Return the highest speed at every sample that bends, braking and the end allow.
+
+    :param asked_m_s: the wished speed of each piece between two knots.
+    """
+    speeds: list[float] = []
+    piece = 0
+    for s, curvature in zip(curve.s, curve.curvature, strict=True):
+        while piece < len(asked_m_s) - 1 and s >= curve.knot_s[piece + 1]:
+            piece += 1
+        bend = max(abs(curvature), 1e-6)
+        bent = min(math.sqrt(limits.lateral_m_s2 / bend), limits.bend_yaw_rate_rad_s / bend)
+        speeds.append(min(asked_m_s[piece], bent, limits.speed_m_s))
+    speeds[-1] = 0.0
+    for i in range(len(speeds) - 2, -1, -1):
+        ds = curve.s[i + 1] - curve.s[i]
+        braking = math.sqrt(speeds[i + 1] ** 2 + 2 * limits.braking_m_s2 * ds)
+        speeds[i] = min(speeds[i], braking)
+    return speeds
+
+
+class Tracker:
+    """Keeps its place on one curve; a leg driven backwards faces against its curve."""
+
+    def __init__(
+        self,
+        curve: Curve,
+        speeds_m_s: list[float],
+        *,
+        reverse: bool = False,
+        limits: DriveLimits | None = None,
+        gains: TrackerGains | None = None,
+    ) -> None:
+        self.curve = curve
+        self.s = 0.0
+        self.offset_m = 0.0
+        self.heading_error_rad = 0.0
+        self._speeds = speeds_m_s
+        self.reverse = reverse
+        self._limits = limits or DriveLimits()
+        self._gains = gains or TrackerGains()
+        self._sample = 0
+
+    @property
+    def remaining_m(self) -> float:
+        return self.curve.length_m - self.s
+
+    def locate(self, x: float, y: float, yaw: float) -> None:
+        """Take a pose: find the place on the curve, the offset and the heading error."""
+        self._sample, self.s, self.offset_m = self.curve.project(self._sample, x, y)
+        heading = self.curve.heading_at(self.s) + (math.pi if self.reverse else 0.0)
+        self.heading_error_rad = math.remainder(yaw - heading, _TWO_PI)
+
+    def command(
+        self, x: float, y: float, yaw: float, speed_m_s: float, yaw_rate_rad_s: float
+    ) -> tuple[float, float]:
+        """Return the speed (negative backwards) and yaw rate for the robot's pose and twist."""
+        gains = self._gains
+        delay = gains.delay_sec
+        middle = yaw + yaw_rate_rad_s * delay / 2
+        self.locate(
+            x + speed_m_s * delay * math.cos(middle),
+            y + speed_m_s * delay * math.sin(middle),
+            yaw + yaw_rate_rad_s * delay,
+        )
+        speed = self._speed()
+        error = self.heading_error_rad
+        offset = min(max(self.offset_m, -gains.max_offset_m), gains.max_offset_m)
+        bend = self._bend(speed)
+        ahead = math.cos(error) / max(1.0 - bend * self.offset_m, 0.3)
+        sinc = math.sin(error) / error if abs(error) > 1e-6 else 1.0
+        feedback = gains.offset_per_m2 * offset * sinc + gains.heading_per_m * error
+        limit = self._limits.yaw_rate_rad_s
+        yaw_rate = min(max(speed * (bend * ahead - feedback), -limit), limit)
+        speed *= max(math.cos(error), 0.0)
+        return (-speed if self.reverse else speed), yaw_rate
+
+    def _speed(self) -> float:
+        """Return the planned speed; near the end it falls with the distance left."""
+        speeds, curve = self._speeds, self.curve
+        i = self._sample
+        part = (self.s - curve.s[i]) / (curve.s[i + 1] - curve.s[i])
+        here, there = speeds[i], speeds[i + 1]
+        planned = math.sqrt(max(here * here + part * (there * there - here * here), 0.0))
+        remaining = curve.length_m - self.s
+        return min(planned, max(self._gains.end_rate_per_s * remaining, 0.02))
+
+    def _bend(self, speed: float) -> float:
+        """Return the mean curvature of the stretch that this command will drive."""
+        preview = max(speed * self._gains.preview_sec, 0.02)
+        start = self.s + preview * 0.5
+        end = min(start + preview, self.curve.length_m)
+        start = min(start, end - 0.01)
+        return (self.curve.heading_at(end) - self.curve.heading_at(start)) / (end - start)

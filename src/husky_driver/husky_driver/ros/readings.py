@@ -1,0 +1,65 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the driver takes out of messages, and what is wrong with those that cannot be true."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from nav_msgs.msg import Odometry as OdometryMsg
+from sensor_msgs.msg import Imu, LaserScan
+
+from husky_driver.checks.bump import forward_acceleration
+from husky_driver.checks.lookout import Scan
+from husky_driver.checks.plausibility import no_numbers, no_rotation
+from husky_driver.motion import Odometry, yaw_of
+
+NOT_GIVEN = -1.0  # sensor_msgs/Imu: so a covariance begins whose values nobody measures
+
+
+def time_of(msg: Any) -> float:
+    """Return the time of a message's stamp, in seconds."""
+    stamp = msg.header.stamp
+    return float(stamp.sec + stamp.nanosec * 1e-9)
+
+
+def read_odometry(msg: OdometryMsg) -> Odometry:
+    """Take what the driver needs out of the message."""
+    pose, twist = msg.pose.pose, msg.twist.twist
+    position, q = pose.position, pose.orientation
+    return Odometry(
+        time_of(msg),
+        position.x,
+        position.y,
+        yaw_of(q.x, q.y, q.z, q.w),
+        twist.linear.x,
+        twist.angular.z,
+    )
+
+
+def has_orientation(msg: Imu) -> bool:
+    """Tell whether this IMU knows how it lies; without that, gravity cannot be taken off."""
+    return bool(msg.orientation_covariance[0] != NOT_GIVEN)
+
+
+def read_acceleration(msg: Imu) -> float:
+    """Return what the IMU felt along the robot."""
+    q = msg.orientation
+    return forward_acceleration(msg.linear_acceleration.x, q.x, q.y, q.z, q.w)
+
+
+def read_scan(msg: LaserScan) -> Scan:
+    return Scan(time_of(msg), msg.ranges, msg.angle_min, msg.angle_increment)
+
+
+def wrong_imu(msg: Imu) -> str:
+    """Return why a message of the IMU cannot be true, or nothing."""
+    felt = {'linear_acceleration.x': msg.linear_acceleration.x}
+    return no_rotation(msg.orientation) or no_numbers(felt)
+
+
+def wrong_scan(msg: LaserScan) -> str:
+    """Return why a scan cannot be true, or nothing; single ranges may be no numbers."""
+    angles = {'angle_min': msg.angle_min, 'angle_increment': msg.angle_increment}
+    return no_numbers(angles, 2 * math.pi + 0.01)

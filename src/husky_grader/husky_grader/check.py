@@ -1,0 +1,91 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check a waypoint file, and the course against the obstacles of a world; draw it if asked."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+import sys
+
+from husky_course.obstacles.survey import Pose, Survey
+from husky_course.printable import printable
+from husky_course.route.path import Point
+from husky_course.route.route import plan_route
+from husky_course.waypoints.waypoint_file import Course, load_course
+from husky_driver.drive.time_limit import par_time_sec
+from husky_runtime.command_line import BAD_INPUT, Parser
+
+from husky_grader.world_check import check_course
+
+TOO_NEAR = 1
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    parser = Parser(prog='check', description=__doc__, allow_abbrev=False)
+    parser.add_argument('files', metavar='FILE', nargs='+', help='waypoint files')
+    parser.add_argument('--world', metavar='FILE', default='', help='MJCF world (the playpen)')
+    parser.add_argument(
+        '--start',
+        metavar=('X', 'Y', 'YAW'),
+        nargs=3,
+        type=float,
+        default=(0.0, 0.0, 0.0),
+        help='where the robot starts in the world: m, m, rad (0 0 0)',
+    )
+    parser.add_argument('--draw', metavar='FILE', help='draw the course: a .png or .svg file')
+    parser.add_argument(
+        '--refuse', action='store_true', help='fail when it passes too near, instead of a warning'
+    )
+    options = parser.parse_args(args)
+    if options.draw and len(options.files) > 1:
+        parser.error('--draw draws one course; give one waypoint file')
+    if options.draw and Path(options.draw).suffix not in ('.png', '.svg'):
+        parser.error(f'--draw {options.draw}: the name must end in .png or .svg')
+    return max(_check(name, options) for name in options.files)
+
+
+def _check(name: str, options: argparse.Namespace) -> int:
+    x, y, yaw = options.start
+    try:
+        course = load_course(name)
+        found = check_course(course, world=options.world, start=(x, y, yaw))
+        if options.draw:
+            _draw(course, found, (x, y, yaw), Path(options.draw))
+    except (ValueError, OSError) as error:
+        print(printable(str(error), keep='\n'), file=sys.stderr)
+        return BAD_INPUT
+    for near in found.near:
+        print(printable(f'{name}: {near}'), file=sys.stderr)
+    print(printable(f'{name}: {describe(course, found)}'))
+    return TOO_NEAR if found.near and options.refuse else 0
+
+
+def describe(course: Course, found: Survey) -> str:
+    """Return one line about a course."""
+    legs = plan_route(course)
+    length = sum(leg.curve.length_m for leg in legs)
+    places = 'one place' if len(found.near) == 1 else f'{len(found.near)} places'
+    verdict = f'too near in {places}' if found.near else 'ok'
+    back = ' (the last is the first again)' if course.loop else ''
+    nearest = ''
+    if found.least_m is not None:
+        nearest = f', nearest obstacle {found.nearest} at {found.least_m:.2f} m'
+    return (
+        f'{verdict}: {len(course.stops)} waypoints{back}, {length:.2f} m, '
+        f'about {par_time_sec(legs):.0f} s{nearest}'
+    )
+
+
+def _draw(course: Course, found: Survey, start: Pose, path: Path) -> None:
+    from husky_grader.report.map import course_scene
+    from husky_grader.report.map_png import draw  # matplotlib takes its time
+
+    marks: list[Point] = [(near.x, near.y) for near in found.near]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draw(course_scene(course, found.obstacles, start, marks), path)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

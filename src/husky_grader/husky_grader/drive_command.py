@@ -1,0 +1,98 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Drive a path through the playpen with real nodes, in a domain of their own; then a report."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+import os
+from pathlib import Path
+import sys
+import time
+
+from husky_course.record.record import FILE_NAME
+from husky_course.route.route import plan_route
+from husky_course.waypoints.waypoint_file import load_course
+from husky_driver.drive.time_limit import limit_sec
+from husky_runtime.children import run_to_end
+from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.domains import DomainError, OwnDomain
+
+from husky_grader import check, grade
+from husky_grader.classes.grading import keep_course
+from husky_grader.default_course import default_course
+
+START_SEC = 90.0  # simulated time in which the driver must have begun
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(prog='lab drive', description=__doc__, allow_abbrev=False)
+    parser.add_argument(
+        '--waypoints', metavar='FILE', default=str(default_course()), help='waypoint file to drive'
+    )
+    parser.add_argument(
+        '--fast', action='store_true', help='as fast as this computer can, in lockstep'
+    )
+    parser.add_argument('--no-view', action='store_true', help='without the page in the browser')
+    parser.add_argument('--report', metavar='DIR', default='report', help='where the report goes')
+    return parser
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    options = _parser().parse_args(args)
+    if status := check.main([options.waypoints]):
+        return status
+    folder = Path(options.report)
+    try:
+        _prepare(folder, Path(options.waypoints))
+        with ExitStack() as stack:
+            environment = _environment(stack)
+            begun = time.monotonic()
+            run_to_end(_launch(options, folder), environment)
+        wall_time_sec = time.monotonic() - begun
+    except (OSError, DomainError) as error:
+        print(f'lab drive: {error}', file=sys.stderr)
+        return BAD_INPUT
+    if not (folder / FILE_NAME).is_file():
+        print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
+        return BAD_INPUT
+    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints]
+    return grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
+
+
+def _prepare(folder: Path, waypoints: Path) -> None:
+    """Make the report's folder, without the record of an earlier run."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / FILE_NAME).unlink(missing_ok=True)
+    keep_course(waypoints, folder)
+
+
+def _environment(stack: ExitStack) -> Mapping[str, str]:
+    """Put the run into a domain of its own, unless the user has chosen one."""
+    if os.environ.get('ROS_DOMAIN_ID'):
+        return os.environ
+    number = stack.enter_context(OwnDomain()).number
+    print(f'ROS domain {number}, of this run alone; to look in: export ROS_DOMAIN_ID={number}')
+    sys.stdout.flush()
+    return {**os.environ, 'ROS_DOMAIN_ID': str(number)}
+
+
+def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
+    course = load_course(options.waypoints)
+    arguments = {
+        # The driver keeps a limit of its own; this one ends a run whose driver hangs.
+        'waypoints': str(Path(options.waypoints).resolve()),
+        'limit_sec': f'{limit_sec(plan_route(course)) + START_SEC:.1f}',
+        'record': str(folder.resolve() / FILE_NAME),
+        'real_time_factor': '0.0' if options.fast else '1.0',
+        'lockstep': str(options.fast).lower(),
+        'viewer': str(not options.no_view).lower(),
+    }
+    words = [f'{name}:={value}' for name, value in arguments.items()]
+    return ['ros2', 'launch', 'husky_grader', 'drive.launch.py', *words]
+
+
+if __name__ == '__main__':
+    sys.exit(main())

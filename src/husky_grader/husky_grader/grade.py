@@ -1,0 +1,278 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Grade waypoint files, or a run that the simulator has recorded."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import replace
+import json
+from pathlib import Path
+import sys
+import time
+
+from husky_course.printable import printable
+from husky_course.record.record import read_record
+from husky_course.record.run import read_run, RunRecord
+from husky_course.waypoints.waypoint_file import Course, load_course
+from husky_driver.ros.progress import Tally
+from husky_runtime.command_line import BAD_INPUT, nobody_reads, Parser
+
+from husky_grader.classes.grading import grade_file, Graded
+from husky_grader.classes.worker_pool import Classroom, write_csv
+from husky_grader.default_course import default_course
+from husky_grader.report.report import as_json, summary, write_report
+from husky_grader.scoring.score_parts import FORMULA
+from husky_grader.scoring.scoring import judge, Report
+
+PASSED, NOT_PASSED, INTERRUPTED = 0, 1, 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        prog='grade',
+        description=__doc__,
+        epilog=FORMULA,
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument('files', metavar='FILE', nargs='*', help='waypoint files to grade')
+    parser.add_argument('--record', metavar='FILE', help="what the simulator's 'record' wrote")
+    parser.add_argument('--waypoints', metavar='FILE', help='the course of a record or controller')
+    parser.add_argument(
+        '--controller', metavar='COMMAND', help='grade a node of yours: "ros2 run my_pkg my_node"'
+    )
+    parser.add_argument(
+        '--lab', metavar='FOLDER', help='grade a whole workspace, step by step of the lab sheet'
+    )
+    parser.add_argument(
+        '--answers', metavar='A,B,..', default='', help='what is typed into a controller that asks'
+    )
+    parser.add_argument(
+        '--real-time-factor',
+        metavar='F',
+        type=float,
+        default=1.0,
+        help='how fast the time of a controller passes (1.0)',
+    )
+    parser.add_argument('--robot', metavar='NAME', help='which robot of the record')
+    parser.add_argument(
+        '--report', metavar='DIR', default='report', help='where the reports go (%(default)s)'
+    )
+    parser.add_argument(
+        '--wall-time', metavar='SEC', type=float, help='how long the run took on the clock'
+    )
+    parser.add_argument('--json', action='store_true', help='print the result as JSON')
+    parser.add_argument('--world', metavar='FILE', default='', help='MJCF world (the playpen)')
+    parser.add_argument(
+        '--jobs', metavar='N', type=int, default=0, help='files at a time (as many as cores)'
+    )
+    return parser
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    parser = _parser()
+    options = parser.parse_args(args)
+    if sum(map(bool, (options.files, options.record, options.controller, options.lab))) != 1:
+        parser.error('give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER')
+    if options.record and not options.waypoints:
+        parser.error('--record needs --waypoints FILE, the course that was driven')
+    if options.jobs < 0:
+        parser.error(f'--jobs {options.jobs}: give a number above 0')
+    try:
+        status = _grade(options)
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        return nobody_reads()
+    except ValueError as error:
+        print(printable(str(error), keep='\n'), file=sys.stderr)
+        return BAD_INPUT
+    except OSError as error:
+        print(printable(_why(error)), file=sys.stderr)
+        _give_up_output()
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
+        return INTERRUPTED
+
+
+def _grade(options: argparse.Namespace) -> int:
+    if options.record:
+        return _grade_record(options)
+    if options.controller:
+        return _grade_controller(options)
+    if options.lab:
+        return _grade_lab(options)
+    if len(options.files) == 1:
+        return _grade_one(options)
+    return _grade_many(options)
+
+
+def _grade_record(options: argparse.Namespace) -> int:
+    course = load_course(options.waypoints)
+    run = read_run(read_record(options.record), options.robot)
+    report = judge(run, course, wall_time_sec=options.wall_time)
+    graded = Graded(options.waypoints, as_json(report), summary(report))
+    return _show_one(graded, options, _keep(Path(options.report), report, run, course))
+
+
+def _grade_controller(options: argparse.Namespace) -> int:
+    from husky_grader.run.live import drive_live  # rclpy and the simulator take their time
+
+    begun, folder = time.monotonic(), Path(options.report)
+    course = load_course(options.waypoints or default_course())
+    live = drive_live(
+        options.controller,
+        course,
+        folder,
+        world=options.world,
+        answers=_typed(options.answers),
+        real_time_factor=options.real_time_factor,
+    )
+    run = read_run(live.record)
+    report = judge(run, course, wall_time_sec=time.monotonic() - begun)
+    if not report.passed:
+        report = replace(report, reasons=(*live.notes, *report.reasons))
+    text = f'{summary(report)}\n  the run ended: {live.ending}'
+    graded = Graded(options.controller, as_json(report), text)
+    return _show_one(graded, options, _keep(folder, report, run, course))
+
+
+def _keep(folder: Path, report: Report, run: RunRecord, course: Course) -> str:
+    """Write a report; return why it cannot be written, or nothing: the run is not lost by that."""
+    try:
+        write_report(folder, report, run, course)
+    except OSError as error:
+        return (
+            f'{folder}: the report cannot be written: {error.strerror}; free some space, or name '
+            'another folder with --report DIR'
+        )
+    return ''
+
+
+def _grade_lab(options: argparse.Namespace) -> int:
+    from husky_grader.lab.lab_grading import grade_lab
+    from husky_grader.lab.lab_grading import table as lab_table
+
+    workspace = Path(options.lab)
+    if not workspace.is_dir():
+        raise ValueError(f'{workspace}: no such folder; give your workspace, with src in it')
+    steps = grade_lab(
+        workspace,
+        load_course(options.waypoints or default_course()),
+        Path(options.report),
+        answers=_typed(options.answers),
+        real_time_factor=options.real_time_factor,
+        done=lambda step: print(f'{step.name}: done', file=sys.stderr, flush=True),
+    )
+    if options.json:
+        print((Path(options.report) / 'lab.json').read_text(encoding='utf-8'), end='')
+    else:
+        print(lab_table(steps))
+    return PASSED if all(step.passed for step in steps) else NOT_PASSED
+
+
+def _typed(answers: str) -> str:
+    return answers.replace(',', '\n') + '\n'
+
+
+def _grade_one(options: argparse.Namespace) -> int:
+    graded = grade_file(options.files[0], Path(options.report), world=options.world)
+    return _show_one(graded, options)
+
+
+def _show_one(graded: Graded, options: argparse.Namespace, unwritten: str = '') -> int:
+    if graded.report is None:
+        print(printable(graded.text, keep='\n'), file=sys.stderr)
+        return BAD_INPUT
+    if options.json:
+        print(json.dumps(graded.report, indent=2))
+    else:
+        print(graded.text)
+        if not unwritten:
+            print(printable(f'  report: {Path(options.report) / "report.html"}'))
+    if unwritten:
+        print(printable(unwritten), file=sys.stderr)
+        return BAD_INPUT
+    return PASSED if graded.passed else NOT_PASSED
+
+
+def _grade_many(options: argparse.Namespace) -> int:
+    folder = Path(options.report)
+    folder.mkdir(parents=True, exist_ok=True)
+    tally = Tally(len(options.files), sys.stderr, bar=sys.stderr.isatty())
+    room = Classroom(
+        options.files,
+        folder,
+        world=options.world,
+        jobs=options.jobs,
+        done=lambda number, graded: tally.add(f'{room.names[number]} {graded.score:.1f}'),
+    )
+    try:
+        results = room.grade()
+    finally:
+        tally.close()
+    if options.json:
+        entries = [
+            {'file': graded.file, 'refused': graded.refused or None, 'report': graded.report}
+            for graded in results
+        ]
+        print(json.dumps(entries, indent=2))
+    else:
+        print(table(room.names, results))
+    if missing := _unwritten(folder, room, results):
+        print(printable(missing), file=sys.stderr)
+        return BAD_INPUT
+    if not options.json:
+        print(printable(f'grades: {folder / "grades.csv"}'))
+    return PASSED if all(graded.passed for graded in results) else NOT_PASSED
+
+
+def _unwritten(folder: Path, room: Classroom, results: Sequence[Graded]) -> str:
+    """Write the table; return in one line what of the class could not be written."""
+    lost = [graded.refused for graded in results if graded.unwritten]
+    try:
+        write_csv(folder / 'grades.csv', results)
+    except OSError as error:
+        lost.append(f'grades.csv: {error.strerror}')
+    if room.unsealed:
+        lost.append(f'what was graded cannot be remembered: {room.unsealed}')
+    if not lost:
+        return ''
+    more = f' (and {len(lost) - 1} more)' if len(lost) > 1 else ''
+    return f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest'
+
+
+def _give_up_output() -> None:
+    """Drop what is still to be printed if it cannot be, or Python complains when it ends."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        nobody_reads()
+
+
+def _why(error: OSError) -> str:
+    where = f'{error.filename}: ' if error.filename else ''
+    return f'{where}{error.strerror or error}'
+
+
+def table(names: Sequence[str], results: Sequence[Graded]) -> str:
+    """Return one line a file: name, score, verdict and the first reason."""
+    width = max(map(len, names))
+    lines = []
+    for name, graded in zip(names, results, strict=True):
+        file = printable(graded.file)
+        refused = [line.removeprefix(f'{file}: ') for line in graded.refused.splitlines()]
+        reasons = refused or (graded.report or {})['reasons']
+        verdict = 'passed' if graded.passed else 'refused' if graded.refused else 'not passed'
+        verdict = 'unwritten' if graded.unwritten else verdict
+        more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
+        reason = reasons[0] + more if reasons else ''
+        lines.append(f'{name:<{width}}  {graded.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
+    return '\n'.join(map(printable, lines))
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,120 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Grade a student's whole workspace: every step of the lab sheet, with points and reasons."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, replace
+import json
+from pathlib import Path
+import shutil
+
+from husky_course.record.run import read_run
+from husky_course.waypoints.waypoint_file import Course
+
+from husky_grader.lab.lab_graph import publisher_step, subscriber_step
+from husky_grader.lab.lab_steps import (
+    build_step,
+    driver_package,
+    failed,
+    find_executable,
+    package_step,
+    sourced,
+    Step,
+    workspace_step,
+)
+from husky_grader.report.report import write_report
+from husky_grader.run.live import drive_live
+from husky_grader.scoring.scoring import judge
+
+POINTS = {
+    **{'workspace': 5.0, 'topic_demo': 10.0, 'driver': 5.0, 'build': 15.0},
+    **{'publisher': 20.0, 'subscriber': 15.0, 'drive': 30.0},
+}
+
+
+def grade_lab(
+    workspace: Path,
+    course: Course,
+    folder: Path,
+    *,
+    answers: str = '',
+    real_time_factor: float = 1.0,
+    done: Callable[[Step], None] = lambda _step: None,
+) -> list[Step]:
+    """Grade step after step; a step that cannot be tried for want of another gets nothing."""
+    folder = folder.resolve()
+    shutil.rmtree(folder / 'install', ignore_errors=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    steps = []
+    for step in _files_and_graph(workspace.resolve(), folder):
+        steps.append(step)
+        done(step)
+    step = _drive_step(workspace, course, folder, answers, real_time_factor)
+    steps.append(step)
+    done(step)
+    total = sum(step.points for step in steps)
+    content = {'score': total, 'steps': [asdict(step) for step in steps]}
+    (folder / 'lab.json').write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
+    return steps
+
+
+def _files_and_graph(workspace: Path, folder: Path) -> Iterator[Step]:
+    yield workspace_step(workspace, POINTS['workspace'])
+    yield package_step(workspace, 'topic_demo', POINTS['topic_demo'])
+    yield package_step(workspace, driver_package(workspace), POINTS['driver'])
+    yield build_step(workspace, folder, POINTS['build'])
+    if not _is_built(folder):
+        for name in ('publisher', 'subscriber'):
+            yield failed(name, POINTS[name], 'nothing was built')
+        return
+    try:
+        environment = sourced(folder)
+    except ValueError as error:
+        for name in ('publisher', 'subscriber'):
+            yield failed(name, POINTS[name], str(error))
+        return
+    yield publisher_step(folder, environment, POINTS['publisher'])
+    yield subscriber_step(folder, environment, POINTS['subscriber'])
+
+
+def _is_built(folder: Path) -> bool:
+    return (folder / 'install' / 'local_setup.bash').is_file()
+
+
+def _drive_step(
+    workspace: Path, course: Course, folder: Path, answers: str, real_time_factor: float
+) -> Step:
+    most = POINTS['drive']
+    if not _is_built(folder):
+        return failed('drive', most, 'nothing was built')
+    try:
+        program = find_executable(folder, driver_package(workspace), 'follow_path')
+        environment = sourced(folder)
+    except ValueError as error:
+        return failed('drive', most, str(error))
+    live = drive_live(
+        str(program),
+        course,
+        folder / 'drive',
+        answers=answers,
+        environment=environment,
+        real_time_factor=real_time_factor,
+    )
+    run = read_run(live.record)
+    report = judge(run, course)
+    if not report.passed:
+        report = replace(report, reasons=(*live.notes, *report.reasons))
+    write_report(folder / 'drive', report, run, course)
+    why = '; '.join(report.reasons) if report.reasons else f'{report.course} passed'
+    return Step('drive', most, most * report.score / 100.0, why)
+
+
+def table(steps: list[Step]) -> str:
+    """Return one line a step, and the sum."""
+    lines = [
+        f'{step.name:<22} {step.points:5.1f} of {step.most:4.0f}  {step.why}' for step in steps
+    ]
+    total, most = sum(step.points for step in steps), sum(step.most for step in steps)
+    return '\n'.join([*lines, f'{"total":<22} {total:5.1f} of {most:4.0f}'])

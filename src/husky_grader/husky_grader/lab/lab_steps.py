@@ -1,0 +1,171 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The steps of the lab that can be judged by looking at files: workspace, packages, build."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import re
+import signal
+from tempfile import TemporaryFile
+import xml.etree.ElementTree as ElementTree
+
+from husky_runtime.children import descendants_ended, Process
+
+BUILD_WITHIN_SEC = 300.0
+SOURCE_WITHIN_SEC = 60.0
+WORKSPACE_NAME = re.compile(r'CSE461[_ -]?\d+[_ -]\d+')
+DEPENDENCIES = {'topic_demo': ('rclpy', 'std_msgs')}
+DRIVING = ('rclpy', 'geometry_msgs')
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the lab: what it was worth, what it got, and what to do about the rest."""
+
+    name: str
+    most: float
+    points: float
+    why: str
+
+    @property
+    def passed(self) -> bool:
+        return self.points >= self.most
+
+
+def failed(name: str, most: float, why: str, share: float = 0.0) -> Step:
+    return Step(name, most, most * share, why)
+
+
+def workspace_step(workspace: Path, most: float) -> Step:
+    """Look at the workspace's name and its src folder."""
+    name = 'workspace'
+    if not (workspace / 'src').is_dir():
+        return failed(name, most, f'{workspace} has no folder src; packages live in it')
+    if not WORKSPACE_NAME.fullmatch(workspace.name):
+        why = f'named {workspace.name}; the sheet asks for CSE461_<section>_<group>'
+        return failed(name, most, why, 0.5)
+    return Step(name, most, most, f'{workspace.name} with a folder src')
+
+
+def package_step(workspace: Path, package: str, most: float) -> Step:
+    """Look at a package's manifest."""
+    name = f'package {package}'
+    folder = find_package(workspace, package)
+    if folder is None:
+        have = ', '.join(sorted(_packages(workspace))) or 'none'
+        return failed(name, most, f'not in {workspace / "src"}; packages there: {have}')
+    root = ElementTree.parse(folder / 'package.xml').getroot()
+    given = {element.text for element in root if element.tag.endswith('depend')}
+    missing = [wanted for wanted in DEPENDENCIES.get(package, DRIVING) if wanted not in given]
+    if missing:
+        lines = ' '.join(f'<exec_depend>{wanted}</exec_depend>' for wanted in missing)
+        return failed(name, most, f'package.xml lacks: {lines}', 0.5)
+    if root.findtext('export/build_type') != 'ament_python':
+        why = 'package.xml lacks <export><build_type>ament_python</build_type></export>'
+        return failed(name, most, why, 0.5)
+    return Step(name, most, most, 'package.xml is complete')
+
+
+def driver_package(workspace: Path) -> str:
+    """Return the package with the driving in it: husky_driver, as in the sheet, or another."""
+    packages = _packages(workspace)
+    others = (name for name in packages if list(packages[name].glob('**/follow_path.py')))
+    return 'husky_driver' if 'husky_driver' in packages else next(others, 'husky_driver')
+
+
+def find_package(workspace: Path, package: str) -> Path | None:
+    return _packages(workspace).get(package)
+
+
+def _packages(workspace: Path) -> dict[str, Path]:
+    found = {}
+    for manifest in sorted((workspace / 'src').glob('**/package.xml')):
+        try:
+            root = ElementTree.parse(manifest).getroot()
+        except (ElementTree.ParseError, OSError):
+            continue
+        found[(root.findtext('name') or '').strip()] = manifest.parent
+    return found
+
+
+def build_step(workspace: Path, folder: Path, most: float) -> Step:
+    """Build the workspace with colcon, into the report's folder, so that nothing of it changes."""
+    command = ['colcon', '--log-base', str(folder / 'log'), 'build']
+    command += ['--base-paths', str(workspace / 'src')]
+    command += ['--build-base', str(folder / 'build'), '--install-base', str(folder / 'install')]
+    try:
+        exit_code = _run(command, folder / 'build.log')
+    except FileNotFoundError:
+        return failed('build', most, 'colcon is not installed here')
+    if exit_code is None:
+        return failed('build', most, f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
+    if exit_code != 0:
+        why = _first_error((folder / 'build.log').read_text(encoding='utf-8', errors='replace'))
+        return failed('build', most, f'colcon build failed: {why}')
+    return Step('build', most, most, 'colcon build succeeded')
+
+
+def _run(command: list[str], log: Path) -> int | None:
+    """Run it and end all that it started; return its exit code, None where it took too long."""
+    with (
+        log.open('w', encoding='utf-8') as stream,
+        descendants_ended(),
+        Process(command, os.environ, stream, parent_death=signal.SIGKILL) as process,
+    ):
+        return process.exit_code if process.wait(BUILD_WITHIN_SEC) else None
+
+
+def _first_error(text: str) -> str:
+    lines = [line.strip() for line in text.splitlines() if 'rror' in line]
+    return lines[0] if lines else 'see build.log'
+
+
+def sourced(folder: Path) -> dict[str, str]:
+    """
+    Return the environment after sourcing what was built.
+
+    :raises ValueError: when that fails or takes too long.
+    """
+    script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
+    command = ['bash', '-c', script, str(folder)]
+    with (
+        TemporaryFile('w+', encoding='utf-8', errors='surrogateescape', newline='') as told,
+        descendants_ended(),
+        Process(command, os.environ, told, parent_death=signal.SIGKILL) as process,
+    ):
+        in_time = process.wait(SOURCE_WITHIN_SEC)
+        told.seek(0)
+        pairs = [entry.partition('=') for entry in told.read().split('\0') if entry]
+    if not in_time:
+        raise ValueError(
+            f'sourcing install/local_setup.bash took longer than {SOURCE_WITHIN_SEC:g} s; '
+            'a hook of a package waits for something: take it out'
+        )
+    if process.exit_code != 0 or not pairs:
+        raise ValueError(
+            f'sourcing install/local_setup.bash ended the shell (exit code {process.exit_code}); '
+            'a hook of a package must not call exit'
+        )
+    return {name: value for name, _, value in pairs}
+
+
+def find_executable(folder: Path, package: str, name: str) -> Path:
+    """
+    Return an executable that `ros2 run` would find.
+
+    :raises ValueError: when there is none, saying what there is.
+    """
+    programs = folder / 'install' / package / 'lib' / package
+    for candidate in (programs / name, programs / f'{name}.py'):
+        if candidate.is_file() and os.access(candidate, os.X_OK):
+            return candidate
+    if not (folder / 'install' / package).is_dir():
+        raise ValueError(f'ros2 run {package} {name} finds nothing: there is no package {package}')
+    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
+    raise ValueError(
+        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
+        f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+    )

@@ -1,0 +1,108 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Decide when the run of somebody's controller is over; times are simulated ones."""
+
+from __future__ import annotations
+
+import math
+
+from husky_course.route.route import lead_in, plan_route
+from husky_course.waypoints.waypoint_file import Course
+from husky_driver.drive.time_limit import TimeLimit
+
+from husky_grader.run.approach import Approach
+
+START_WITHIN_SEC = 20.0  # from when its process started
+REST_SEC = 8.0  # a robot that stands so long is not going on (beside a dwell of the course), ...
+REST_AT_END_SEC = 2.0  # ... or so long at the end of the course, ...
+REST_ALONE_SEC = 1.0  # ... or when the controller has ended
+STANDING_M_S = 0.02
+STANDING_RAD_S = 0.05
+
+
+class Referee:
+    """Watches the true pose, in the frame the robot started in."""
+
+    def __init__(self, course: Course, *, start_within_sec: float = START_WITHIN_SEC) -> None:
+        self._start_within_sec = start_within_sec
+        legs = plan_route(course)
+        self._goal = course.stops[-1]
+        self._tolerance_m = course.tolerance_m
+        self._half_m = sum(leg.curve.length_m for leg in legs) / 2
+        way = lead_in(course, (0.0, 0.0))
+        self._limit = TimeLimit([*([way] if way else []), *legs], 0.0)
+        self._approach = Approach(course)
+        self._dwells = [stop for stop in course.stops[:-1] if stop.dwell_sec > 0.0]
+        self._heard_sec: float | None = None
+        self._now_sec = 0.0  # from the first pose on; a reset takes nothing back
+        self._started = False
+        self._resting_since_sec = 0.0
+        self._driven_m = 0.0
+        self._last = (0.0, 0.0)
+
+    @property
+    def started(self) -> bool:
+        """Tell whether the robot has moved."""
+        return self._started
+
+    def over(
+        self,
+        time_sec: float,
+        place: tuple[float, float],
+        *,
+        speed_m_s: float,
+        yaw_rate_rad_s: float,
+        running: bool,
+    ) -> str:
+        """Return why the run is over, or nothing; `running` tells of the controller's process."""
+        if self._heard_sec is None:
+            self._heard_sec, self._last = time_sec, place
+        self._now_sec += max(time_sec - self._heard_sec, 0.0)
+        self._heard_sec = time_sec
+        self._driven_m += math.dist(place, self._last)
+        self._last = place
+        moving = abs(speed_m_s) > STANDING_M_S or abs(yaw_rate_rad_s) > STANDING_RAD_S
+        if moving or not self._started:
+            self._resting_since_sec = self._now_sec
+        self._started = self._started or moving
+        nearer = self._approach.is_nearer(place)
+        if not self._started:
+            self._limit.complaint(self._now_sec, nearer=nearer, held=True)
+            return self._before_start(self._now_sec, running=running)
+        return self._at_rest(place, running=running) or self._limit.complaint(
+            self._now_sec, nearer=nearer, dwelling=self._dwell_sec(place) > self._rest_sec
+        )
+
+    @property
+    def _rest_sec(self) -> float:
+        return self._now_sec - self._resting_since_sec
+
+    def _at_rest(self, place: tuple[float, float], *, running: bool) -> str:
+        """Return why a robot that stands will not go on; one that is to dwell may stand long."""
+        rest_sec, dwell_sec = self._rest_sec, self._dwell_sec(place)
+        if not running and rest_sec > REST_ALONE_SEC:
+            return 'the controller has ended'
+        if rest_sec > REST_AT_END_SEC + dwell_sec and self._at_end(place):
+            return 'it stands at the end of the course'
+        allowed_sec = REST_SEC + dwell_sec
+        return f'it stood still for {allowed_sec:.0f} s' if rest_sec > allowed_sec else ''
+
+    def _dwell_sec(self, place: tuple[float, float]) -> float:
+        """Return for how long the course lets it stand here."""
+        near = (
+            stop.dwell_sec
+            for stop in self._dwells
+            if math.dist(place, (stop.x_m, stop.y_m)) <= self._tolerance_m
+        )
+        return max(near, default=0.0)
+
+    def _before_start(self, waited_sec: float, *, running: bool) -> str:
+        if not running and waited_sec > REST_ALONE_SEC:
+            return 'the controller has ended'
+        if waited_sec > self._start_within_sec:
+            return f'nothing moved for {self._start_within_sec:.0f} s'
+        return ''
+
+    def _at_end(self, place: tuple[float, float]) -> bool:
+        away = math.dist(place, (self._goal.x_m, self._goal.y_m))
+        return self._driven_m > self._half_m and away <= self._tolerance_m

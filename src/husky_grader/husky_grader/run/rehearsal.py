@@ -1,0 +1,157 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Drive a course in one process: the simulator's physics and the driver, without DDS between them.
+
+Both are pure, and in lockstep each odometry message is answered by one command; so the trajectory
+is the same as that of the two nodes in lockstep, bit for bit, in a fraction of the time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+import math
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from husky_course.record.record import FILE_NAME, read_record, Record
+from husky_course.robot import RobotStart
+from husky_course.waypoints.waypoint_file import Course
+from husky_driver.checks.bump import forward_acceleration
+from husky_driver.drive.drive import Drive
+from husky_driver.drive.slip import NO_SLIP
+from husky_driver.motion import Command, Odometry, relative, yaw_of
+from husky_sim.errors import SimulatorError
+from husky_sim.recording.recorder import RunRecorder
+from husky_sim.simulation import SimulatedRobot, Simulation
+from husky_sim.world.world import default_worlds
+
+from husky_sim.config import CONTROL_PERIOD_SEC, SimulationConfig
+
+PERIODS_A_SECOND = round(1.0 / CONTROL_PERIOD_SEC)
+
+Pose = tuple[float, float, float]
+Controller = Callable[[Odometry], Command | None]
+Feel = Callable[[float, float], None]
+
+
+def drive_course(
+    course: Course,
+    *,
+    world: str = '',
+    start: Pose = (0.0, 0.0, 0.0),
+    odometry: str = 'filtered',
+    record: Path | None = None,
+    each_second: Callable[[], object] = lambda: None,
+) -> tuple[Record, Drive]:
+    """
+    Drive the course to its end; return the simulator's record and the drive.
+
+    :param world: MJCF file; empty: the playpen.
+    :param odometry: which pose to follow: filtered, wheel or ground_truth.
+    :param record: the file to keep the record in; None keeps none.
+    :param each_second: called with every second of simulated time.
+    :raises ValueError: when the world or the start cannot be used.
+    :raises OSError: when the record cannot be written.
+    """
+    drive = Drive(course, slip=NO_SLIP if odometry == 'ground_truth' else None)
+    driven = drive_with(
+        drive.step,
+        feel=drive.feel,
+        world=world,
+        start=start,
+        odometry=odometry,
+        record=record,
+        each_second=each_second,
+    )
+    return driven, drive
+
+
+def drive_with(
+    controller: Controller,
+    *,
+    feel: Feel = lambda _time_sec, _acceleration_m_s2: None,
+    world: str = '',
+    start: Pose = (0.0, 0.0, 0.0),
+    odometry: str = 'filtered',
+    limit_sec: float = math.inf,
+    record: Path | None = None,
+    each_second: Callable[[], object] = lambda: None,
+) -> Record:
+    """
+    Let a controller answer each odometry until it answers None; return the record.
+
+    :param feel: called with the time and the forward acceleration of each sample of the IMU.
+    :param limit_sec: for a controller that never answers None; a `Drive` has a limit of its own.
+    """
+    simulation = _at_start(world, start)
+    with TemporaryDirectory() as folder:
+        file = record or Path(folder) / FILE_NAME
+        with RunRecorder(simulation, file) as recorder:
+            (robot,) = simulation.robots
+            while simulation.time_sec < limit_sec:
+                command = controller(_heard(simulation.time_ns, robot, odometry))
+                if command is None:
+                    break
+                robot.controller.command(*command, time_sec=simulation.time_sec)
+                simulation.advance()
+                feel(_time_sec(simulation.time_ns), _acceleration(robot))
+                recorder.append()
+                if simulation.periods % PERIODS_A_SECOND == 0:
+                    each_second()
+        return read_record(file)
+
+
+def _at_start(world: str, start: Pose) -> Simulation:
+    x, y, yaw = start
+    config = SimulationConfig(
+        world=world or str(default_worlds() / 'playpen.xml'),
+        robots=(RobotStart(x=x, y=y, yaw=yaw),),
+    )
+    try:
+        simulation = _loaded(config)
+    except SimulatorError as error:
+        raise ValueError(str(error)) from None
+    simulation.reset()
+    return simulation
+
+
+@lru_cache(maxsize=1)
+def _loaded(config: SimulationConfig) -> Simulation:
+    """Keep the last world: a class drives a hundred courses in the same one."""
+    return Simulation(config)
+
+
+def _heard(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
+    """Return what the driver hears, to the last bit of the message."""
+    time_sec = _time_sec(time_ns)
+    if odometry == 'ground_truth':
+        return _truth(time_sec, robot)
+    pose = robot.filtered if odometry == 'filtered' else robot.odometry
+    return Odometry(
+        time_sec,
+        pose.x,
+        pose.y,
+        yaw_of(0.0, 0.0, math.sin(pose.yaw / 2.0), math.cos(pose.yaw / 2.0)),
+        pose.speed_m_s,
+        pose.yaw_rate_rad_s,
+    )
+
+
+def _truth(time_sec: float, robot: SimulatedRobot) -> Odometry:
+    state, start = robot.state, robot.start
+    x, y = relative(state.position[0], state.position[1], (start.x, start.y, start.yaw))
+    yaw = math.remainder(state.yaw - start.yaw, 2.0 * math.pi)
+    return Odometry(time_sec, x, y, yaw, state.velocity[0], state.angular_velocity[2])
+
+
+def _time_sec(time_ns: int) -> float:
+    """Return the time as a stamp gives it."""
+    seconds, nanoseconds = divmod(time_ns, 1_000_000_000)
+    return seconds + nanoseconds * 1e-9
+
+
+def _acceleration(robot: SimulatedRobot) -> float:
+    w, x, y, z = robot.imu.orientation
+    return forward_acceleration(robot.imu.acceleration[0], x, y, z, w)

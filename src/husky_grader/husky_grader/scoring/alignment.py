@@ -1,0 +1,99 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Lay what was driven along the path it should have been, once and for the whole run.
+
+The nearest point alone would jump where a course crosses or comes back to itself. Here the
+places on the path may only go forward in time, and among all such ways the one with the least
+squared distance is taken (dynamic time warping with free steps along the path, by dynamic
+programming).
+"""
+
+from __future__ import annotations
+
+from husky_course.route.path import Curve
+import numpy as np
+import numpy.typing as npt
+
+MAX_POSES = 2500
+PATH_STEP_M = 0.05
+MAX_PLACES = 2500
+
+Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
+
+
+def align(curve: Curve, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return for every pose its place along the curve and its offset to the left of it."""
+    picked = spread(x, y, MAX_POSES)
+    places = _places(curve)
+    path = np.array([curve.point_at(s) for s in places])
+    steps = _best_steps(path, np.stack([x[picked], y[picked]], axis=1))
+    near = np.array([curve.index_at(places[step]) for step in steps])
+    before = np.searchsorted(picked, np.arange(len(x)), side='right') - 1
+    return projected(curve, near[before], x, y)
+
+
+def spread(x: Array, y: Array, most: int) -> Indices:
+    """Return entries, the first and the last among them, evenly spread over the way driven."""
+    if len(x) <= most:
+        return np.arange(len(x))
+    way_m = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+    evenly = np.searchsorted(way_m, np.linspace(0.0, way_m[-1], most - 2))
+    return np.unique(np.concatenate([[0], np.minimum(evenly, len(x) - 1), [len(x) - 1]]))
+
+
+def projected(curve: Curve, near: Indices, x: Array, y: Array) -> tuple[Array, Array]:
+    """Project every pose as `Curve.project` does one, from the samples `near` it."""
+    xs, ys, s = np.array(curve.x), np.array(curve.y), np.array(curve.s)
+    last = len(xs) - 1
+    i = near.astype(np.int64)
+    best = (xs[i] - x) ** 2 + (ys[i] - y) ** 2
+    for step in (1, -1):
+        walking = np.arange(len(x))
+        while walking.size:
+            walking = walking[(i[walking] < last) if step > 0 else (i[walking] > 0)]
+            following = i[walking] + step
+            away = (xs[following] - x[walking]) ** 2 + (ys[following] - y[walking]) ** 2
+            nearer = away <= best[walking] if step > 0 else away < best[walking]
+            walking = walking[nearer]
+            i[walking], best[walking] = following[nearer], away[nearer]
+    foot = _along(xs, ys, np.minimum(i, last - 1), x, y)
+    back = ((foot < 0.0) & (i > 0)) | (i == last)
+    i[back] = np.maximum(i[back] - 1, 0)
+    along = _along(xs, ys, i, x, y)
+    length = s[i + 1] - s[i]
+    dx, dy = (xs[i + 1] - xs[i]) / length, (ys[i + 1] - ys[i]) / length
+    return s[i] + np.clip(along, 0.0, length), dx * (y - ys[i]) - dy * (x - xs[i])
+
+
+def _along(xs: Array, ys: Array, i: Indices, x: Array, y: Array) -> Array:
+    """Return how far past samples `i` the feet of poses are, towards the next samples."""
+    dx, dy = xs[i + 1] - xs[i], ys[i + 1] - ys[i]
+    return np.asarray(((x - xs[i]) * dx + (y - ys[i]) * dy) / np.hypot(dx, dy))
+
+
+def _places(curve: Curve) -> list[float]:
+    count = min(max(2, round(curve.length_m / PATH_STEP_M) + 1), MAX_PLACES)
+    return [curve.length_m * k / (count - 1) for k in range(count)]
+
+
+def _best_steps(path: Array, poses: Array) -> list[int]:
+    """Return the index into the path for each pose: never decreasing, least squares."""
+    count = len(path)
+    came_from = np.empty((len(poses), count), dtype=np.int16)
+    cost = np.zeros(count)
+    indices = np.arange(count)
+    for k, pose in enumerate(poses):
+        lowest = np.minimum.accumulate(cost)
+        fresh = np.empty(count, dtype=bool)
+        fresh[0], fresh[1:] = True, cost[1:] < lowest[:-1]
+        came_from[k] = np.maximum.accumulate(np.where(fresh, indices, 0))
+        away = path - pose
+        cost = lowest + np.einsum('ij,ij->i', away, away)
+    place = int(np.argmin(cost))
+    steps = [0] * len(poses)
+    for k in range(len(poses) - 1, -1, -1):
+        steps[k] = place
+        place = int(came_from[k][place])
+    return steps

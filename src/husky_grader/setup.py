@@ -1,0 +1,30 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from setuptools import find_packages, setup
+
+setup(
+    name='husky_grader',
+    version='0.1.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/husky_grader']),
+        ('share/husky_grader', ['package.xml']),
+        ('share/husky_grader/launch', ['launch/drive.launch.py']),
+    ],
+    install_requires=['setuptools', 'matplotlib', 'numpy'],
+    zip_safe=True,
+    maintainer='The Husky Playpen Lab authors',
+    maintainer_email='maintainers@playpen-lab.example',
+    description='Judges runs: check of a course, rehearsal, score, live runs, classes, reports.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'check = husky_grader.programs:check',
+            'drive = husky_grader.programs:drive',
+            'grade = husky_grader.programs:grade',
+        ],
+        'husky_driver.course_check': [
+            'playpen = husky_grader.world_check:check_course',
+        ],
+    },
+)

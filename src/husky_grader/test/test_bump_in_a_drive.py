@@ -1,0 +1,72 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+from husky_course.waypoints.waypoint_file import parse_course
+from husky_driver.checks.bump import Bump, forward_acceleration
+from husky_grader.run.rehearsal import drive_course
+import pytest
+
+NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it
+
+
+def held_sec(wheels: list[float], body: list[float], *, gap: int = -1) -> float | None:
+    """Return when it was noticed, of speeds 20 ms apart; at the gap the IMU misses 0.2 s."""
+    bump = Bump()
+    for i in range(1, len(wheels)):
+        if not gap <= i < gap + 10:
+            bump.feel(i * 0.02, (body[i] - body[i - 1]) / 0.02)
+        if bump.is_held(i * 0.02, wheels[i]):
+            return i * 0.02
+    return None
+
+
+def speeds(before: float, after: float) -> list[float]:
+    return [0.0] * 50 + [before] * 100 + [after] * 100
+
+
+@pytest.mark.parametrize('speed_m_s', [1.0, 0.15, -0.5])
+def test_a_robot_that_stops_while_its_wheels_turn_is_noticed_within_a_second(
+    speed_m_s: float,
+) -> None:
+    noticed = held_sec(speeds(speed_m_s, speed_m_s), speeds(speed_m_s, 0.0))
+    assert noticed is not None
+    assert 3.0 < noticed < 4.0
+
+
+def test_a_robot_that_does_as_its_wheels_is_left_alone() -> None:
+    assert held_sec(speeds(1.0, 0.0), speeds(1.0, 0.0)) is None
+    assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.5)) is None  # slowed, not stopped
+
+
+def test_a_robot_that_gets_its_speed_back_at_once_is_left_alone() -> None:
+    wheels, body = speeds(0.8, 0.8), speeds(0.8, 0.8)
+    body[150:165] = [0.1] * 15
+    assert held_sec(wheels, body) is None
+
+
+def test_what_no_sample_tells_of_is_not_guessed() -> None:
+    assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.8), gap=48) is None
+    assert held_sec([1.0] * 200, [1.0] * 200) is None  # it began while the robot was driving
+
+
+def test_gravity_that_an_inclined_imu_feels_does_not_count() -> None:
+    pitch = -0.3  # nose up, after REP-103
+    felt = 9.81 * math.sin(-pitch)
+    q = (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2))
+    assert forward_acceleration(felt, *q) == pytest.approx(0.0, abs=1e-9)
+    assert forward_acceleration(felt + 0.5, *q) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(('speed_m_s', 'reverse'), [(0.2, False), (0.8, True)])
+def test_a_drive_straight_against_a_wall_is_given_up(speed_m_s: float, reverse: bool) -> None:
+    course = parse_course(
+        f'speed: {speed_m_s}\nwaypoints: [[0, 0], {{x: {-6 if reverse else 6}, y: 0, '
+        f'reverse: {str(reverse).lower()}}}]'
+    )
+    x, y, yaw = NORTH_WALL
+    record, drive = drive_course(course, start=(x, y, -yaw if reverse else yaw))
+    assert drive.failure.startswith('the wheels drive ')
+    assert 'm/s, but the IMU has felt the robot stop: something holds it near' in drive.failure
+    touched_sec = record.collisions[0].time_sec
+    assert drive.elapsed_sec - touched_sec < 1.5, 'it went on pushing'

@@ -1,0 +1,231 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whole gradings, with the simulator's physics in this process."""
+
+import json
+from pathlib import Path
+import subprocess
+import sys
+from typing import Any
+
+from husky_course.record.record import read_record
+from husky_course.waypoints.waypoint_file import load_course
+from husky_grader.check import main as check
+from husky_grader.grade import main as grade
+from husky_grader.run.rehearsal import drive_course
+from husky_grader.scoring.scoring import score
+import pytest
+
+THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'
+KEYS = (
+    *(
+        'passed',
+        'completed',
+        'ended_early',
+        'disturbances',
+        'waypoints_reached',
+        'waypoints_total',
+        'collisions',
+        'cross_track_rms_m',
+    ),
+    *('cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m', 'sim_time_sec'),
+    *('wall_time_sec', 'trajectory_sha256', 'score'),
+)
+
+
+def graded(file: Path, folder: Path, *arguments: str) -> tuple[int, dict[str, Any]]:
+    code = grade([str(file), '--report', str(folder), *arguments])
+    return code, json.loads((folder / 'report.json').read_text())
+
+
+def test_the_central_barrier_is_passed_within_the_lab_s_own_limits(
+    courses: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, report = graded(courses / 'central_barrier.yaml', tmp_path)
+    assert code == 0
+    assert set(KEYS) <= set(report)
+    assert report['completed']
+    assert report['waypoints_reached'] == report['waypoints_total'] == 13
+    assert report['collisions'] == []
+    assert report['cross_track_rms_m'] <= 0.03
+    assert report['cross_track_max_m'] <= 0.08
+    assert report['path_length_m'] / report['sim_time_sec'] >= 0.88 * 0.8
+    assert report['score'] == pytest.approx(100.0)
+    printed = capsys.readouterr().out
+    assert 'central_barrier: passed, score 100.0 of 100' in printed
+    page = (tmp_path / 'report.html').read_text()
+    assert 'http' not in page.replace('http://www.w3.org', '')
+    assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
+
+
+def test_whoever_has_read_enough_of_it_is_not_told_of_a_broken_pipe(
+    courses: Path, tmp_path: Path
+) -> None:
+    course = str(courses / 'straight.yaml')
+    command = [sys.executable, '-m', 'husky_grader.grade', course, '--report', str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+        assert run.stdout is not None
+        assert run.stderr is not None
+        run.stdout.close()
+        assert run.stderr.read() == b''
+    assert run.returncode == 141
+    assert (tmp_path / 'report.html').exists()
+
+
+@pytest.mark.parametrize(
+    'name',
+    ['figure_eight', 'grand_perimeter', 'slalom', 'square', 'straight', 'west_inner'],
+)
+def test_every_course_is_driven_near_its_path_at_its_speed_without_a_touch(
+    courses: Path, name: str
+) -> None:
+    course = load_course(courses / f'{name}.yaml')
+    record, drive = drive_course(course)
+    report = score(record, course)
+    assert report.passed, report.reasons
+    assert drive.reached == drive.total == report.waypoints_reached
+    assert report.cross_track_rms_m <= 0.04
+    assert report.cross_track_max_m <= 0.15
+    assert report.path_length_m / report.sim_time_sec >= 0.88 * course.speed_m_s
+
+
+def test_on_ground_truth_the_central_barrier_is_driven_within_three_centimetres(
+    courses: Path,
+) -> None:
+    course = load_course(courses / 'central_barrier.yaml')
+    record, _ = drive_course(course, odometry='ground_truth')
+    assert score(record, course).cross_track_rms_m <= 0.03
+
+
+def test_a_start_elsewhere_takes_the_course_along(courses: Path) -> None:
+    course = load_course(courses / 'straight.yaml')
+    for odometry in ('filtered', 'wheel', 'ground_truth'):
+        record, _ = drive_course(course, start=(-5.0, 2.0, 1.0), odometry=odometry)
+        assert score(record, course).passed
+
+
+def test_the_same_file_gives_the_same_trajectory_to_the_last_bit(
+    courses: Path, tmp_path: Path
+) -> None:
+    course = courses / 'straight.yaml'
+    first, second = (graded(course, tmp_path / name)[1] for name in ('a', 'b'))
+    assert first['trajectory_sha256'] == second['trajectory_sha256']
+    assert first['score'] == second['score']
+
+
+def test_a_course_through_the_barrier_fails_with_the_collision(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'through.yaml'
+    course.write_text(THROUGH)
+    code, report = graded(course, tmp_path / 'report', '--json')
+    assert code == 1
+    assert not report['completed']
+    (touch,) = report['collisions']
+    assert touch['obstacle'] == 'jersey_barrier_15'
+    assert touch['force_n'] > 100.0
+    assert report['min_clearance_m'] == 0.0
+    assert report['reasons'][-1].startswith('gave up: the wheels drive 0.')
+    assert json.loads(capsys.readouterr().out) == report
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'expected'),
+    [
+        ([], 'give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER'),
+        (['--record', 'x.record'], '--record needs --waypoints FILE'),
+        (['missing.yaml'], 'missing.yaml: line 1, column 1: no such file'),
+        (['{course}', '--world', 'no.xml'], 'no.xml'),
+        (['--record', 'no.record', '--waypoints', '{course}'], 'no.record: cannot be read'),
+        (['--record', '{course}', '--waypoints', '{course}'], 'not the record of a run'),
+    ],
+)
+def test_bad_input_is_refused_with_one_line(
+    courses: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    expected: str,
+) -> None:
+    course = str(courses / 'straight.yaml')
+    arguments = [argument.replace('{course}', course) for argument in arguments]
+    try:
+        code = grade([*arguments, '--report', str(tmp_path)])
+    except SystemExit as stopped:
+        code = int(stopped.code or 0)
+    printed = capsys.readouterr().err
+    assert code == 2
+    assert expected in printed
+    assert len(printed.splitlines()) == 1
+
+
+def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'through.yaml'
+    course.write_text(THROUGH)
+    assert check([str(course)]) == 0
+    assert check(['--refuse', str(course)]) == 1
+    warned = capsys.readouterr().err.splitlines()[0]
+    assert 'through.yaml: line 4: on the way to waypoint 2 the robot touches' in warned
+    assert 'jersey_barrier_15' in warned
+
+
+def test_a_check_looks_at_the_way_to_the_first_waypoint(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'beyond.yaml'  # of the barrier in front of the robot
+    course.write_text('waypoints: [[4.5, 0.0], [5.0, 0.0]]\n')
+    assert check(['--refuse', str(course)]) == 1
+    assert 'on the way to waypoint 1 the robot touches' in capsys.readouterr().err
+
+
+def test_a_check_counts_the_waypoints_as_the_report_does(
+    courses: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = load_course(courses / 'central_barrier.yaml')
+    assert check([course.file]) == 0
+    said = f'{len(course.stops)} waypoints (the last is the first again), '
+    assert said in capsys.readouterr().out
+
+
+def test_escape_codes_in_names_do_not_reach_the_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / 'a\x1b[2J\u202e.yaml'
+    course.write_text('speed: 0.8\nwaypoints: [[0, 0], [-1, 0]]\n')
+    broken = tmp_path / 'b\x1b]0;title\x07.yaml'
+    broken.write_text('speed: fast\n')
+    assert check([str(course)]) == 0
+    assert grade([str(course), '--report', str(tmp_path / 'r\x1b[31m')]) == 0
+    assert grade([str(broken), '--report', str(tmp_path / 'report')]) == 2
+    said = capsys.readouterr()
+    assert {char for char in said.out + said.err if not char.isprintable()} == {'\n'}
+    assert r'a\x1b[2J\u202e: passed' in said.out
+    assert r'b\x1b]0;title\x07.yaml: line 1' in said.err
+
+
+def test_a_report_that_cannot_be_written_is_one_line(
+    courses: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / 'report').touch()
+    course = str(courses / 'straight.yaml')
+    assert grade([course, '--report', str(tmp_path / 'report' / 'deep')]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line == f'{tmp_path / "report" / "deep"}: Not a directory'
+
+
+def test_a_graded_run_can_be_replayed(courses: Path, tmp_path: Path) -> None:
+    course = courses / 'straight.yaml'
+    assert grade([str(course), '--report', str(tmp_path)]) == 0
+    assert read_record(tmp_path).complete
+    assert (tmp_path / 'waypoints.yaml').read_bytes() == course.read_bytes()
+    kept = tmp_path / 'waypoints.yaml'  # and what was kept can be graded into its own folder
+    assert grade([str(kept), '--report', str(tmp_path)]) == 0
+    assert kept.read_bytes() == course.read_bytes()
+
+
+@pytest.mark.parametrize(('name', 'magic'), [('a.png', b'\x89PNG'), ('a.svg', b'<?xml')])
+def test_a_check_draws_the_course(courses: Path, tmp_path: Path, name: str, magic: bytes) -> None:
+    assert check([str(courses / 'straight.yaml'), '--draw', str(tmp_path / name)]) == 0
+    assert (tmp_path / name).read_bytes().startswith(magic)

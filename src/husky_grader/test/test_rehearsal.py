@@ -1,0 +1,56 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Driving in one process against driving as nodes over DDS."""
+
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+from husky_course.record.record import read_record
+from husky_course.waypoints.waypoint_file import load_course
+from husky_grader.run.rehearsal import drive_course
+from husky_grader.scoring.scoring import score
+import pytest
+
+
+@pytest.mark.timeout(60)
+@pytest.mark.parametrize('name', ['straight', 'through'])
+def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep(
+    name: str, domain: int, courses: Path, tmp_path: Path
+) -> None:
+    file = courses / 'straight.yaml'
+    if name == 'through':  # into the barrier: the driver gives up
+        file = tmp_path / 'through.yaml'
+        file.write_text('speed: 0.6\nwaypoints: [[0, 0], [4.5, 0]]\n')
+    course, record = load_course(file), tmp_path / 'run.record'
+    environment = {
+        **os.environ,
+        'ROS_DOMAIN_ID': str(domain),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'FASTRTPS_DEFAULT_PROFILES_FILE': str(courses.parent / 'fastdds.xml'),
+        'PYTHONPATH': ':'.join(sys.path),
+    }
+    node = [sys.executable, '-m', 'husky_sim.ros.node', '--ros-args', '-p', f'record:={record}']
+    node += ['-p', 'lockstep:=true', '-p', 'real_time_factor:=0.0']
+    simulator = subprocess.Popen(node, env=environment, start_new_session=True)
+    try:
+        driver = [sys.executable, '-m', 'husky_driver.follow_path', '--waypoints', str(file)]
+        driver += ['--ros-args', '-p', 'startup_timeout_sec:=30.0', '-p', 'check:=off']
+        code = subprocess.run(driver, env=environment, timeout=50.0).returncode
+        assert code == (0 if name == 'straight' else 1)
+        simulator.send_signal(signal.SIGINT)
+        simulator.wait(timeout=10.0)
+    finally:
+        simulator.kill()
+        simulator.wait()
+    deadline = time.monotonic() + 5.0
+    while not record.exists():
+        assert time.monotonic() < deadline, 'the simulator left no record'
+        time.sleep(0.01)
+    over_dds = score(read_record(record), course)
+    in_process = score(drive_course(course)[0], course)
+    assert over_dds.trajectory_sha256 == in_process.trajectory_sha256
+    assert over_dds.score == in_process.score

@@ -1,0 +1,135 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from collections.abc import Callable
+from pathlib import Path
+import re
+
+from husky_course.record.events import Touch
+from husky_course.record.record import Disturbance, Record
+from husky_course.record.run import read_run, RunRecord
+from husky_course.waypoints.waypoint_file import parse_course
+from husky_grader.report.map import run_scene, Scene
+from husky_grader.report.map_svg import map_svg, SIZE
+from husky_grader.report.plot_svg import Plot, ticks
+from husky_grader.report.report import as_json, is_report, summary, write_report
+from husky_grader.report.report_html import page
+from husky_grader.scoring.scoring import judge
+import pytest
+
+COURSE = parse_course('tolerance: 0.2\nwaypoints: [[0, 0], [2, 0], [4, 0]]')
+TOUCH = Touch(
+    robot='husky',
+    obstacle='a <cone>',
+    part='front_left_wheel',
+    time_sec=0.6,
+    force_n=12.0,
+    position=(1.0, 0.5, 0.1),
+)
+OTHER = Disturbance(time_sec=1.0, topic='odometry/filtered', nodes=('/<other>\x1b[2J',))
+
+
+@pytest.fixture
+def run(make_record: Callable[..., Record]) -> RunRecord:
+    """Return a run that leaves the path by half a metre in its middle, and touches a cone."""
+    places = [(k / 50, min(k, 200 - k, 50) / 100) for k in range(201)]
+    record = make_record(places + [places[-1]] * 10, collisions=[TOUCH], disturbances=[OTHER])
+    return read_run(record)
+
+
+@pytest.fixture
+def scene(run: RunRecord) -> Scene:
+    return run_scene(run, COURSE, judge(run, COURSE))
+
+
+def test_the_band_around_the_path_is_as_wide_as_the_tolerance(scene: Scene) -> None:
+    low_x, high_x, low_y, high_y = scene.near_bounds()
+    a_metre = SIZE / max(high_x - low_x, high_y - low_y)
+    (width,) = re.findall(r'class="band"[^>]*style="stroke-width: ([\d.]+)px"', map_svg(scene))
+    assert float(width) == pytest.approx(2 * 0.2 * a_metre, abs=0.1)
+
+
+def test_the_error_band_lies_between_the_true_path_and_the_given_one(scene: Scene) -> None:
+    half = len(scene.error) // 2
+    there, back = scene.error[:half], scene.error[half:]
+    assert max(y for _, y in there) == pytest.approx(0.5)
+    assert max(abs(y) for _, y in back) == pytest.approx(0.0, abs=1e-6)
+    assert back[0][0] > 3.9
+    assert back[-1][0] < 0.1
+
+
+def test_missed_waypoints_and_collisions_bear_the_numbers_of_the_text(scene: Scene) -> None:
+    drawing = map_svg(scene)
+    assert re.findall(r'<text class="waypoint"[^>]*>(\d+)<', drawing) == ['1', '3']
+    assert re.findall(r'<text class="missed"[^>]*>(\d+)<', drawing) == ['2']
+    assert re.findall(r'<text class="hit"[^>]*>(\d+)<', drawing) == ['1']
+
+
+def test_the_page_holds_everything_and_loads_nothing(run: RunRecord, tmp_path: Path) -> None:
+    write_report(tmp_path, judge(run, COURSE), run, COURSE)
+    page = (tmp_path / 'report.html').read_text()
+    for part in ('given path', 'true path', 'believed path', 'error', 'collision', 'Speed'):
+        assert part in page
+    assert 'a &lt;cone&gt;' in page
+    assert 'front left wheel' in page
+    assert page.count('class="moment"') == 2  # the touch, in both plots
+    assert '/&lt;other&gt;\\x1b[2J' in page
+    assert '\x1b' not in page
+    assert re.findall(r'(?:src|href)=|<script|@import|url\(', page) == []
+
+
+def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
+    report = judge(run, COURSE)
+    assert as_json(report)['disturbances'] == [
+        {'time_sec': 1.0, 'topic': 'odometry/filtered', 'nodes': ['/<other>\x1b[2J']}
+    ]
+    said = 'disturbed at 1.00 s: /<other>\\x1b[2J published odometry/filtered beside the simulator'
+    first, *lines = summary(report).splitlines()
+    assert first.endswith('NOT PASSED, score 0.0 of 100')
+    assert [line.split(':')[0] for line in lines if said in line] == [
+        f'  alone       x 0.000  costs {report.parts[-1].cost_points:4.1f}',
+        '  ! disturbed at 1.00 s',
+    ]
+    content = as_json(report)
+    assert content['score'] == 0.0
+    assert content['parts'][-1]['name'] == 'alone'
+    html = page(report, run, run_scene(run, COURSE, report))
+    assert '<span class="score">0.0</span>' in html
+    assert '<td>alone</td><td class="n">x 0.000</td>' in html
+
+
+@pytest.mark.parametrize(
+    'change', [{'score': 'all'}, {'reasons': [1]}, {'passed': 1}, {'parts': None}, {'more': 1}]
+)
+def test_what_has_not_the_shape_of_a_report_is_none(
+    run: RunRecord, change: dict[str, object]
+) -> None:
+    content = as_json(judge(run, COURSE))
+    assert is_report(content)
+    assert not is_report({**content, **change})
+    assert not is_report({})
+
+
+@pytest.mark.parametrize(
+    ('low', 'high', 'expected'),
+    [
+        (0.0, 24.4, [0, 5, 10, 15, 20, 25]),
+        (-0.12, 0.59, [-0.2, 0.0, 0.2, 0.4, 0.6]),
+        (0.0, 0.05, [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]),
+        (3.0, 3.0, None),
+    ],
+)
+def test_an_axis_has_round_numbers_that_enclose_the_values(
+    low: float, high: float, expected: list[float] | None
+) -> None:
+    found = ticks(low, high)
+    assert found[0] <= low + 1e-9
+    assert found[-1] >= high - 1e-9
+    if expected is not None:
+        assert found == pytest.approx(expected)
+
+
+def test_curves_stay_within_their_frame() -> None:
+    plot = Plot('p', [0.0, 1.0, 2.0], {'true': [0.0, -3.0, 7.0]}, (-0.1, 0.1), [1.0]).svg()
+    (points,) = re.findall(r'class="true" points="([^"]*)"', plot)
+    places = [tuple(map(float, point.split(','))) for point in points.split()]
+    assert all(46 <= x <= 468 and 10 <= y <= 172 for x, y in places)

@@ -1,0 +1,273 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+from collections.abc import Callable
+from contextlib import suppress
+import csv
+import hmac
+import json
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+from husky_grader.classes.grading import Graded, key_of
+from husky_grader.classes.worker_pool import Classroom, names_of
+from husky_grader.grade import main as grade
+import pytest
+
+HOURS = ''.join(f'  - {{x: -{k}.0, y: 0, dwell: 600}}\n' for k in (1, 2, 1, 2, 1, 2))
+SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-1, 0]]\n'
+
+
+@pytest.fixture(autouse=True)
+def state(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Keep the grader's secret away from the user's own."""
+    folder = tmp_path_factory.mktemp('state')
+    monkeypatch.setenv('XDG_STATE_HOME', str(folder))
+    return folder
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> list[str]:
+    """Return three students' files of one name: good, broken, and through the barrier."""
+    texts = {
+        'ann': SHORT,
+        'bob': 'speed: fast\nloop: yes\n',
+        'cem': 'waypoints: [[0, 0], [3, 0]]\n',
+    }
+    for name, text in texts.items():
+        (tmp_path / name).mkdir()
+        (tmp_path / name / 'path.yaml').write_text(text)
+    return [str(tmp_path / name / 'path.yaml') for name in texts]
+
+
+def test_a_broken_file_does_not_stop_the_others(
+    files: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert grade([*files, '--report', str(tmp_path / 'report')]) == 1
+    with (tmp_path / 'report' / 'grades.csv').open(newline='') as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row['file'] for row in rows] == files
+    assert [row['passed'] for row in rows] == ['True', 'False', 'False']
+    assert float(rows[0]['score']) == 100.0
+    assert 'waypoints: missing' in rows[1]['reasons']
+    assert 'touched jersey_barrier_15' in rows[2]['reasons']
+    assert (tmp_path / 'report' / 'ann_path' / 'report.html').is_file()
+    table = capsys.readouterr().out.splitlines()
+    assert table[0] == 'ann_path  100.0  passed'
+    assert table[1].startswith('bob_path    0.0  refused     line 1, column 1: waypoints: missing')
+    assert table[1].endswith('(and 2 more)')
+    assert table[2].startswith('cem_path')
+
+
+def test_what_was_graded_is_not_graded_again_until_it_changes(
+    files: list[str], tmp_path: Path
+) -> None:
+    room = Classroom(files[:1], tmp_path / 'report')
+    (first,) = room.grade()
+    report = tmp_path / 'report' / 'path' / 'report.json'
+    written = report.stat().st_mtime_ns
+    (second,) = Classroom(files[:1], tmp_path / 'report').grade()
+    assert second.report == first.report
+    assert report.stat().st_mtime_ns == written
+    Path(files[0]).write_text(SHORT.replace('-1', '-1.5'))
+    (third,) = Classroom(files[:1], tmp_path / 'report').grade()
+    assert third.report is not None
+    assert third.report['path_length_m'] == pytest.approx(1.5)
+
+
+def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / 'pipe.yaml')  # whoever opens it waits for ever
+    (tmp_path / 'zero.yaml').symlink_to('/dev/zero')  # whoever reads it never ends
+    files = [str(tmp_path / name) for name in ('pipe.yaml', 'zero.yaml', 'none.yaml')]
+    results = Classroom(files, tmp_path / 'report', jobs=1).grade()
+    assert all('line 1, column 1: not a file' in graded.refused for graded in results[:2])
+    assert 'no such file' in results[2].refused
+
+
+def test_a_class_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> None:
+    files = [tmp_path / f'student_{number}.yaml' for number in range(4)]
+    for number, file in enumerate(files):
+        file.write_text(SHORT.replace('-1', f'-{number + 1}'))
+    command = [sys.executable, '-m', 'husky_grader.grade', *map(str, files), '--jobs', '1']
+    command += ['--report', str(tmp_path / 'report')]
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    with subprocess.Popen(
+        command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as running:
+        assert running.stderr is not None
+        assert running.stderr.readline() == '1 of 4  student_0 100.0\n'
+        os.killpg(running.pid, signal.SIGINT)
+        said = running.stderr.read()
+        assert running.wait(timeout=10.0) == 130
+    assert 'interrupted; the same command goes on where it was' in said
+    assert 'Traceback' not in said
+    assert not (tmp_path / 'report' / 'grades.csv').exists()
+    first = tmp_path / 'report' / 'student_0' / 'report.json'
+    written = first.stat().st_mtime_ns
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert [line.split()[:2] for line in done.stdout.splitlines()[:4]] == [
+        [f'student_{number}', '100.0'] for number in range(4)
+    ]
+    assert first.stat().st_mtime_ns == written, 'it was graded twice'
+
+
+def test_a_file_on_which_the_grader_hangs_costs_only_itself(
+    files: list[str], tmp_path: Path
+) -> None:
+    seen: list[tuple[int, Graded]] = []
+    room = Classroom(
+        [files[2], files[0]],
+        tmp_path,
+        jobs=1,
+        stalled_cpu_sec=0.001,  # of its own processor time, and no second of the run has passed
+        done=lambda number, graded: seen.append((number, graded)),
+    )
+    results = room.grade()
+    why = 'the grader hung: 0.001 s of processor time without a second of simulated time'
+    assert [graded.refused for graded in results] == [why] * 2
+    assert len(seen) == 2
+
+
+def test_a_class_that_is_killed_hard_leaves_no_worker(tmp_path: Path) -> None:
+    files = [tmp_path / f'student_{number}.yaml' for number in range(3)]
+    for file in files:
+        file.write_text('waypoints:\n  - [0, 0]\n' + HOURS)
+    command = [sys.executable, '-m', 'husky_grader.grade', *map(str, files), '--jobs', '2']
+    command += ['--report', str(tmp_path / 'report')]
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    with subprocess.Popen(command, env=environment, start_new_session=True) as running:
+        records = (tmp_path / 'report' / f'student_{number}' / 'run.record' for number in (0, 1))
+        for record in records:
+            wait_until(record.exists, what=f'{record}')
+        running.kill()
+        running.wait()
+        wait_until(lambda: not living(running.pid), what='their end', timeout_sec=3.0)
+
+
+def living(session: int) -> list[str]:
+    """Return the processes of a session that have not ended, as the kernel tells (proc(5))."""
+    found = []
+    for folder in Path('/proc').glob('[0-9]*'):
+        with suppress(OSError):
+            state, _, _, its_session, *_ = (folder / 'stat').read_text().rpartition(')')[2].split()
+            if int(its_session) == session and state != 'Z':
+                found.append(folder.name)
+    return found
+
+
+def wait_until(holds: Callable[[], bool], *, what: str, timeout_sec: float = 20.0) -> None:
+    deadline = time.monotonic() + timeout_sec
+    while not holds():
+        assert time.monotonic() < deadline, f'waited {timeout_sec} s for {what}'
+        time.sleep(0.02)
+
+
+def test_names_that_lead_elsewhere_or_are_ours_break_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = [
+        'grades.csv.yaml',
+        '...yaml',
+        '.yaml',
+        'report.json.yaml',
+        'a\nb\x1b[2J.yaml',
+        'ok.yaml',
+    ]
+    (tmp_path / 'class').mkdir()
+    for name in names:
+        (tmp_path / 'class' / name).write_text('speed: fast\n' if name != 'ok.yaml' else SHORT)
+    files = [str(tmp_path / 'class' / name) for name in names]
+    assert grade([*files, '--report', str(tmp_path / 'report')]) == 1
+    with (tmp_path / 'report' / 'grades.csv').open(newline='') as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row['passed'] for row in rows] == ['False'] * 5 + ['True']
+    assert rows[4]['file'].endswith(r'a b\x1b[2J.yaml')
+    assert {path.name for path in tmp_path.iterdir()} == {'class', 'report'}
+    assert capsys.readouterr().out.count('refused     line 1, column 1: waypoints: missing') == 5
+
+
+def test_every_file_has_a_folder_of_its_own() -> None:
+    names = names_of(['x/a.yaml', 'y/a.yaml', 'x/a.yaml', 'x_a.yaml', 'X_A.yml', '/..yaml'])
+    assert len({name.casefold() for name in names}) == 6
+    assert all(name == Path(name).name and name.strip('.') for name in names)
+    (long,) = names_of(['ü' * 120 + '.yaml'])
+    assert len(long.encode()) <= 100
+
+
+@pytest.mark.parametrize('forged', ['{}', '[]', 'same', 'seal'])
+def test_a_forged_report_is_graded_again(forged: str, files: list[str], tmp_path: Path) -> None:
+    folder = tmp_path / 'report' / 'path'
+    (true,) = Classroom(files[2:], tmp_path / 'report').grade()
+    assert true.report is not None
+    assert not true.passed
+    content = {**true.report, 'passed': True, 'score': 100.0, 'collisions': []}
+    text = forged if forged in ('{}', '[]') else json.dumps(content, indent=2) + '\n'
+    (folder / 'report.json').write_text(text)
+    if forged == 'seal':  # as one who knows all but the secret would make it
+        key = key_of(files[2]).encode()
+        seal = hmac.new(b'', key + b'\n' + text.encode(), 'sha256').hexdigest()
+        (folder / '.graded').write_text(seal)
+    (again,) = Classroom(files[2:], tmp_path / 'report').grade()
+    assert again.score == true.score
+    assert not again.passed
+
+
+def test_the_secret_is_only_the_users(files: list[str], tmp_path: Path, state: Path) -> None:
+    (first,) = Classroom(files[:1], tmp_path / 'report').grade()
+    (secret,) = (path for path in state.rglob('*') if path.is_file())
+    assert secret.stat().st_mode & 0o777 == 0o600
+    before = secret.read_bytes()
+    secret.chmod(0o644)  # others may have read it
+    (second,) = Classroom(files[:1], tmp_path / 'report').grade()
+    assert second.score == first.score
+    assert secret.read_bytes() != before
+    assert secret.stat().st_mode & 0o777 == 0o600
+
+
+def test_where_no_secret_can_be_kept_everything_is_graded_again(
+    files: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'file'))
+    times = []
+    for _ in range(2):
+        (graded,) = Classroom(files[:1], tmp_path / 'report').grade()
+        assert graded.passed
+        times.append((tmp_path / 'report' / 'path' / 'report.json').stat().st_mtime_ns)
+    assert times[0] != times[1]
+    assert not (tmp_path / 'report' / 'path' / '.graded').exists()
+
+
+@pytest.mark.parametrize('limit_bytes', [20_000, 30_000])
+def test_a_full_disk_gives_one_line_and_the_table(
+    files: list[str], tmp_path: Path, limit_bytes: int
+) -> None:
+    limited = (
+        'import resource, sys\n'
+        f'resource.setrlimit(resource.RLIMIT_FSIZE, ({limit_bytes}, {limit_bytes}))\n'
+        'from husky_grader.grade import main\n'
+        'if __name__ == "__main__":\n'
+        '    sys.exit(main(sys.argv[1:]))\n'
+    )
+    (tmp_path / 'limited.py').write_text(limited)
+    command = [sys.executable, str(tmp_path / 'limited.py'), *files]
+    command += ['--report', str(tmp_path / 'report')]
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert 'Traceback' not in done.stderr
+    table = done.stdout.splitlines()
+    assert table[0].startswith('ann_path    0.0  unwritten   its report cannot be written: File')
+    assert table[1].startswith('bob_path    0.0  refused')
+    (line,) = (line for line in done.stderr.splitlines() if 'make room there' in line)
+    assert 'its report cannot be written: File too large' in line
+
+
+def test_files_of_one_name_are_told_apart_by_their_folders() -> None:
+    assert names_of(['a.yaml', 'b.yaml']) == ['a', 'b']
+    assert names_of(['ann/p.yaml', 'bob/p.yaml']) == ['ann_p', 'bob_p']
+    assert names_of(['x/ann/w/p.yaml', 'x/bob/w/p.yaml']) == ['ann_w_p', 'bob_w_p']

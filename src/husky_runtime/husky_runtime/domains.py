@@ -1,0 +1,176 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+DDS domains: one that a run has to itself, and at most one simulator in each.
+
+Both are locks. A lock is a name that the kernel gives to one process at a time: that of a Unix
+socket in the abstract namespace (unix(7)). It goes with its process, however that ends, leaves no
+file behind, and counts for every user of the machine, but only in one network namespace: just
+where DDS participants hear each other. Where there is no such namespace, a locked file stands in.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import FileIO
+import os
+from pathlib import Path
+import socket
+import struct
+import sys
+import tempfile
+import weakref
+
+# Domains that a run may take for itself. The first 30 are left to people; from 102 on the ports
+# are those that Linux gives to any program (ip_local_port_range).
+DOMAINS = range(30, 102)
+
+_VARIABLE = 'ROS_DOMAIN_ID'
+_PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.3, 9.6.1.1: PB, DG
+_MOST_PARTICIPANTS = 20  # of a domain that are looked for
+_WAITING = 4096  # connections that nobody accepts: each asks who holds the lock
+
+
+class DomainError(Exception):
+    """A DDS domain is taken, or all are; the message is one line for a person."""
+
+
+class Lock:
+    """A name that one process of this machine holds, until it lets go of it or ends."""
+
+    def __init__(self, name: str) -> None:
+        """
+        Take the lock.
+
+        :raises BlockingIOError: if another process holds it.
+        """
+        try:
+            held = _bind(name) if sys.platform == 'linux' else _lock_file(name)
+        except OSError:
+            raise BlockingIOError(f'{name} is held by another process') from None
+        self._let_go = weakref.finalize(self, held.close)  # also when its owner is dropped
+
+    def close(self) -> None:
+        """Let go; may be called twice."""
+        self._let_go()
+
+
+class OwnDomain:
+    """A DDS domain that no other run takes, and in which nobody is; a context manager."""
+
+    def __init__(self) -> None:
+        """
+        Take one.
+
+        :raises DomainError: if every domain is taken.
+        """
+        # Not the same one again at once: processes that end may still be in it.
+        first = os.getpid() % len(DOMAINS)
+        for number in (*DOMAINS[first:], *DOMAINS[:first]):
+            try:
+                lock = Lock(f'ros_domain_{number}')
+            except BlockingIOError:
+                continue
+            if not _is_inhabited(number):
+                self.number, self._lock = number, lock
+                return
+            lock.close()
+        raise DomainError(
+            f'all {len(DOMAINS)} DDS domains for runs of their own are taken: end runs that are '
+            'left over, or set ROS_DOMAIN_ID to a domain in which nobody is'
+        )
+
+    def close(self) -> None:
+        """Give the domain back; may be called twice."""
+        self._lock.close()
+
+    def __enter__(self) -> 'OwnDomain':
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+@contextmanager
+def in_own_domain() -> Iterator[int]:
+    """Put this process, and what it starts meanwhile, into a domain of its own."""
+    with OwnDomain() as domain:
+        before = os.environ.get(_VARIABLE)
+        os.environ[_VARIABLE] = str(domain.number)
+        try:
+            yield domain.number
+        finally:
+            os.environ.pop(_VARIABLE)
+            if before is not None:
+                os.environ[_VARIABLE] = before
+
+
+def lock_simulator(domain: int) -> Lock:
+    """
+    Take the place of the one simulator of a domain: two would speak on the same topics.
+
+    :raises DomainError: if there is one already.
+    """
+    name = f'husky_sim_in_ros_domain_{domain}'
+    try:
+        return Lock(name)
+    except BlockingIOError:
+        raise DomainError(
+            f'another simulator runs in ROS domain {domain}: {_holder(name)}; end it, or give '
+            f'this one a domain of its own, as in `export ROS_DOMAIN_ID={(domain + 1) % 30}`'
+        ) from None
+
+
+def _bind(name: str) -> socket.socket | FileIO:
+    holder = socket.socket(socket.AF_UNIX)
+    try:
+        holder.bind(f'\0{name}')
+        holder.listen(_WAITING)
+    except OSError:
+        holder.close()
+        raise
+    return holder
+
+
+def _lock_file(name: str) -> socket.socket | FileIO:
+    import fcntl  # not on every system
+
+    file = FileIO(Path(tempfile.gettempdir(), f'{name}.lock'), 'w')
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        file.close()
+        raise
+    return file
+
+
+def _holder(name: str) -> str:
+    """Say which process holds a lock, as far as the kernel tells."""
+    if sys.platform != 'linux':
+        return 'a process of this machine'
+    with socket.socket(socket.AF_UNIX) as asking:
+        asking.setblocking(False)
+        try:
+            asking.connect(f'\0{name}')
+        except OSError:  # it has just let go
+            return 'a process that is ending'
+        # struct ucred of socket(7): process, user, group.
+        answer = asking.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize('3i'))
+    process = struct.unpack('3i', answer)[0]
+    try:
+        words = Path(f'/proc/{process}/cmdline').read_bytes().split(b'\0')
+    except OSError:
+        words = []
+    command = ' '.join(Path(word.decode(errors='replace')).name for word in words[:2])
+    return f'process {process} ({command})' if command else f'process {process}'
+
+
+def _is_inhabited(domain: int) -> bool:
+    """Tell whether somebody without our lock is there, by the ports that participants bind."""
+    first = _PORT_BASE + _DOMAIN_GAIN * domain
+    for port in (first, *(first + 10 + 2 * each for each in range(_MOST_PARTICIPANTS))):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.bind(('', port))
+            except OSError:
+                return True
+    return False

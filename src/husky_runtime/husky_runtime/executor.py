@@ -1,0 +1,51 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Spins nodes with the executor that costs least."""
+
+import signal
+
+import rclpy
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+
+SIGNAL_LATENCY_SEC = 0.2
+"""How long a signal may go unnoticed."""
+
+
+def make_executor(context: rclpy.Context | None = None) -> Executor:
+    """Return the executor with the least overhead that this rclpy has."""
+    try:
+        from rclpy.experimental import EventsExecutor
+    except ImportError:  # the first Jazzy releases
+        return SingleThreadedExecutor(context=context)
+    return EventsExecutor(context=context)
+
+
+def future_of_signal() -> 'Future[None]':
+    """
+    Return a future that SIGINT or SIGTERM completes.
+
+    A signal lets the callback that runs finish, so that a run ends with a whole control period.
+    """
+    interrupted: Future[None] = Future()
+
+    def on_signal(*_: object) -> None:
+        if not interrupted.done():
+            interrupted.set_result(None)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, on_signal)
+    return interrupted
+
+
+def spin(node: Node, *, until: 'Future[None]') -> None:
+    """Spin a node until a future is done."""
+    executor = make_executor()
+    executor.add_node(node)
+    # One event after the other: the EventsExecutor sees signals only between two spins, and
+    # forgets the timeout of a longer one while a timer is always due.
+    while not until.done():
+        executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
+    executor.remove_node(node)  # before it is destroyed: events may wait in here
+    executor.shutdown()

@@ -1,0 +1,140 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Starts the programs of this lab so that they can be interrupted at any moment.
+
+It takes Python a second to import what they need. Until then nothing is open, so that on an
+interrupt the process just goes, where Python would print from amid which import it was torn.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import signal
+import sys
+from types import FrameType
+from typing import NoReturn
+
+from husky_runtime.parent_death import die_with_parent
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_BAD_INPUT = 2
+_AGAIN_SEC = 0.01
+_LAST_DOMAIN = 232  # above it the ports do not suffice: RTPS 2.5, 9.6.2.3
+_CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
+
+Load = Callable[[], Callable[[], int]]
+INTERRUPTED = 130  # the exit status of a program that SIGINT ends
+
+
+def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
+    """
+    Load a program and run it.
+
+    :param load: imports what the program needs, and returns its main().
+    :param interrupted: the exit status of a start that was interrupted.
+    :param catches: main() is interrupted by a KeyboardInterrupt; else it sets its own handlers,
+        and until then has nothing to close.
+    """
+
+    def leave(number: int, _: object) -> NoReturn:
+        if number != signal.SIGTERM and _is_at_keyboard():
+            os.write(2, b'\ninterrupted\n')
+        os._exit(interrupted)  # an exception would come up in any import
+
+    # No window of MuJoCo's is opened here; to look for one starts a second Python.
+    os.environ.setdefault('MUJOCO_GL', 'disabled')
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        if _imports(frame):
+            leave(number, frame)
+        signal.default_int_handler(number, frame)
+
+    def interrupt_again(lost: 'sys.UnraisableHookArgs') -> None:
+        # In a callback of the garbage collector, say, an interrupt is printed and forgotten.
+        if lost.exc_type is KeyboardInterrupt:
+            signal.signal(signal.SIGALRM, interrupt)
+            signal.setitimer(signal.ITIMER_REAL, _AGAIN_SEC)
+        else:
+            sys.__unraisablehook__(lost)
+
+    for number in _SIGNALS:
+        signal.signal(number, leave)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as nohup has it
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
+    # Who started this process may have held signals back until it can take them.
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
+    try:
+        main = load()
+        if catches:
+            sys.unraisablehook = interrupt_again
+            for number in _SIGNALS:
+                signal.signal(number, interrupt)
+        return int(main())
+    except KeyboardInterrupt:
+        return interrupted
+    finally:
+        # While Python takes itself apart, an interrupt would kill it.
+        for number in (*_SIGNALS, signal.SIGHUP, signal.SIGALRM):
+            signal.signal(number, signal.SIG_IGN)
+
+
+def _imports(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if '<frozen importlib' in frame.f_code.co_filename:
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _is_at_keyboard() -> bool:
+    """Tell whether Ctrl-C was meant for this process; the children of a launch are silent."""
+    try:
+        return os.tcgetpgrp(2) == os.getpgrp()
+    except OSError:  # no terminal, or that of another session
+        return False
+
+
+def run_node(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
+    """
+    Run a node of ours: it ends with who started it, and its messages are not checked.
+
+    Only nohup says that it is to live on. The check of each field, meant for what students
+    write, makes reading an odometry message take 46 us instead of 29.
+    """
+    domain = os.environ.get('ROS_DOMAIN_ID') or '0'
+    if not (domain.isascii() and domain.isdecimal() and int(domain) <= _LAST_DOMAIN):
+        print(
+            f'ROS_DOMAIN_ID={domain!r} is refused: a domain is a number from 0 to {_LAST_DOMAIN} '
+            '(on Linux at best from 0 to 101); use `export ROS_DOMAIN_ID=0`',
+            file=sys.stderr,
+        )
+        return _BAD_INPUT
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        die_with_parent(signal.SIGTERM)
+    os.environ[_CHECK_FIELDS] = '0'
+    return run(load, interrupted=interrupted, catches=catches)
+
+
+@contextmanager
+def signals_held_back() -> Iterator[None]:
+    """Let SIGINT and SIGTERM wait until a node is made: rclpy would lose the exception."""
+    came: list[int] = []
+    before = {
+        number: signal.signal(number, lambda number, _: came.append(number)) for number in _SIGNALS
+    }
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if came:
+            signal.raise_signal(came[0])
+
+
+def run_moved(package: str) -> NoReturn:
+    """Run the program of this name in the package that has it now, and say so."""
+    name = Path(sys.argv[0]).name
+    print(f'{name} has moved: ros2 run {package} {name}', file=sys.stderr, flush=True)
+    os.execvp('ros2', ['ros2', 'run', package, name, *sys.argv[1:]])

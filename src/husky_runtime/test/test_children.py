@@ -1,0 +1,170 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Children, and everything that they have started: nothing of it stays."""
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+from husky_runtime.children import adopt_orphans, descendants_ended, Process
+from husky_runtime.domains import OwnDomain
+from husky_runtime.shared_memory import clean_shared_memory
+import psutil
+
+RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+
+# A daemon: neither in the session of its child, nor below it.
+DAEMON = """
+import os, sys, time
+if os.fork() == 0:
+    os.setsid()
+    if os.fork() == 0:
+        print(os.getpid(), flush=True)
+        time.sleep(600)
+    os._exit(0)
+os.wait()
+time.sleep(600)
+"""
+DEAF = """
+import signal, time
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, signal.SIG_IGN)
+print('deaf', flush=True)
+time.sleep(600)
+"""
+PARENT = """
+import os, sys
+from husky_runtime.children import Process
+child = Process([sys.executable, '-c', 'import time; time.sleep(600)'], os.environ)
+print(child.pid, flush=True)
+sys.stdin.read()
+"""
+DEAF_CHILD = f"""
+import os, signal, sys
+from husky_runtime.children import Process
+child = Process([sys.executable, '-c', {DEAF!r}], os.environ, parent_death=signal.SIGKILL)
+print(child.pid, flush=True)
+sys.stdin.read()
+"""
+PARTICIPANT = """
+import sys, rclpy
+rclpy.init()
+node = rclpy.create_node('participant')
+print('here', flush=True)
+sys.stdin.read()
+"""
+
+
+def wait_for(fact: Callable[[], object], what: str) -> None:
+    deadline = time.monotonic() + 10.0
+    while not fact():
+        assert time.monotonic() < deadline, f'not within 10 s: {what}'
+        time.sleep(0.01)
+
+
+def start(text: str, log: Path) -> Process:
+    with log.open('w') as stream:
+        process = Process([sys.executable, '-c', text], os.environ, stream)
+    wait_for(lambda: log.read_text().endswith('\n'), 'the first line of the child')
+    return process
+
+
+def is_running(pid: int) -> bool:
+    try:
+        return psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
+
+
+def test_a_daemon_ends_with_the_child_that_made_it(tmp_path: Path) -> None:
+    adopt_orphans()
+    with start(DAEMON, tmp_path / 'log'):
+        daemon = int((tmp_path / 'log').read_text())
+        assert is_running(daemon)
+    assert not is_running(daemon)
+
+
+def test_a_child_that_hears_no_signal_ends_in_2_s(tmp_path: Path, slack: float) -> None:
+    process = start(DEAF, tmp_path / 'log')
+    begun = time.monotonic()
+    process.end()
+    assert process.exit_code == -signal.SIGKILL
+    assert time.monotonic() - begun < 2.2 * slack
+
+
+def test_a_child_ends_with_its_killed_parent() -> None:
+    parent = subprocess.Popen(
+        [sys.executable, '-c', PARENT], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert parent.stdout is not None
+    child = int(parent.stdout.readline())
+    assert is_running(child)
+    parent.kill()
+    parent.communicate()
+    wait_for(lambda: not is_running(child), 'the end of the child')
+
+
+def test_a_deaf_child_ends_with_its_killed_parent() -> None:
+    parent = subprocess.Popen(
+        [sys.executable, '-c', DEAF_CHILD],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert parent.stdout is not None
+    told = {parent.stdout.readline().strip(), parent.stdout.readline().strip()}
+    (child,) = map(int, told - {'deaf'})
+    assert is_running(child)
+    parent.kill()
+    parent.communicate()
+    wait_for(lambda: not is_running(child), 'the end of the deaf child')
+
+
+def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
+    log = tmp_path / 'log'
+    with descendants_ended():
+        with log.open('w') as stream:
+            command = ['env', '-i', sys.executable, '-c', DAEMON]
+            child = Process(command, os.environ, stream)
+        wait_for(lambda: log.read_text().endswith('\n'), 'the daemon')
+        daemon = int(log.read_text())
+        child.end()
+        assert is_running(daemon), 'it has no mark'
+    assert not is_running(daemon)
+
+
+def test_the_shared_memory_of_the_dead_goes() -> None:
+    with OwnDomain() as one, OwnDomain() as another:
+        dead, alive = participant(one.number), participant(another.number)
+        files = {process: mapped_by(process.pid) for process in (dead, alive)}
+        assert all(files.values()), 'no shared memory is used'
+        dead.kill()
+        dead.communicate()
+        clean_shared_memory()
+        left = {
+            process: [f for f in names if Path(f).exists()] for process, names in files.items()
+        }
+        alive.communicate(b'', timeout=10.0)
+    assert left[dead] == []
+    assert set(left[alive]) == files[alive]
+
+
+def participant(domain: int) -> 'subprocess.Popen[bytes]':
+    """Start a node in a domain, and wait until it is there."""
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain), RANGE: 'LOCALHOST'}
+    command = [sys.executable, '-c', PARTICIPANT]
+    started = subprocess.Popen(
+        command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    assert started.stdout is not None
+    assert started.stdout.readline() == b'here\n'
+    return started
+
+
+def mapped_by(pid: int) -> set[str]:
+    rows = Path(f'/proc/{pid}/maps').read_text().splitlines()
+    return {row.split()[-1] for row in rows if '/dev/shm/' in row and 'fastrtps' in row}

@@ -1,0 +1,112 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""DDS domains: one to oneself, and one simulator in each."""
+
+from collections.abc import Iterator
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import tempfile
+
+from husky_runtime.domains import DomainError, Lock, lock_simulator, OwnDomain
+import pytest
+import rclpy
+from rclpy.context import Context
+
+from husky_runtime import domains
+
+HOLD = """
+import sys
+from husky_runtime.domains import OwnDomain
+with OwnDomain() as domain:
+    print(domain.number, flush=True)
+    sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def holder() -> Iterator['subprocess.Popen[str]']:
+    """Start a process that has a domain of its own, and says which."""
+    process = subprocess.Popen(
+        [sys.executable, '-c', HOLD], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    yield process
+    process.kill()
+    process.communicate()
+
+
+def number_of(holder: 'subprocess.Popen[str]') -> int:
+    assert holder.stdout is not None
+    return int(holder.stdout.readline())
+
+
+def test_no_two_runs_get_the_same_domain() -> None:
+    taken = [OwnDomain() for _ in range(20)]
+    assert len({domain.number for domain in taken}) == len(taken)
+    for domain in taken:
+        domain.close()
+
+
+def test_a_domain_is_taken_until_its_process_is_killed(
+    holder: 'subprocess.Popen[str]', monkeypatch: pytest.MonkeyPatch
+) -> None:
+    number = number_of(holder)
+    monkeypatch.setattr(domains, 'DOMAINS', (number,))
+    with pytest.raises(DomainError, match='taken'):
+        OwnDomain()
+    holder.send_signal(signal.SIGKILL)
+    holder.wait()
+    with OwnDomain() as domain:
+        assert domain.number == number
+
+
+def test_a_domain_with_a_stranger_in_it_is_left_alone(
+    domain_id: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = rclpy.create_node('stranger', context=context)
+    monkeypatch.setattr(domains, 'DOMAINS', (domain_id,))
+    monkeypatch.setattr(domains, 'Lock', lambda name: Lock(f'{name}_of_test'))
+    with pytest.raises(DomainError, match='left over'):
+        OwnDomain()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_a_second_simulator_is_refused_by_name(domain_id: int) -> None:
+    command = [sys.executable, '-m', 'husky_sim.ros.node']
+    first = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert first.stdout is not None
+    try:
+        assert 'real time' in first.stdout.readline()
+        second = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
+    finally:
+        first.send_signal(signal.SIGINT)
+        first.communicate(timeout=10.0)
+    assert second.returncode == 2
+    (line,) = second.stderr.splitlines()
+    assert f'another simulator runs in ROS domain {domain_id}: process {first.pid} ' in line
+    assert 'export ROS_DOMAIN_ID=' in line
+
+
+def test_other_domains_have_simulators_of_their_own() -> None:
+    first, second = lock_simulator(1001), lock_simulator(1002)
+    with pytest.raises(DomainError, match='another simulator runs in ROS domain 1001'):
+        lock_simulator(1001)
+    first.close()
+    lock_simulator(1001).close()
+    second.close()
+
+
+def test_without_abstract_sockets_a_file_is_locked(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(sys, 'platform', 'darwin')
+    monkeypatch.setattr(tempfile, 'tempdir', str(tmp_path))
+    lock = Lock('name')
+    with pytest.raises(BlockingIOError, match='name is held'):
+        Lock('name')
+    lock.close()
+    Lock('name').close()

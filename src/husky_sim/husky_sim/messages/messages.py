@@ -1,0 +1,226 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulator's states as ROS messages.
+
+Each class keeps one message packed, and packs the numbers of a control period into it.
+"""
+
+import math
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
+
+from husky_sim.messages.packed_message import PackedMessage
+from husky_sim.robot.contacts import Touch
+from husky_sim.robot.diff_drive import WheelOdometry
+from husky_sim.robot.husky import JOINTS, Quaternion, Vector
+from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
+from husky_sim.sensors.localization import PlanarFilter
+from husky_sim.sensors.navsat import VARIANCE_M2
+from husky_sim.simulation import SimulatedRobot
+
+Stamp = tuple[int, int]
+"""Simulated time: seconds, nanoseconds."""
+
+
+# Diagonals of the velocity controller (husky_control, control.yaml).
+ODOMETRY_VARIANCES = (0.001, 0.001, 0.001, 0.001, 0.001, 0.03)
+
+# Where x, y and yaw stand in the 6 x 6 covariances of a message.
+_PLANE = [0, 1, 5, 6, 7, 11, 30, 31, 35]
+
+
+def time_message(stamp: Stamp) -> Time:
+    """Return a time as a message."""
+    return Time(sec=stamp[0], nanosec=stamp[1])
+
+
+class OdometryMessage(PackedMessage):
+    """An odometry message of base_link."""
+
+    def __init__(self, frame_id: str, variances: tuple[float, ...]) -> None:
+        message = Odometry(child_frame_id='base_link')
+        message.header.frame_id = frame_id
+        message.pose.covariance[::7] = variances
+        message.twist.covariance[::7] = variances
+        super().__init__(message)
+        self.pack_stamp = self.packer(self.places['header']['stamp'])
+        self.pack_pose = self.packer(self.places['pose']['pose'])
+        self.pack_twist = self.packer(self.places['twist']['twist'])
+
+    def pack_planar(self, estimate: WheelOdometry | PlanarFilter) -> None:
+        """Pack an estimate that lives in the plane."""
+        half = estimate.yaw / 2.0
+        self.pack_pose(estimate.x, estimate.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half))
+        self.pack_twist(estimate.speed_m_s, 0.0, 0.0, 0.0, 0.0, estimate.yaw_rate_rad_s)
+
+
+class WheelOdometryMessage(OdometryMessage):
+    """Where the wheels say the robot is."""
+
+    def __init__(self) -> None:
+        super().__init__('odom', ODOMETRY_VARIANCES)
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the wheel odometry."""
+        self.pack_stamp(*stamp)
+        self.pack_planar(robot.odometry)
+
+
+class FilteredOdometryMessage(OdometryMessage):
+    """Where the filter believes the robot is, and how sure it is."""
+
+    def __init__(self) -> None:
+        super().__init__('odom', ODOMETRY_VARIANCES)
+        self._pose_covariance = self.array(self.places['pose']['covariance'])
+        self._twist_covariance = self.array(self.places['twist']['covariance'])
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the estimate; the covariances are of x, y, yaw, and of their speeds."""
+        self.pack_stamp(*stamp)
+        self.pack_planar(robot.filtered)
+        covariance = robot.filtered.covariance
+        self._pose_covariance[_PLANE] = covariance[:3, :3].ravel()
+        self._twist_covariance[_PLANE] = covariance[3:6, 3:6].ravel()
+
+
+class GroundTruthMessage(OdometryMessage):
+    """Where the robot is."""
+
+    def __init__(self) -> None:
+        super().__init__('world', (0.0,) * 6)
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the true pose and twist."""
+        state = robot.state
+        self.pack_stamp(*stamp)
+        self.pack_pose(*state.position, *_xyzw(state.orientation))
+        self.pack_twist(*state.velocity, *state.angular_velocity)
+
+
+class ImuMessage(PackedMessage):
+    """An IMU message with the variances of its noise, whether that is on or not."""
+
+    def __init__(self) -> None:
+        message = Imu()
+        message.header.frame_id = 'base_link'
+        message.orientation_covariance[::4] = IMU_VARIANCE
+        message.angular_velocity_covariance[::4] = IMU_VARIANCE
+        message.linear_acceleration_covariance[::4] = IMU_VARIANCE
+        super().__init__(message)
+        self._stamp = self.packer(self.places['header']['stamp'])
+        self._orientation = self.packer(self.places['orientation'])
+        self._rate = self.packer(self.places['angular_velocity'])
+        self._acceleration = self.packer(self.places['linear_acceleration'])
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack what the IMU measures."""
+        sample = robot.imu
+        self._stamp(*stamp)
+        self._orientation(*_xyzw(sample.orientation))
+        self._rate(*sample.angular_velocity)
+        self._acceleration(*sample.acceleration)
+
+
+class JointStateMessage(PackedMessage):
+    """A message of the four wheels."""
+
+    def __init__(self) -> None:
+        zeros = [0.0] * len(JOINTS)
+        super().__init__(
+            JointState(name=list(JOINTS), position=zeros, velocity=zeros, effort=zeros)
+        )
+        self._stamp = self.packer(self.places['header']['stamp'])
+        self._angles = self.packer(self.places['position'])
+        self._speeds = self.packer(self.places['velocity'])
+        self._torques = self.packer(self.places['effort'])
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the wheels."""
+        wheels = robot.wheels
+        self._stamp(*stamp)
+        self._angles(*wheels.angles_rad)
+        self._speeds(*wheels.speeds_rad_s)
+        self._torques(*wheels.torques_n_m)
+
+
+class CommandMessage(PackedMessage):
+    """A velocity command."""
+
+    def __init__(self) -> None:
+        super().__init__(Twist())
+        self._twist = self.packer(self.places)
+
+    def pack(self, _: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the command as the limits left it."""
+        controller = robot.controller
+        self._twist(controller.speed_m_s, 0.0, 0.0, 0.0, 0.0, controller.yaw_rate_rad_s)
+
+
+class FixMessage(PackedMessage):
+    """What the satellite receiver says, with the variances of its noise."""
+
+    def __init__(self) -> None:
+        message = NavSatFix(position_covariance_type=NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN)
+        message.header.frame_id = 'base_link'
+        message.status.status = NavSatStatus.STATUS_FIX
+        message.status.service = NavSatStatus.SERVICE_GPS
+        message.position_covariance[::4] = VARIANCE_M2
+        super().__init__(message)
+        self._stamp = self.packer(self.places['header']['stamp'])
+        degrees_and_m = ('latitude', 'longitude', 'altitude')
+        self._place = self.packer(*(self.places[name] for name in degrees_and_m))
+
+    def pack(self, stamp: Stamp, fix: Vector) -> None:
+        """Pack latitude and longitude in degrees, altitude in metres."""
+        self._stamp(*stamp)
+        self._place(*fix)
+
+
+class ClockMessage(PackedMessage):
+    """The simulated time."""
+
+    def __init__(self) -> None:
+        super().__init__(Clock())
+        self._stamp = self.packer(self.places)
+
+    def pack(self, stamp: Stamp) -> None:
+        """Pack the time."""
+        self._stamp(*stamp)
+
+
+def packed_messages() -> list[PackedMessage]:
+    """Return one of each kind, to prove their layouts."""
+    return [
+        *(WheelOdometryMessage(), FilteredOdometryMessage(), GroundTruthMessage()),
+        *(ImuMessage(), JointStateMessage(), CommandMessage(), FixMessage(), ClockMessage()),
+    ]
+
+
+def new_collision(touch: Touch) -> DiagnosticStatus:
+    """Make the message of a collision."""
+    x, y, z = touch.position
+    return DiagnosticStatus(
+        level=DiagnosticStatus.ERROR,
+        name=touch.obstacle,
+        message=f'{touch.robot} touched {touch.obstacle} with its {touch.part}',
+        hardware_id=touch.robot,
+        values=[
+            KeyValue(key='obstacle', value=touch.obstacle),
+            KeyValue(key='part', value=touch.part),
+            KeyValue(key='force_n', value=f'{touch.force_n:.1f}'),
+            KeyValue(key='position', value=f'{x:.3f} {y:.3f} {z:.3f}'),
+            KeyValue(key='time_sec', value=f'{touch.time_sec:.3f}'),
+        ],
+    )
+
+
+def _xyzw(orientation: Quaternion) -> tuple[float, float, float, float]:
+    """Order a quaternion as messages do."""
+    w, x, y, z = orientation
+    return x, y, z, w

@@ -1,0 +1,124 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which robot touches what.
+
+A touch begins when a part of a robot meets an obstacle or another robot, and ends when the two
+have been apart for RELEASE_SEC. It is reported once, PEAK_SEC after it began, with the greatest
+force until then. Wheels on the ground touch nothing.
+"""
+
+from dataclasses import dataclass
+
+from husky_course.record.events import Touch as Touch
+import mujoco
+import numpy as np
+
+from husky_sim.world.world import World
+
+PEAK_SEC = 0.1
+RELEASE_SEC = 0.5
+_REMEMBERED = 10000
+
+
+@dataclass
+class _Contact:
+    touch: Touch
+    last_seen_sec: float
+    force_n: float = 0.0
+    reported: bool = False
+
+    def report(self) -> Touch:
+        self.reported = True
+        touch = self.touch
+        return Touch(
+            robot=touch.robot,
+            obstacle=touch.obstacle,
+            part=touch.part,
+            time_sec=touch.time_sec,
+            force_n=self.force_n,
+            position=touch.position,
+        )
+
+
+class TouchDetector:
+    """Looks at the contacts after every physics step."""
+
+    def __init__(self, world: World, data: mujoco.MjData) -> None:
+        self._world = world
+        self._data = data
+        self._robots = len(world.robots)
+        self._solid = (world.owners >= 0).astype(np.int8)
+        self._harmless: set[bytes] = set()
+        self._contacts: dict[tuple[int, int], _Contact] = {}
+        self._force = np.zeros(6)
+
+    def reset(self) -> None:
+        """Forget every touch."""
+        self._contacts.clear()
+
+    def look(self, time_sec: float) -> None:
+        """Take notice of what touches after a physics step."""
+        # Nearly always the same pairs touch as at some step before: wheels and ground.
+        pairs = self._data.contact.geom.tobytes()
+        if pairs in self._harmless:
+            return
+        solid = self._solid[self._data.contact.geom]
+        if not (solid[:, 0] & solid[:, 1]).any():
+            if len(self._harmless) < _REMEMBERED:
+                self._harmless.add(pairs)
+            return
+        now: dict[tuple[int, int], list[tuple[int, int]]] = {}
+        for index, (one, other) in enumerate(self._data.contact.geom.tolist()):
+            owners = int(self._world.owners[one]), int(self._world.owners[other])
+            if min(owners) < 0 or owners[0] == owners[1]:
+                continue
+            for ours, theirs, geom in ((*owners, one), (*owners[::-1], other)):
+                if ours < self._robots:
+                    now.setdefault((ours, theirs), []).append((index, geom))
+        for pair, contacts in now.items():
+            self._see(pair, contacts, time_sec)
+
+    def _see(
+        self, pair: tuple[int, int], contacts: list[tuple[int, int]], time_sec: float
+    ) -> None:
+        known = self._contacts.get(pair)
+        if known is None or time_sec - known.last_seen_sec > RELEASE_SEC:
+            known = _Contact(self._begin(pair, contacts, time_sec), time_sec)
+            self._contacts[pair] = known
+        known.last_seen_sec = time_sec
+        known.force_n = max(known.force_n, sum(self._normal_force(i) for i, _ in contacts))
+
+    def _begin(
+        self, pair: tuple[int, int], contacts: list[tuple[int, int]], time_sec: float
+    ) -> Touch:
+        depths = self._data.contact.dist
+        index, geom = min(contacts, key=lambda contact: float(depths[contact[0]]))
+        x, y, z = self._data.contact.pos[index].tolist()
+        names = self._world.names
+        return Touch(
+            robot=names[pair[0]],
+            obstacle=names[pair[1]],
+            part=self._world.part(geom),
+            time_sec=time_sec,
+            force_n=0.0,
+            position=(x, y, z),
+        )
+
+    def _normal_force(self, index: int) -> float:
+        mujoco.mj_contactForce(self._world.model, self._data, index, self._force)
+        return abs(float(self._force[0]))
+
+    def reports(self, time_sec: float) -> list[Touch]:
+        """Return the touches that began PEAK_SEC ago and were not reported yet."""
+        if not self._contacts:
+            return []
+        return [
+            contact.report()
+            for contact in self._contacts.values()
+            if not contact.reported and time_sec - contact.touch.time_sec >= PEAK_SEC
+        ]
+
+    def remaining(self) -> list[Touch]:
+        """Return the touches that a run ended too early to report."""
+        return [c.report() for c in self._contacts.values() if not c.reported]

@@ -1,0 +1,78 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""How the simulator keeps up, on /diagnostics once a second of wall time."""
+
+import time
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+from husky_sim.ros.pacing import Pacer
+from husky_sim.simulation import Simulation
+
+PERIOD_SEC = 1.0
+_ENOUGH = 0.95  # of the pace that was asked for
+
+
+class PaceWatch:
+    """Compares simulated with wall time, from one look to the next."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._wall_sec = time.monotonic()
+        self._time_sec = simulation.time_sec
+        self._overruns = 0
+
+    def look(self, pacer: Pacer, asked: float, *, waits: bool) -> DiagnosticStatus:
+        """
+        Judge the time since the last look.
+
+        :param asked: the real-time factor, 0 for as fast as possible.
+        :param waits: whether a pause or a driver, and not the machine, holds time up.
+        """
+        now_sec, time_sec = time.monotonic(), self._simulation.time_sec
+        passed_sec = max(time_sec - self._time_sec, 0.0)
+        factor = passed_sec / max(now_sec - self._wall_sec, 1e-9)
+        overruns = pacer.overruns - self._overruns
+        self._wall_sec, self._time_sec, self._overruns = now_sec, time_sec, pacer.overruns
+        warnings = self._simulation.physics_warnings
+        level, message = DiagnosticStatus.OK, f'{factor:.2f} x real time'
+        if warnings:
+            level = DiagnosticStatus.ERROR
+            message = (
+                f'{message}; the physics warned {warnings} times: the run is not to be trusted'
+            )
+        elif not waits and asked > 0.0 and (factor < _ENOUGH * asked or overruns > 0):
+            level = DiagnosticStatus.WARN
+            message = f'{message} of {asked:g} asked for: this machine is too slow or too busy'
+        values = {
+            'real_time_factor': f'{factor:.3f}',
+            'real_time_factor_asked': f'{asked:g}',
+            'overruns': str(pacer.overruns),
+            'wall_time_lost_sec': f'{pacer.lost_sec:.3f}',
+            'physics_warnings': str(warnings),
+            'sim_time_sec': f'{time_sec:.2f}',
+        }
+        return DiagnosticStatus(
+            level=level,
+            name='husky_sim: time',
+            message=message,
+            hardware_id='husky_sim',
+            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+        )
+
+
+class DiagnosticsTopic:
+    """Publishes what a function says, once a second."""
+
+    def __init__(self, node: Node) -> None:
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self.clock = Clock(clock_type=ClockType.STEADY_TIME)
+
+    def publish(self, status: DiagnosticStatus, time_ns: int) -> None:
+        """Publish one status at a simulated time."""
+        message = DiagnosticArray(status=[status])
+        stamp = message.header.stamp
+        stamp.sec, stamp.nanosec = divmod(time_ns, 1_000_000_000)
+        self._publisher.publish(message)

@@ -1,0 +1,355 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulator as a ROS 2 node.
+
+Time passes in one of three ways: at real_time_factor times the wall's pace, as fast as possible
+(factor 0), or in lockstep, where each control period waits for the command that answers the
+odometry of the one before.
+"""
+
+from dataclasses import replace
+from functools import partial
+import gc
+import sys
+import time
+from typing import Any
+
+from husky_runtime.domains import DomainError, lock_simulator
+from husky_runtime.executor import future_of_signal, spin
+from rcl_interfaces.msg import SetParametersResult
+import rclpy
+from rclpy.clock import Clock as RosClock
+from rclpy.clock import ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.timer import Timer
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Empty, SetBool, Trigger
+
+from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.errors import SettingError, SimulatorError
+from husky_sim.messages.messages import ClockMessage, packed_messages
+from husky_sim.messages.packed_message import proven_form
+from husky_sim.recording.recorder import open_recorder
+from husky_sim.ros.diagnostics import DiagnosticsTopic, PaceWatch
+from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
+from husky_sim.ros.interference import Interference, InterferenceWatch
+from husky_sim.ros.pacing import Pacer
+from husky_sim.ros.parameters import CHANGEABLE, read_factor, read_run, read_simulation
+from husky_sim.ros.robot_topics import QOS, RobotTopics
+from husky_sim.ros.scene_topic import SceneTopic
+from husky_sim.ros.simulation_services import add_simulation_services
+from husky_sim.simulation import Simulation
+
+REPEAT_SEC = 0.5
+"""How often lockstep repeats its first odometry message, until the first command comes."""
+
+HANGING_SEC = 60.0
+"""
+A driver that does not answer one message for so long, in a run with a limit, hangs.
+
+Counted in looks of this node, which come later on a busy machine, as the driver's answer does.
+"""
+
+_LOCKSTEP_POLL_SEC = 0.01
+_SHORTEST_TICK_SEC = 0.001
+
+# How long to go on before the executor may look for commands and services. As fast as possible: to
+# come back to it costs as much as half a control period. Behind the wall clock: long enough to
+# catch up where a control period takes most of its time.
+_TURN_SEC = 0.002
+_CATCH_UP_TURN_SEC = 0.02
+
+
+class SimulatorNode(Node):
+    """Simulates the robots of a world and speaks for them."""
+
+    def __init__(self, **arguments: Any) -> None:
+        """
+        Read the parameters and load the world.
+
+        :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
+        :raises SimulatorError: if a parameter, the world or a start pose cannot be used, or if
+            another simulator runs in the domain.
+        """
+        context = arguments.get('context') or rclpy.get_default_context()
+        self._lock = lock_simulator(context.get_domain_id())
+        super().__init__('husky_sim', **arguments)
+        self._run = read_run(self)
+        config = read_simulation(self, self._run)
+        self._simulation = Simulation(config)
+        self._record = open_recorder(self._simulation, self._run.record, self.get_logger().error)
+        factor = self._run.real_time_factor
+        self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
+        self.over: Future[None] = Future()
+        self._paused = False
+        self._driven = False  # lockstep: the first odometry message is out
+        self._answered = False  # lockstep: and was answered
+        self._looks = 0  # lockstep: for the answer to the last message, in vain
+        self._sent_at_sec = 0.0
+        many = len(config.robots) > 1
+        self._form = proven_form(packed_messages(), self.get_logger())
+        self._topics = [
+            RobotTopics(
+                self,
+                self._simulation,
+                robot,
+                f'{robot.name}/' if many else '',
+                self._on_command,
+                self._form,
+                on_commander=partial(self._on_commander, place),
+            )
+            for place, robot in enumerate(self._simulation.robots)
+        ]
+        self._by_name = {topics.robot.name: topics for topics in self._topics}
+        self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
+        self._clock_message = ClockMessage()
+        self._interference = InterferenceWatch(
+            self,
+            ours=[
+                self._clock_publisher.topic_name,
+                *(name for topics in self._topics for name in topics.odometry_topics),
+            ],
+            commands=[topics.command_subscription.topic_name for topics in self._topics],
+            on_found=self._on_interference,
+        )
+        self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
+        self.create_service(Empty, '~/reset', self._on_reset)
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.create_service(Trigger, '~/step', self._on_step)
+        add_simulation_services(self, self)
+        self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self._new_timer()
+        self._diagnostics = DiagnosticsTopic(self)
+        self._watch = PaceWatch(self._simulation)
+        self.create_timer(DIAGNOSTICS_PERIOD_SEC, self._on_diagnose, clock=self._steady)
+        self.add_on_set_parameters_callback(self._on_set_parameters)
+        self.get_logger().info(
+            f'{self._run.world}: {len(self._simulation.world.obstacles)} obstacles, '
+            f'{", ".join(robot.name for robot in config.robots)}; '
+            f'{self._pace_in_words()}'
+        )
+
+    @property
+    def simulation(self) -> Simulation:
+        """Return what the node speaks for."""
+        return self._simulation
+
+    def _tick_sec(self) -> float:
+        if self._run.real_time_factor > 0.0:
+            return max(CONTROL_PERIOD_SEC / self._run.real_time_factor, _SHORTEST_TICK_SEC)
+        return _LOCKSTEP_POLL_SEC if self._run.lockstep else 0.0
+
+    def _pace_in_words(self) -> str:
+        factor = self._run.real_time_factor
+        pace = f'{factor:g} x real time' if factor > 0.0 else 'as fast as possible'
+        return f'lockstep, {pace}' if self._run.lockstep else pace
+
+    def _on_set_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        for parameter in parameters:
+            if parameter.name == CHANGEABLE:
+                try:
+                    self._change_pace(read_factor(parameter.value))
+                except SettingError as error:
+                    return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _change_pace(self, factor: float) -> None:
+        self._run = replace(self._run, real_time_factor=factor)
+        self.destroy_timer(self._timer)
+        self._timer = self._new_timer()
+        self.get_logger().info(self._pace_in_words())
+
+    def _new_timer(self) -> Timer:
+        self._pacer.change(self._run.real_time_factor or 1e9, begin_sec=time.monotonic())
+        return self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+
+    def _on_tick(self) -> None:
+        if self._paused:
+            return
+        if self._run.lockstep:
+            self._continue_lockstep()
+            return
+        free = self._run.real_time_factor == 0.0
+        now_sec = time.monotonic()
+        end_sec = now_sec + (_TURN_SEC if free else _CATCH_UP_TURN_SEC)
+        while now_sec < end_sec and (free or self._pacer.due(now_sec, most=1)):
+            self._advance()
+            now_sec = time.monotonic()
+
+    def _on_command(self) -> None:
+        if self._run.lockstep and not self._paused:
+            self._answered = True
+            self._advance_if_answered()
+
+    def _continue_lockstep(self) -> None:
+        """Begin, repeat the first message, or take up a command that came too early."""
+        if self._answered:
+            self._advance_if_answered()
+            self._looks += 1
+            if self._run.limit_sec and self._looks * self._tick_sec() > HANGING_SEC:
+                self._end(f'no command for {HANGING_SEC:g} s: the driver hangs')
+            return
+        now = time.monotonic()
+        if not self._driven:
+            if all(topics.has_driver() for topics in self._topics):
+                self._driven = True
+                self._publish()
+                self._sent_at_sec = now
+        elif now - self._sent_at_sec >= REPEAT_SEC:
+            self._publish()
+            self._sent_at_sec = now
+
+    def _advance_if_answered(self) -> None:
+        if not all(topics.commanded for topics in self._topics):
+            return
+        if self._run.real_time_factor > 0.0 and not self._pacer.due(time.monotonic(), most=1):
+            return
+        self._advance()
+
+    def _advance(self) -> None:
+        for topics in self._topics:
+            topics.commanded = False
+        self._simulation.advance()
+        if self._record is not None:
+            self._record.append()
+        self._publish()
+        self._looks = 0
+        if 0.0 < self._run.limit_sec <= self._simulation.time_sec:
+            self._end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
+        self._scene.append()
+        for topics in self._topics:
+            if topics.robot.timeout_bites:
+                config = topics.robot.controller.config
+                self.get_logger().warning(
+                    f'{topics.robot.name}: no command for {config.command_timeout_sec:g} s '
+                    '(command_timeout_sec); stopping'
+                )
+
+    def _end(self, why: str) -> None:
+        """End the run, which its driver should have ended before."""
+        if not self.over.done():
+            self.get_logger().error(f'the run ends: {why}')
+            self.over.set_result(None)
+
+    def _publish(self) -> None:
+        stamp = divmod(self._simulation.time_ns, 1_000_000_000)
+        for topics in self._topics:
+            topics.publish_filtered(stamp)
+        self._clock_message.pack(stamp)
+        self._clock_publisher.publish(self._form(self._clock_message))
+        for topics in self._topics:
+            topics.publish_rest(stamp)
+        for touch in self._simulation.touches:
+            self._by_name[touch.robot].publish_collision(touch)
+
+    def _on_commander(self, place: int, count: int) -> None:
+        topic = self._topics[place].command_subscription.topic_name
+        self._interference.look_at_commands(topic, count)
+
+    def _on_interference(self, found: Interference) -> None:
+        self.get_logger().error(str(found))
+        if self._record is not None:
+            self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
+
+    def _on_diagnose(self) -> None:
+        status = self._watch.look(
+            self._pacer,
+            self._run.real_time_factor,
+            waits=self._paused or self._run.lockstep,
+        )
+        self._diagnostics.publish(status, self._simulation.time_ns)
+        for topics in self._topics:
+            topics.warn_of_other_types(self)
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands still."""
+        return self._paused
+
+    @property
+    def at_start(self) -> bool:
+        """Whether no time has passed since the start or the last reset."""
+        return self._simulation.periods == 0
+
+    def pause(self, paused: bool) -> None:
+        """Hold time up, or let it go on."""
+        self._paused = paused
+        self._pacer.restart()
+
+    def step(self) -> None:
+        """Advance by one control period."""
+        self._advance()
+
+    def reset(self) -> None:
+        """Put everything back as it was at the start."""
+        self._simulation.reset()
+        if self._record is not None:
+            self._record.restart()
+        self._pacer.restart()
+        self._driven = self._answered = False
+        for topics in self._topics:
+            topics.commanded = False
+        if not self._run.lockstep:
+            self._publish()
+        self.get_logger().info('everything is back at its start')
+
+    def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
+        self.reset()
+        return response
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self.pause(request.data)
+        response.success = True
+        response.message = f'{"paused" if self._paused else "going on"} at {self._now_in_words()}'
+        return response
+
+    def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._paused
+        if self._paused:
+            self.step()
+            response.message = f'stepped to {self._now_in_words()}'
+        else:
+            response.message = 'a step needs a paused simulation; call ~/pause with true first'
+        return response
+
+    def _now_in_words(self) -> str:
+        return f'{self._simulation.time_sec:.2f} s of simulated time'
+
+    def destroy_node(self) -> None:
+        """End the record, then let go of everything; may be called twice."""
+        if self._record is not None:
+            self._interference.look(at_the_end=True)
+            self._record.close()
+            self._record = None
+        for topics in self._topics:
+            topics.close()
+        super().destroy_node()
+        self._lock.close()
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the simulator until it is interrupted."""
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    interrupted = future_of_signal()
+    node: SimulatorNode | None = None
+    try:
+        node = SimulatorNode()
+        gc.freeze()  # what is there now stays: no long search through it in the middle of a run
+        node.over.add_done_callback(lambda _: interrupted.done() or interrupted.set_result(None))
+        spin(node, until=interrupted)
+    except (SimulatorError, DomainError) as error:
+        print(f'husky_sim: {error}', file=sys.stderr)
+        return 2
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,184 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of one robot."""
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import Bool
+
+from husky_sim.messages import messages
+from husky_sim.messages.messages import Stamp
+from husky_sim.messages.packed_message import Form
+from husky_sim.robot.contacts import Touch
+from husky_sim.ros.sensor_topics import SensorTopics
+from husky_sim.ros.transforms import TransformTopics
+from husky_sim.simulation import SimulatedRobot, Simulation
+
+# Reliable and volatile: a reader that is slow for a moment loses nothing.
+QOS = QoSProfile(depth=10)
+
+LOOK_SEC = 0.005
+"""How often to look who reads, by the wall clock: each look costs as much as a message."""
+
+_COMMAND_TYPE = 'geometry_msgs/msg/Twist'
+
+
+class RobotTopics:
+    """
+    Publishes what a robot measures and takes its commands.
+
+    :param namespace: before every topic; empty for the only robot, ending in / for one of many.
+    :param on_command: called after every command was taken.
+    :param on_commander: called when one who publishes commands comes or goes, with how many did
+        so at the same time.
+    :param form: in which packed messages are published.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        robot: SimulatedRobot,
+        namespace: str,
+        on_command: Callable[[], None],
+        form: Form,
+        *,
+        on_commander: Callable[[int], None],
+    ) -> None:
+        self.robot = robot
+        self.commanded = False
+        self._simulation = simulation
+        self._on_command = on_command
+        self._form = form
+        self._logger = node.get_logger()
+        controller = f'{namespace}husky_velocity_controller'
+        self._filtered = messages.FilteredOdometryMessage()
+        self.filtered_publisher: Any = None
+        if simulation.config.sensors.localization:
+            self.filtered_publisher = node.create_publisher(
+                Odometry, f'{namespace}odometry/filtered', QOS
+            )
+        self._rest: list[tuple[Any, Publisher]] = [
+            (message, node.create_publisher(kind, topic, QOS))
+            for message, kind, topic in (
+                (messages.WheelOdometryMessage(), Odometry, f'{controller}/odom'),
+                (messages.CommandMessage(), Twist, f'{controller}/cmd_vel_out'),
+                (messages.ImuMessage(), Imu, f'{namespace}imu/data'),
+                (messages.JointStateMessage(), JointState, f'{namespace}joint_states'),
+                (messages.GroundTruthMessage(), Odometry, f'{namespace}ground_truth/odom'),
+            )
+        ]
+        self.odometry_topics = [
+            publisher.topic_name
+            for message, publisher in ((self._filtered, self.filtered_publisher), *self._rest)
+            if publisher is not None and isinstance(message, messages.OdometryMessage)
+        ]
+        self._read = self._rest  # those of them that somebody reads
+        self._look_again_sec = 0.0
+        self._collision_publisher = node.create_publisher(
+            DiagnosticStatus, f'{namespace}collisions', QOS
+        )
+        self._sensors = SensorTopics(node, simulation, robot, namespace, QOS, form)
+        self._transforms = TransformTopics(
+            node, namespace, localization=self.filtered_publisher is not None
+        )
+        self.command_subscription = node.create_subscription(
+            Twist,
+            f'{controller}/cmd_vel',
+            self._on_cmd_vel,
+            QOS,
+            event_callbacks=SubscriptionEventCallbacks(
+                matched=lambda event: on_commander(most_at_once(event))
+            ),
+        )
+        # As the Husky's twist_mux has it: while true, no command reaches the wheels.
+        self._stop_subscription = node.create_subscription(
+            Bool, f'{namespace}e_stop', self._on_e_stop, QOS
+        )
+        self._stopped = False
+        self._other_types: set[str] = set()
+
+    def _on_e_stop(self, message: Bool) -> None:
+        if message.data != self._stopped:
+            self._stopped = message.data
+            what = 'emergency stop' if self._stopped else 'emergency stop released'
+            self._logger.warning(f'{self.robot.name}: {what}')
+        if self._stopped:
+            self.robot.controller.command(0.0, 0.0, time_sec=self._simulation.time_sec)
+
+    def _on_cmd_vel(self, message: Twist) -> None:
+        speed, yaw_rate = message.linear.x, message.angular.z
+        if self._stopped:
+            speed = yaw_rate = 0.0
+        try:
+            self.robot.controller.command(speed, yaw_rate, time_sec=self._simulation.time_sec)
+        except ValueError as error:
+            self._logger.error(f'{self.robot.name}: {error}', throttle_duration_sec=1.0)
+        self.commanded = True
+        self._on_command()
+
+    def warn_of_other_types(self, node: Node) -> None:
+        """
+        Say so, once, when somebody commands with another message type.
+
+        DDS does not connect the two, so without a word nothing would move. Most often it is a
+        TwistStamped, which Jazzy's own controllers take.
+        """
+        topic = self.command_subscription.topic_name
+        for publisher in node.get_publishers_info_by_topic(topic):
+            kind = publisher.topic_type
+            if kind != _COMMAND_TYPE and kind not in self._other_types:
+                self._other_types.add(kind)
+                self._logger.error(
+                    f'{publisher.node_name} publishes {kind} on {topic}, which nobody hears; '
+                    f'publish {_COMMAND_TYPE}'
+                )
+
+    def publish_filtered(self, stamp: Stamp) -> None:
+        """Publish what a driver steers by: first of all, so that it works while we go on."""
+        if self.filtered_publisher is not None:
+            self._filtered.pack(stamp, self.robot)
+            self.filtered_publisher.publish(self._form(self._filtered))
+
+    def publish_rest(self, stamp: Stamp) -> None:
+        """Publish everything else of a control period that somebody reads."""
+        now_sec = time.monotonic()
+        if now_sec >= self._look_again_sec:
+            self._look_again_sec = now_sec + LOOK_SEC
+            self._read = [each for each in self._rest if each[1].get_subscription_count()]
+        for message, publisher in self._read:
+            message.pack(stamp, self.robot)
+            publisher.publish(self._form(message))
+        self._sensors.publish(stamp)
+        self._transforms.publish(stamp, self.robot)
+
+    def publish_collision(self, touch: Touch) -> None:
+        """Publish one collision."""
+        self._collision_publisher.publish(messages.new_collision(touch))
+
+    def has_driver(self) -> bool:
+        """Tell whether somebody reads the odometry and somebody writes commands."""
+        return (
+            self.filtered_publisher.get_subscription_count() > 0
+            and self.command_subscription.get_publisher_count() > 0
+        )
+
+    def close(self) -> None:
+        """Let go of what the node does not own; may be called twice."""
+        self._sensors.close()
+
+
+def most_at_once(event: Any) -> int:
+    """Return how many were matched at the same time since the last event of a subscription."""
+    before = event.current_count - event.current_count_change
+    return int(before + event.total_count_change)

@@ -1,0 +1,161 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a picture of the simulation needs, on one topic: `~/scene`.
+
+Every pose of the world, and where the robots have been since the last message. It goes out 30
+times a second of wall time and only while somebody listens, so that a viewer costs the same
+whether the simulation runs in real time or fifty times as fast.
+"""
+
+from array import array
+from collections.abc import Callable
+from dataclasses import dataclass
+import hashlib
+import time
+from typing import Any
+from uuid import uuid4
+
+import numpy as np
+import numpy.typing as npt
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Float64MultiArray, MultiArrayDimension
+
+from husky_sim.simulation import Simulation
+from husky_sim.world.world import World
+
+TOPIC = '~/scene'
+RATE_HZ = 30.0
+ROW_SEC = 0.004
+"""Wall time from one entry of a track to the next: a fast simulation has more than can be seen."""
+
+TRACK = ('x', 'y', 'yaw', 'odom_x', 'odom_y', 'odom_yaw', 'speed_m_s')
+"""Of every robot, after the time: the true pose, the believed one, the true speed."""
+
+_KEY = 16
+
+# Best effort: a viewer that hangs must not make the simulator wait.
+QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """
+    One message, taken apart.
+
+    :param run: tells one run of a simulator from those before and beside it.
+    """
+
+    run: str = ''
+    paused: bool
+    qpos: Array
+    time_sec: Array  # of every entry of the track; the last one is now
+    track: Array  # shape (entries, robots, len(TRACK))
+
+
+class SceneTopic:
+    """Publishes the scene of a simulation."""
+
+    def __init__(
+        self, node: Node, simulation: Simulation, *, is_paused: Callable[[], bool]
+    ) -> None:
+        self._simulation = simulation
+        self._is_paused = is_paused
+        self._watched = False
+        self._rows = array('d')
+        self._next_row_sec = 0.0
+        self._last_row = -1
+        self._message = Float64MultiArray()
+        self._message.layout.dim = [
+            MultiArrayDimension(label='paused', size=1),
+            MultiArrayDimension(label=world_key(simulation.world), size=simulation.model.nq),
+            MultiArrayDimension(label=uuid4().hex[:_KEY], size=0),
+        ]
+        self._publisher = node.create_publisher(Float64MultiArray, TOPIC, QOS)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(1.0 / RATE_HZ, self._on_timer, clock=steady)
+
+    def append(self) -> None:
+        """Take down where the robots are; call it after every control period."""
+        if self._watched and time.monotonic() >= self._next_row_sec:
+            self._append()
+
+    def _append(self) -> None:
+        self._next_row_sec = time.monotonic() + ROW_SEC
+        self._last_row = self._simulation.periods
+        rows = self._rows
+        rows.append(self._simulation.time_sec)
+        for robot in self._simulation.robots:
+            state, filtered = robot.state, robot.filtered
+            rows.extend(
+                (
+                    state.position[0],
+                    state.position[1],
+                    state.yaw,
+                    filtered.x,
+                    filtered.y,
+                    filtered.yaw,
+                    state.velocity[0],
+                )
+            )
+
+    def _on_timer(self) -> None:
+        self._watched = self._publisher.get_subscription_count() > 0
+        if not self._watched:
+            return
+        if not self._rows or self._last_row != self._simulation.periods:
+            self._append()
+        data = array('d', [float(self._is_paused())])
+        data.frombytes(self._simulation.data.qpos.tobytes())
+        data.extend(self._rows)
+        dimensions: Any = self._message.layout.dim
+        dimensions[2].size = len(self._rows)
+        self._message.data = data
+        self._publisher.publish(self._message)
+        self._rows = array('d')
+
+
+def world_key(world: World) -> str:
+    """Return what tells a world with its robots from any other, wherever its file lies."""
+    model = world.model
+    parts = (
+        *(model.qpos0, model.body_pos, model.body_quat),
+        *(model.geom_type, model.geom_size, model.geom_pos, model.geom_quat),
+    )
+    digest = hashlib.sha256(model.names)
+    for part in parts:
+        digest.update(np.ascontiguousarray(part).tobytes())
+    return digest.hexdigest()[:_KEY]
+
+
+def origin_of(message: Float64MultiArray) -> tuple[str, str]:
+    """Return the key of a message's world and its run; both are empty if it is no scene."""
+    labels = [dimension.label for dimension in message.layout.dim]
+    return (labels[1], labels[2]) if len(labels) == 3 else ('', '')
+
+
+def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:
+    """
+    Take a message apart, of a world with so many robots.
+
+    :raises ValueError: if it is of another simulation than one with so many robots.
+    """
+    data = np.frombuffer(message.data)
+    sizes = [dimension.size for dimension in message.layout.dim]
+    width = 1 + len(TRACK) * robots
+    if len(sizes) != 3 or sum(sizes) != len(data) or sizes[2] % width or not sizes[2]:
+        raise ValueError(f'dimensions {sizes}: no scene of {robots} robots')
+    qpos = data[1 : 1 + sizes[1]]
+    rows = data[1 + sizes[1] :].reshape(-1, width)
+    track = rows[:, 1:].reshape(-1, robots, len(TRACK))
+    return Scene(
+        run=origin_of(message)[1],
+        paused=bool(data[0]),
+        qpos=qpos,
+        time_sec=rows[:, 0],
+        track=track,
+    )

@@ -1,0 +1,83 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The laser scanner in front: the SICK LMS1xx of the original, cast on the CPU.
+
+720 beams over 270 degrees, 0.1 to 30 m, with 1 mm of noise. It stands upright here, at the place
+of the original's, which hangs upside down.
+"""
+
+import math
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from husky_sim.robot.husky import RobotState
+from husky_sim.sensors.noise import Noise
+
+BEAMS = 720
+HALF_ANGLE_RAD = 2.35619
+ANGLE_INCREMENT_RAD = 2.0 * HALF_ANGLE_RAD / (BEAMS - 1)
+RANGE_MIN_M, RANGE_MAX_M = 0.1, 30.0
+DEVIATION_M = 0.001
+PLACE = (0.337, 0.0, 0.30795)
+"""In base_link: on the top plate, in front."""
+
+FRAME = 'front_laser'
+
+
+class Lidar:
+    """Scans what stands around one robot."""
+
+    def __init__(
+        self, name: str, model: mujoco.MjModel, data: mujoco.MjData, noise: Noise | None
+    ) -> None:
+        self._model = model
+        self._data = data
+        self._base = model.body(f'{name}/base_link').id
+        angles = -HALF_ANGLE_RAD + ANGLE_INCREMENT_RAD * np.arange(BEAMS)
+        self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(BEAMS)], axis=1)
+        self._hits = np.zeros(BEAMS, dtype=np.int32)
+        self._distances = np.zeros(BEAMS)
+        self._noise = noise
+
+    def reset(self) -> None:
+        """Begin the same noise again."""
+        if self._noise is not None:
+            self._noise.reset()
+
+    def scan(self, state: RobotState, period_sec: float) -> npt.NDArray[np.float32]:
+        """
+        Return the range of every beam, from the right to the left.
+
+        What is out of reach is inf, what is too near -inf (REP-117).
+        """
+        matrix = np.zeros(9)
+        mujoco.mju_quat2Mat(matrix, np.array(state.orientation))
+        turn = matrix.reshape(3, 3)
+        mujoco.mj_multiRay(
+            self._model,
+            self._data,
+            np.array(state.position) + turn @ np.array(PLACE),
+            (self._beams @ turn.T).ravel(),
+            None,
+            True,
+            self._base,
+            self._hits,
+            self._distances,
+            None,
+            BEAMS,
+            RANGE_MAX_M,
+        )
+        ranges = self._distances
+        if self._noise is not None:
+            ranges = ranges + self._noise.sample(period_sec)
+        missed = np.logical_or(self._hits < 0, ranges > RANGE_MAX_M)
+        ranges = np.where(ranges < RANGE_MIN_M, -math.inf, ranges)
+        return np.where(missed, math.inf, ranges).astype(np.float32)
+
+
+def new_noise(seed: list[int]) -> Noise:
+    """Make the noise of a scanner."""
+    return Noise(BEAMS, deviation=DEVIATION_M, drift=0.0, seed=seed)

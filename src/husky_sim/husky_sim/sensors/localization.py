@@ -1,0 +1,112 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where the robot thinks it is: an extended Kalman filter of wheel odometry and IMU, in the plane.
+
+It is the planar part (two_d_mode) of what robot_localization does with the Husky's
+localization.yaml: from the wheels vx, vy and the yaw rate, from the IMU the yaw, differentially,
+and the yaw rate. Process noise of the speeds and the initial covariance are the defaults of that
+package, which the Husky does not change. Its defaults for the pose are for any robot at all, and
+would put 10 m of uncertainty behind a minute of driving. Ours are what wheels that slip (0.15 m a
+minute) and a gyroscope that drifts (0.3 rad a minute) make of it here.
+"""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from husky_sim.robot.diff_drive import wrapped
+from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
+
+Array = npt.NDArray[np.float64]
+
+X, Y, YAW, VX, VY, RATE, AX, AY = range(8)
+
+# A second of process noise, in the order of the states.
+PROCESS_NOISE = (0.0004, 0.0004, 0.0015, 0.025, 0.025, 0.02, 0.01, 0.01)
+INITIAL_VARIANCE = 1e-9
+
+WHEEL_SPEED_VARIANCE = 0.001
+WHEEL_RATE_VARIANCE = 0.03
+
+
+class PlanarFilter:
+    """
+    Estimates x, y and yaw in the frame `odom`, and the speeds in base_link.
+
+    Bit for bit the same for the same measurements.
+    """
+
+    def __init__(self, period_sec: float) -> None:
+        self._period_sec = period_sec
+        self._noise = np.diag(PROCESS_NOISE) * period_sec
+        # Three measurements of one rate are as good as one that is weighed from them. A
+        # difference of two headings has the variance of both.
+        variances = (WHEEL_RATE_VARIANCE, IMU_VARIANCE, 2.0 * IMU_VARIANCE / period_sec**2)
+        self._rate_variance = 1.0 / sum(1.0 / variance for variance in variances)
+        self._weights = [self._rate_variance / variance for variance in variances]
+        self._jacobian = np.eye(8)
+        for row, column in ((YAW, RATE), (VX, AX), (VY, AY)):
+            self._jacobian[row, column] = period_sec
+        self._inverse = np.empty((3, 3))
+        self.reset()
+
+    def reset(self, imu_yaw: float = 0.0) -> None:
+        """Start again at the origin, heading along x whatever the IMU says."""
+        self._state = [0.0] * 8
+        self.covariance: Array = np.eye(8) * INITIAL_VARIANCE
+        self._imu_yaw = imu_yaw
+        self._read_out()
+
+    def update(
+        self,
+        *,
+        wheel_speed_m_s: float,
+        wheel_yaw_rate_rad_s: float,
+        imu_yaw: float,
+        imu_yaw_rate_rad_s: float,
+    ) -> None:
+        """Take the measurements at the end of a control period."""
+        turned_rad_s = wrapped(imu_yaw - self._imu_yaw) / self._period_sec
+        self._imu_yaw = imu_yaw
+        rates = (wheel_yaw_rate_rad_s, imu_yaw_rate_rad_s, turned_rad_s)
+        rate = sum(w * each for w, each in zip(self._weights, rates, strict=True))
+        self._predict()
+        self._correct(wheel_speed_m_s, 0.0, rate)
+        self._read_out()
+
+    def _predict(self) -> None:
+        t = self._period_sec
+        x, y, yaw, vx, vy, rate, ax, ay = self._state
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        forward, left = vx * t + ax * t * t / 2.0, vy * t + ay * t * t / 2.0
+        dx, dy = forward * cos - left * sin, forward * sin + left * cos
+        self._state = [x + dx, y + dy, yaw + rate * t, vx + ax * t, vy + ay * t, rate, ax, ay]
+        half = t * t / 2.0
+        jacobian = self._jacobian
+        jacobian[X, 2:] = (-dy, t * cos, -t * sin, 0.0, half * cos, -half * sin)
+        jacobian[Y, 2:] = (dx, t * sin, t * cos, 0.0, half * sin, half * cos)
+        self.covariance = jacobian.dot(self.covariance).dot(jacobian.T) + self._noise
+
+    def _correct(self, speed_m_s: float, sideways_m_s: float, rate_rad_s: float) -> None:
+        """Take measurements of VX, VY and RATE, which stand side by side, at once."""
+        state, seen = self._state, self.covariance[VX : RATE + 1]
+        (a, b, c), (_, d, e), (_, _, f) = seen[:, VX : RATE + 1].tolist()
+        a, d, f = a + WHEEL_SPEED_VARIANCE, d + WHEEL_SPEED_VARIANCE, f + self._rate_variance
+        # The inverse of a symmetric matrix, by its cofactors.
+        aa, ab, ac = d * f - e * e, c * e - b * f, b * e - c * d
+        bb, bc, cc = a * f - c * c, b * c - a * e, a * d - b * b
+        size = a * aa + b * ab + c * ac
+        self._inverse[:] = (aa, ab, ac), (ab, bb, bc), (ac, bc, cc)
+        gain = self._inverse.dot(seen) / size
+        errors = speed_m_s - state[VX], sideways_m_s - state[VY], rate_rad_s - state[RATE]
+        change = np.dot(errors, gain).tolist()
+        self._state = [before + by for before, by in zip(state, change, strict=True)]
+        self.covariance -= gain.T.dot(seen)
+
+    def _read_out(self) -> None:
+        self.x, self.y, yaw, self.speed_m_s, self.sideways_m_s, self.yaw_rate_rad_s, _, _ = (
+            self._state
+        )
+        self.yaw = wrapped(yaw)

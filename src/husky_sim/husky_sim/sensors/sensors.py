@@ -1,0 +1,71 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The sensors with a rate of their own: which of them has something new after a period."""
+
+import math
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from husky_sim.config import CONTROL_PERIOD_SEC, SensorConfig
+from husky_sim.robot.husky import RobotState
+from husky_sim.sensors import lidar, navsat
+
+
+class Rate:
+    """Says after which control periods a sensor measures: as evenly as whole periods allow."""
+
+    def __init__(self, rate_hz: float) -> None:
+        self._per_period = rate_hz * CONTROL_PERIOD_SEC
+
+    def is_due(self, periods: int) -> bool:
+        """Tell whether a measurement falls into the period that ends now."""
+        return _whole(periods * self._per_period) > _whole((periods - 1) * self._per_period)
+
+
+def _whole(value: float) -> int:
+    return math.floor(value + 1e-9)
+
+
+class Sensors:
+    """
+    The sensors of one robot.
+
+    After `measure`, `scan` and `fix` hold what is new, and None what is not.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        config: SensorConfig,
+        *,
+        seed: list[int],
+    ) -> None:
+        noisy = config.noise
+        self._lidar = lidar.Lidar(
+            name, model, data, lidar.new_noise([*seed, 1]) if noisy else None
+        )
+        self._navsat = navsat.NavSat(navsat.new_noise([*seed, 2]) if noisy else None)
+        self._scans = Rate(config.lidar_rate_hz)
+        self._fixes = Rate(config.navsat_rate_hz)
+        self._scan_period_sec = 1.0 / (config.lidar_rate_hz or 1.0)
+        self._fix_period_sec = 1.0 / (config.navsat_rate_hz or 1.0)
+        self.scan: npt.NDArray[np.float32] | None = None
+        self.fix: navsat.Fix | None = None
+
+    def reset(self) -> None:
+        """Begin the same noise again."""
+        self._lidar.reset()
+        self._navsat.reset()
+        self.scan = self.fix = None
+
+    def measure(self, state: RobotState, periods: int) -> None:
+        """Measure what is due at the end of this control period."""
+        self.scan = self.fix = None
+        if self._scans.is_due(periods):
+            self.scan = self._lidar.scan(state, self._scan_period_sec)
+        if self._fixes.is_due(periods):
+            self.fix = self._navsat.locate(state.position, self._fix_period_sec)

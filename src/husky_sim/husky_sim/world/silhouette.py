@@ -1,0 +1,77 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Measures the outline of what stands in a world: see `outline`."""
+
+from collections.abc import Sequence
+import math
+
+from husky_course.obstacles.outline import Array, Outline
+import mujoco
+import numpy as np
+
+_DIRECTIONS = 72
+_ROUND = 0.02  # how far a circle may be from round, as a part of its radius
+_UPRIGHT_RAD = 0.15  # a body tilted less than this is seen along its own axis
+
+
+def outline_of(
+    name: str, model: mujoco.MjModel, data: mujoco.MjData, geoms: Sequence[int], *, body: int
+) -> Outline:
+    """Measure the outline of some geoms that stand in data as they do in the world."""
+    origin = data.xpos[body].copy()
+    turn = data.xmat[body].reshape(3, 3)
+    yaw = math.atan2(turn[1, 0], turn[0, 0])
+    tilted = math.acos(max(-1.0, min(1.0, float(turn[2, 2])))) > _UPRIGHT_RAD
+    frame = _about_z(yaw) if tilted else turn
+    directions = _circle_of_directions() @ frame[:, :2].T
+    reach = np.max([_reach(model, data, geom, origin, directions) for geom in geoms], axis=0)
+    if reach.max() - reach.min() <= _ROUND * reach.max():
+        return Outline(
+            name=name, x=float(origin[0]), y=float(origin[1]), yaw=yaw, size=(float(reach.max()),)
+        )
+    quarter = _DIRECTIONS // 4
+    front, left, back, right = (float(reach[i * quarter]) for i in range(4))
+    middle = _about_z(yaw)[:2, :2] @ np.array([(front - back) / 2.0, (left - right) / 2.0])
+    return Outline(
+        name=name,
+        x=float(origin[0] + middle[0]),
+        y=float(origin[1] + middle[1]),
+        yaw=yaw,
+        size=(front + back, left + right),
+    )
+
+
+def _about_z(angle_rad: float) -> Array:
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _circle_of_directions() -> Array:
+    angles = np.arange(_DIRECTIONS) * (math.tau / _DIRECTIONS)
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
+
+def _reach(
+    model: mujoco.MjModel, data: mujoco.MjData, geom: int, origin: Array, directions: Array
+) -> Array:
+    """Return how far a geom reaches from origin along each of the unit vectors (n, 3)."""
+    kind = mujoco.mjtGeom
+    size = model.geom_size[geom]
+    local = directions @ data.geom_xmat[geom].reshape(3, 3)
+    middle: Array = directions @ (data.geom_xpos[geom] - origin)
+    shape = int(model.geom_type[geom])
+    if shape == kind.mjGEOM_SPHERE:
+        return middle + size[0]
+    if shape == kind.mjGEOM_CAPSULE:
+        return middle + size[0] + size[1] * np.abs(local[:, 2])
+    if shape == kind.mjGEOM_CYLINDER:
+        across = np.hypot(local[:, 0], local[:, 1])
+        return middle + size[0] * across + size[1] * np.abs(local[:, 2])
+    if shape == kind.mjGEOM_ELLIPSOID:
+        return middle + np.linalg.norm(local * size, axis=1)
+    if shape == kind.mjGEOM_MESH:
+        mesh = model.geom_dataid[geom]
+        first = model.mesh_vertadr[mesh]
+        points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
+        return middle + (local @ points.T).max(axis=1)
+    return middle + np.abs(local) @ size

@@ -1,0 +1,280 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A world file with Huskies in it: loaded, checked, and looked up by name.
+
+What a file must hold to be a world: something to drive on under every robot's start. A geom is
+ground if it is static and a plane or a height field, or if its name or its body's begins with
+one of GROUND_NAMES. Every other geom that touches belongs to an obstacle, named after the
+outermost body around it (or after itself where it lies in the world body).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+from pathlib import Path
+import warnings
+
+from husky_course.obstacles.outline import Outline
+from husky_course.robot import RobotStart
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from husky_sim.errors import StartPoseError, WorldError
+from husky_sim.world.silhouette import outline_of
+from husky_sim.world.world_file import check_settings, line_of, refused, steps_per_period
+
+GROUND_NAMES = ('ground', 'floor', 'asphalt', 'ramp')
+HUSKY_FILE = 'husky.xml'
+
+# Places, from base_link, under which there must be ground: the middle and the four wheels.
+_FEET = ((0.0, 0.0), (0.256, 0.2854), (0.256, -0.2854), (-0.256, 0.2854), (-0.256, -0.2854))
+_ABOVE_M = 1000.0
+_NOTHING, _GROUND, _FIRST_OWNER = -2, -1, 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class World:
+    """A compiled model, and who is who in it."""
+
+    path: str
+    model: mujoco.MjModel
+    robots: tuple[RobotStart, ...]
+    obstacles: tuple[Outline, ...]
+    names: tuple[str, ...]  # of owners: first the robots, then the obstacles
+    owners: npt.NDArray[np.int64]  # of every geom: its place in names, or negative
+    steps_per_period: int
+
+    def part(self, geom: int) -> str:
+        """Return the name of a robot's part, without the robot's name before it."""
+        name: str = self.model.geom(geom).name
+        return name.rpartition('/')[2]
+
+
+def load_world(path: str, robots: Sequence[RobotStart], *, husky: str = '') -> World:
+    """
+    Load a world file and put the robots into it.
+
+    :param husky: the robot's file; by default husky.xml beside the world, else the installed one.
+    :raises WorldError: if the file cannot be a world.
+    :raises StartPoseError: if a robot cannot start where it should.
+    """
+    # By default MuJoCo writes its warnings to a file in the current folder. What they count is in
+    # MjData, too.
+    mujoco.set_mju_user_warning(_ignore)
+    if len({robot.name for robot in robots}) != len(robots):
+        raise StartPoseError(
+            f'robots={[robot.name for robot in robots]}: every robot needs a name of its own'
+        )
+    empty = _compiled(path, _parsed(path))
+    steps = steps_per_period(path, empty.opt.timestep)
+    heights = [_height_under(path, empty, robot) for robot in robots]
+    spec = _parsed(path)
+    check_settings(path, spec)
+    for robot, height in zip(robots, heights, strict=True):
+        _attach(spec, husky or _husky_beside(path), robot, height)
+    model = _compiled(path, spec)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    names, owners = _owners(model, robots)
+    _check_start(path, data, robots, names, owners)
+    return World(
+        path=path,
+        model=model,
+        robots=tuple(robots),
+        obstacles=_outlines(model, data, names, owners, len(robots)),
+        names=tuple(names),
+        owners=owners,
+        steps_per_period=steps,
+    )
+
+
+def _ignore(_: str) -> None:
+    pass
+
+
+def _parsed(path: str) -> mujoco.MjSpec:
+    if not Path(path).is_file():
+        raise WorldError(f'world={path!r}: no such file; give the path of an MJCF file (.xml)')
+    if Path(path).suffix.lower() != '.xml':
+        raise WorldError(f'world={path!r}: not an .xml file; give an MJCF file')
+    try:
+        spec = mujoco.MjSpec.from_file(path)
+    except (ValueError, mujoco.FatalError) as error:
+        raise refused(path, error) from error
+    spec.compiler.fusestatic = False  # it takes the bodies' names
+    return spec
+
+
+def _compiled(path: str, spec: mujoco.MjSpec) -> mujoco.MjModel:
+    try:
+        with warnings.catch_warnings():
+            # One is that something a robot stands in cannot sleep, which is refused later on.
+            warnings.simplefilter('ignore')
+            return spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        raise refused(path, error) from error
+
+
+def _husky_beside(path: str) -> str:
+    """Find the robot's file beside the world, or else beside the worlds that came with us."""
+    beside = Path(path).resolve().parent / HUSKY_FILE
+    if beside.is_file():
+        return str(beside)
+    return str(default_worlds() / HUSKY_FILE)
+
+
+def default_worlds() -> Path:
+    """Return the folder of the worlds that came with the package: installed, or in its source."""
+    in_source = Path(__file__).resolve().parents[4] / 'worlds'
+    if in_source.is_dir():
+        return in_source
+    from ament_index_python.packages import get_package_share_directory
+
+    return Path(get_package_share_directory('husky_sim')) / 'worlds'
+
+
+def _attach(spec: mujoco.MjSpec, husky: str, robot: RobotStart, height: float) -> None:
+    child = _parsed(husky)
+    base = child.body('base_link')
+    if base is None:
+        raise WorldError(
+            f'{husky!r}: no body named base_link; take the husky.xml that came with us'
+        )
+    # The wheels need the solver of their own file. The timestep, gravity and sleep stay the
+    # world's.
+    spec.option.integrator = child.option.integrator
+    spec.option.cone = child.option.cone
+    spec.option.impratio = child.option.impratio
+    frame = spec.worldbody.add_frame(
+        pos=[robot.x, robot.y, height],
+        quat=[math.cos(robot.yaw / 2.0), 0.0, 0.0, math.sin(robot.yaw / 2.0)],
+    )
+    child.option.timestep = spec.option.timestep
+    spec.memory = -1  # as much as it takes: what a world sets for itself is too little for both
+    frame.attach_body(base, f'{robot.name}/', '')
+
+
+def _height_under(path: str, model: mujoco.MjModel, robot: RobotStart) -> float:
+    """Return the height of the highest ground under a robot's wheels."""
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    ground = {geom for geom in range(model.ngeom) if _is_ground(model, geom)}
+    if not ground:
+        raise refused(
+            path,
+            'nothing to drive on; add a plane, or a geom whose name begins with one of '
+            f'{", ".join(GROUND_NAMES)}',
+        )
+    cos, sin = math.cos(robot.yaw), math.sin(robot.yaw)
+    heights = []
+    for forward, left in _FEET:
+        x = robot.x + cos * forward - sin * left
+        y = robot.y + sin * forward + cos * left
+        height = _ground_at(model, data, ground, x, y)
+        if height is None:
+            raise StartPoseError(
+                f'{robot.name} at x={robot.x:g}, y={robot.y:g}: there is no ground under it '
+                f'({path}); start it on the ground'
+            )
+        heights.append(height)
+    return max(heights)
+
+
+def _ground_at(
+    model: mujoco.MjModel, data: mujoco.MjData, ground: set[int], x: float, y: float
+) -> float | None:
+    """Look down from far above, through everything that is not ground."""
+    down = np.array([0.0, 0.0, -1.0])
+    hit = np.zeros(1, dtype=np.int32)
+    z = _ABOVE_M
+    for _ in range(2 * model.ngeom):  # into and out of each
+        distance = mujoco.mj_ray(model, data, np.array([x, y, z]), down, None, 1, -1, hit)
+        if distance < 0.0:
+            return None
+        z -= distance
+        if int(hit[0]) in ground:
+            return z
+        z -= 1e-6
+    return None
+
+
+def _can_touch(model: mujoco.MjModel, geom: int) -> bool:
+    """Tell whether a geom and a robot's would collide, whose contype and conaffinity are 1."""
+    return bool((model.geom_contype[geom] | model.geom_conaffinity[geom]) & 1)
+
+
+def _is_ground(model: mujoco.MjModel, geom: int) -> bool:
+    if not _can_touch(model, geom):
+        return False
+    body = int(model.geom_bodyid[geom])
+    if model.body_weldid[body] != 0:
+        return False
+    if int(model.geom_type[geom]) in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+        return True
+    names = [model.geom(geom).name]
+    while body:
+        names.append(model.body(body).name)
+        body = int(model.body_parentid[body])
+    return any(name.lower().startswith(GROUND_NAMES) for name in names)
+
+
+def _owners(
+    model: mujoco.MjModel, robots: Sequence[RobotStart]
+) -> tuple[list[str], npt.NDArray[np.int64]]:
+    """Give every geom to a robot, an obstacle, the ground or nothing."""
+    names = [robot.name for robot in robots]
+    bases = {model.body(f'{robot.name}/base_link').id: i for i, robot in enumerate(robots)}
+    owners = np.full(model.ngeom, _NOTHING, dtype=np.int64)
+    obstacles: dict[tuple[str, int], int] = {}
+    for geom in range(model.ngeom):
+        if not _can_touch(model, geom):
+            continue
+        root = int(model.body_rootid[model.geom_bodyid[geom]])
+        if root in bases:
+            owners[geom] = bases[root]
+            continue
+        if _is_ground(model, geom):
+            owners[geom] = _GROUND
+            continue
+        key = ('body', root) if root else ('geom', geom)
+        if key not in obstacles:
+            obstacles[key] = len(names)
+            named = model.body(root) if root else model.geom(geom)
+            names.append(named.name or f'{key[0]} {key[1]}')
+        owners[geom] = obstacles[key]
+    return names, owners
+
+
+def _check_start(
+    path: str,
+    data: mujoco.MjData,
+    robots: Sequence[RobotStart],
+    names: Sequence[str],
+    owners: npt.NDArray[np.int64],
+) -> None:
+    for pair in data.contact.geom.tolist():
+        ours, theirs = sorted(int(owners[geom]) for geom in pair)
+        if ours >= _FIRST_OWNER and ours < len(robots) and theirs != ours:
+            robot = robots[ours]
+            raise StartPoseError(
+                f'{robot.name} at x={robot.x:g}, y={robot.y:g}, yaw={robot.yaw:g} would start '
+                f'inside {names[theirs]} ({path}{line_of(path, names[theirs])}); start it further '
+                'away'
+            )
+
+
+def _outlines(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    names: Sequence[str],
+    owners: npt.NDArray[np.int64],
+    robots: int,
+) -> tuple[Outline, ...]:
+    outlines = []
+    for owner in range(robots, len(names)):
+        geoms = [int(geom) for geom in np.flatnonzero(owners == owner)]
+        body = int(model.body_rootid[model.geom_bodyid[geoms[0]]])
+        outlines.append(outline_of(names[owner], model, data, geoms, body=body))
+    return tuple(outlines)

@@ -1,0 +1,155 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""One robot's topics as the view's node knows them."""
+
+from collections.abc import Callable
+import math
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import PointStamped, PoseArray, Twist
+from nav_msgs.msg import Path
+import numpy as np
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Bool, UInt32
+
+from husky_view.live.plausibility import FARTHEST_M
+from husky_view.picture.collisions import Collision
+from husky_view.picture.picture import Picture, RobotPicture
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+LET_GO_SEC = 1.0
+"""A page that has not driven for so long publishes no commands any more: others may."""
+
+
+class RobotLink:
+    """Brings what a robot and its driver tell into the picture, and commands out."""
+
+    def __init__(
+        self,
+        node: Node,
+        picture: Picture,
+        place: int,
+        namespace: str,
+        disbelieve: Callable[[str], None],
+    ) -> None:
+        """
+        Listen to a robot.
+
+        :param disbelieve: is told of what came that cannot be true, and so is not drawn.
+        """
+        self._node = node
+        self._disbelieve = disbelieve
+        self._picture = picture
+        self._place = place
+        self._robot: RobotPicture = picture.robots[place]
+        self._scan: LaserScan | None = None
+        self._waypoints = np.zeros((0, 2))
+        self.waypoints_left: int | None = None
+        self._topic = f'{namespace}husky_velocity_controller/cmd_vel'
+        self._commands: Publisher[Twist] | None = None  # only while the page drives
+        self._driven_sec = 0.0
+        self._stops = node.create_publisher(Bool, f'{namespace}e_stop', LATCHED)
+        self._subscriptions: list[Any] = [
+            node.create_subscription(kind, f'{namespace}{topic}', callback, qos)
+            for kind, topic, callback, qos in (
+                (DiagnosticStatus, 'collisions', self._on_collision, 10),
+                (Path, 'path', self._on_path, LATCHED),
+                (PoseArray, 'waypoints', self._on_waypoints, LATCHED),
+                (UInt32, 'waypoints_left', self._on_waypoints_left, LATCHED),
+                (PointStamped, 'lookahead_point', self._on_look_ahead, NEWEST),
+                (LaserScan, 'front/scan', self._on_scan, NEWEST),
+            )
+        ]
+
+    def drive(self, speed_m_s: float, yaw_rate_rad_s: float, *, now_sec: float) -> None:
+        """Send a velocity command, as any teleop does."""
+        if self._commands is None:
+            self._commands = self._node.create_publisher(Twist, self._topic, 10)
+        self._driven_sec = now_sec
+        command = Twist()
+        command.linear.x = speed_m_s
+        command.angular.z = yaw_rate_rad_s
+        self._commands.publish(command)
+
+    def stop(self, stopped: bool) -> None:
+        """Press or release the emergency stop."""
+        self._stops.publish(Bool(data=stopped))
+
+    def draw(self, now_sec: float) -> None:
+        """Show the newest scan; once a frame, however often scans come."""
+        if self._commands is not None and now_sec - self._driven_sec > LET_GO_SEC:
+            self._node.destroy_publisher(self._commands)
+            self._commands = None
+        scan, self._scan = self._scan, None
+        if scan is not None:
+            ranges = np.asarray(scan.ranges, dtype=np.float64)
+            angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+            self._picture.show_scan(self._place, ranges, angles, reach_m=scan.range_max)
+
+    def _on_collision(self, msg: DiagnosticStatus) -> None:
+        try:
+            collision = collision_of(msg)
+        except (KeyError, ValueError) as error:
+            self._disbelieve(f'collisions: {error}')
+            return
+        self._picture.collide(collision, now_sec=time.monotonic())
+
+    def _on_path(self, msg: Path) -> None:
+        points = [(pose.pose.position.x, pose.pose.position.y) for pose in msg.poses]
+        if self._are_places('path', points):
+            self._robot.set_path(np.array(points).reshape(-1, 2))
+
+    def _on_waypoints(self, msg: PoseArray) -> None:
+        points = [(pose.position.x, pose.position.y) for pose in msg.poses]
+        if self._are_places('waypoints', points):
+            self._waypoints = np.array(points).reshape(-1, 2)
+            self._show_waypoints()
+
+    def _on_waypoints_left(self, msg: UInt32) -> None:
+        self.waypoints_left = msg.data
+        self._robot.set_reached(max(len(self._waypoints) - msg.data, 0))
+
+    def _show_waypoints(self) -> None:
+        left = self.waypoints_left
+        reached = 0 if left is None else max(len(self._waypoints) - left, 0)
+        self._robot.set_waypoints(self._waypoints, reached=reached)
+
+    def _on_look_ahead(self, msg: PointStamped) -> None:
+        if self._are_places('lookahead_point', [(msg.point.x, msg.point.y)]):
+            self._robot.set_look_ahead(np.array([msg.point.x, msg.point.y]))
+
+    def _on_scan(self, msg: LaserScan) -> None:
+        if not all(map(math.isfinite, (msg.angle_min, msg.angle_increment, msg.range_max))):
+            self._disbelieve('front/scan: an angle or the greatest range is no number')
+            return
+        self._scan = msg
+
+    def _are_places(self, topic: str, points: list[tuple[float, float]]) -> bool:
+        for x, y in points:
+            if not (abs(x) < FARTHEST_M and abs(y) < FARTHEST_M):  # NaN is not
+                self._disbelieve(f'{topic}: ({x:g}, {y:g}) is no place')
+                return False
+        return True
+
+
+def collision_of(msg: DiagnosticStatus) -> Collision:
+    """Read the message of a collision."""
+    values = {entry.key: entry.value for entry in msg.values}
+    x, y, z = (float(word) for word in values['position'].split())
+    if not all(map(math.isfinite, (x, y, z))):
+        raise ValueError(f'position {values["position"]}')
+    return Collision(
+        robot=msg.hardware_id,
+        obstacle=values['obstacle'],
+        part=values['part'],
+        time_sec=float(values['time_sec']),
+        force_n=float(values['force_n']),
+        position=(x, y, z),
+    )

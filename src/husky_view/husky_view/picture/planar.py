@@ -1,0 +1,53 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Poses in the plane: from a robot's odometry frame into the world and back."""
+
+from collections.abc import Sequence
+import math
+
+from husky_course.robot import RobotStart
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+def to_world(start: RobotStart, points: Array) -> Array:
+    """Bring points (n, 2) from the frame odom of a robot that started there into the world."""
+    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
+    turn = np.array([[cos, sin], [-sin, cos]])
+    return points @ turn + np.array([start.x, start.y])
+
+
+def to_odom(start: RobotStart, points: Array) -> Array:
+    """Bring points (n, 2) of the world into the frame odom of a robot that started there."""
+    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
+    turn = np.array([[cos, -sin], [sin, cos]])
+    return (points - np.array([start.x, start.y])) @ turn
+
+
+def on_ground(
+    origin: Sequence[float] | Array, direction: Sequence[float] | Array, height_m: float
+) -> Array | None:
+    """Return where (x, y) a ray meets a level ground; None if it does not."""
+    if direction[2] >= -1e-6 or origin[2] <= height_m:
+        return None
+    along = (height_m - origin[2]) / direction[2]
+    return np.array([origin[0] + along * direction[0], origin[1] + along * direction[1]])
+
+
+def distance_to_line(point: Array, line: Array) -> float:
+    """
+    Return the distance of a point to a polyline (n, 2), positive to the left of it.
+
+    :raises ValueError: if the line has fewer than two points.
+    """
+    if len(line) < 2:
+        raise ValueError(f'{len(line)} points: a line needs at least 2')
+    begin, along = line[:-1], np.diff(line, axis=0)
+    lengths = np.maximum((along**2).sum(axis=1), 1e-12)
+    part = np.clip(((point - begin) * along).sum(axis=1) / lengths, 0.0, 1.0)
+    away = point - (begin + part[:, None] * along)
+    nearest = int(np.argmin((away**2).sum(axis=1)))
+    side = along[nearest][0] * away[nearest][1] - along[nearest][1] * away[nearest][0]
+    return math.copysign(math.hypot(*away[nearest]), side)

@@ -1,0 +1,112 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The playpen and its robots on the page."""
+
+from husky_sim.world.world import World
+from mjviser import ViserMujocoScene
+import mujoco
+import numpy as np
+import numpy.typing as npt
+import viser
+
+Array = npt.NDArray[np.float64]
+
+GROUND = (176, 174, 168)
+GROUND_LINES = (160, 158, 152)
+
+SKY = (235, 242, 255)
+SKY_ABOVE, SKY_BELOW = (150, 190, 230), (245, 248, 252)
+# Name, from where it shines, how bright. Two, or what faces away from the sun would look flat.
+SUNS = (('sun', (-6.0, -9.0, 14.0), 2.2), ('second_sun', (9.0, 4.0, 6.0), 0.7))
+
+ABOVE_GROUND_M = 0.02
+"""Lines are drawn so far above the ground, or they would flicker in it."""
+
+
+class PlaypenScene:
+    """A world on the page, in the poses it was last shown in."""
+
+    def __init__(self, server: viser.ViserServer, world: World) -> None:
+        self.world = world
+        _color_textured(world.model)
+        self._data = mujoco.MjData(world.model)
+        mujoco.mj_kinematics(world.model, self._data)
+        self._scene = ViserMujocoScene(server, world.model, num_envs=1)
+        self._scene.camera_tracking_enabled = False
+        _light(server)
+        _color_planes(server, world.model)
+        self._lasers = [world.model.site(f'{robot.name}/front_laser').id for robot in world.robots]
+        self._bases = [world.model.body(f'{robot.name}/base_link').id for robot in world.robots]
+        self.ground_m = float(self._data.xpos[self._bases[0]][2]) - _BASE_HEIGHT_M
+        self._show()
+
+    def show(self, qpos: Array) -> None:
+        """Put everything where the joints say."""
+        self._data.qpos[:] = qpos
+        mujoco.mj_kinematics(self.world.model, self._data)
+        self._show()
+
+    def _show(self) -> None:
+        self._scene.update_from_mjdata(self._data)
+
+    def position(self, robot: int) -> Array:
+        """Return where a robot's base_link is, in the world."""
+        position: Array = self._data.xpos[self._bases[robot]].copy()
+        return position
+
+    def beam_ends(self, robot: int, ranges: Array, angles: Array) -> Array:
+        """Return where beams end (n, 3): angles in radians to the left, ranges in metres."""
+        laser = self._lasers[robot]
+        turn = self._data.site_xmat[laser].reshape(3, 3)
+        beams = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * angles])
+        ends: Array = beams @ turn.T + self._data.site_xpos[laser]
+        return ends
+
+
+def _light(server: viser.ViserServer) -> None:
+    """
+    Light the scene as a bright day does.
+
+    Without a graphics processor, mjviser's reflections of surroundings and viser's shadows take
+    seconds a frame; with lights that only shine it is 20 frames a second.
+    """
+    scene = server.scene
+    scene.configure_environment_map(None)
+    scene.configure_default_lights(enabled=False)
+    scene.add_light_hemisphere('/light/sky', sky_color=SKY, ground_color=GROUND, intensity=1.6)
+    for name, position, intensity in SUNS:
+        scene.add_light_directional(
+            f'/light/{name}', position=position, intensity=intensity, cast_shadow=False
+        )
+    fade = np.linspace(0.0, 1.0, 64)[:, None]
+    sky = np.array(SKY_ABOVE) * (1.0 - fade) + np.array(SKY_BELOW) * fade
+    scene.set_background_image(np.repeat(sky.astype(np.uint8)[:, None], 4, axis=1), format='png')
+
+
+def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
+    """Make endless planes look like ground: mjviser draws them as white paper with squares."""
+    for geom in range(model.ngeom):
+        if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE:
+            continue
+        body = model.body(model.geom_bodyid[geom]).name
+        grid = server.scene.get_handle_by_name(f'/fixed_bodies/{body}/{model.geom(geom).name}')
+        if isinstance(grid, viser.GridHandle):
+            grid.plane_color = GROUND
+            grid.plane_opacity = 1.0
+            grid.cell_color = grid.section_color = GROUND_LINES
+
+
+def _color_textured(model: mujoco.MjModel) -> None:
+    """Give a material with a texture its mean colour: on boxes the page shows no textures."""
+    role = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
+    for material in range(model.nmat):
+        texture = int(model.mat_texid[material, role])
+        if texture < 0 or int(model.tex_nchannel[texture]) != 3:
+            continue
+        first = int(model.tex_adr[texture])
+        size = int(model.tex_width[texture]) * int(model.tex_height[texture]) * 3
+        pixels = model.tex_data[first : first + size].reshape(-1, 3)
+        model.mat_rgba[material, :3] *= pixels.mean(axis=0) / 255.0
+
+
+_BASE_HEIGHT_M = 0.12836  # of base_link above the ground: husky.xml
