@@ -50,9 +50,9 @@ setup(
     tests_require=['pytest'],
     entry_points={
         'console_scripts': [
-            'husky_sim = husky_runtime.start:main',
-            'replay = husky_runtime.start:replay',
-            'view = husky_runtime.start:view',
+            'husky_sim = husky_sim.programs:main',
+            'replay = husky_sim.programs:moved',
+            'view = husky_sim.programs:moved',
         ]
     },
 )
