@@ -10,7 +10,7 @@ import math
 
 from husky_course.robot import RobotStart
 from husky_sim.simulation import SimulatedRobot, Simulation
-from husky_sim.world.world import default_worlds
+from husky_sim.world import default_worlds
 
 from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, GroundConfig, SimulationConfig
 

@@ -15,9 +15,10 @@ import sys
 import tempfile
 import time
 
-from husky_course.waypoints.waypoint_file import Course, load_course
-from husky_grader.run.rehearsal import drive_course
-from husky_grader.scoring.scoring import Report, score
+from husky_course.route import plan_route
+from husky_course.waypoints import Course, load_course
+from husky_grader.run import drive_route
+from husky_grader.scoring import Report, score
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSES = ROOT / 'config' / 'waypoints'
@@ -67,8 +68,8 @@ def follow() -> int:
     for file in sorted(COURSES.glob('*.yaml')):
         course = load_course(file)
         for odometry in ODOMETRY:
-            record, _ = drive_course(course, odometry=odometry)
-            report = score(record, course)
+            record, _ = drive_route(plan_route(course), odometry=odometry)
+            report = score(record, plan_route(course))
             wrong = list(broken(course, odometry, report))
             count += len(wrong)
             print(

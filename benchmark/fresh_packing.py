@@ -20,8 +20,8 @@ import sys
 DIGITS = 64
 PROGRAM = """
 from hashlib import sha256
-from husky_sim.messages.messages import packed_messages
-from husky_sim.messages.packed_message import prove
+from husky_sim.messages import packed_messages
+from husky_sim.messages import prove
 
 for message in packed_messages():
     prove(message)

@@ -24,7 +24,7 @@ from geometry_msgs.msg import Twist
 from husky_course.robot import RobotStart
 from husky_sim.ros import node as husky_sim_node
 from husky_sim.ros.node import SimulatorNode
-from husky_sim.world.world import default_worlds, load_world
+from husky_sim.world import default_worlds, load_world
 import mujoco
 from nav_msgs.msg import Odometry
 import rclpy

@@ -12,7 +12,7 @@ from pathlib import Path
 os.environ.setdefault('MUJOCO_GL', 'egl')  # read when mujoco is imported
 
 from husky_course.robot import RobotStart
-from husky_sim.world.world import default_worlds, load_world
+from husky_sim.world import default_worlds, load_world
 import mujoco
 import numpy as np
 from PIL import Image

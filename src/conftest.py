@@ -11,9 +11,9 @@ import math
 from pathlib import Path
 from typing import Any
 
-from husky_course.record.record import COLUMNS, Record
+from husky_course.record import COLUMNS, Record
 from husky_course.robot import RobotStart
-from husky_driver.drive.drive import Drive
+from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_runtime.domains import OwnDomain
 import numpy as np

@@ -8,11 +8,12 @@ import signal
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from husky_course.record.record import read_record, Record
-from husky_course.waypoints.waypoint_file import load_course
-from husky_driver.drive.drive import Drive
-from husky_driver.ros.node import FollowPath
-from husky_grader.scoring.scoring import score
+from husky_course.record import read_record, Record
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+from husky_driver.drive import Drive
+from husky_driver.ros import FollowPath
+from husky_grader.scoring import score
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
@@ -44,7 +45,7 @@ def drive(
     simulator = nodes.start(SimulatorNode, record=str(record), **time)
     driver = nodes.start(
         FollowPath,
-        before_spin=lambda node: node.start(Drive(load_course(str(course)))),
+        before_spin=lambda node: node.start(Drive(plan_route(load_course(str(course))))),
         progress='off',
     )
     wait_until(driver.finished.done, timeout_sec=timeout_sec, what=f'the end of {course.name}')
@@ -66,7 +67,7 @@ def test_the_central_barrier_is_driven_round_without_a_touch(
 ) -> None:
     course = COURSES / 'central_barrier.yaml'
     exit_code, record = drive(nodes, course, tmp_path / 'run.record', timeout_sec=90, **time)
-    report = score(record, load_course(str(course)))
+    report = score(record, plan_route(load_course(str(course))))
     assert exit_code == 0
     assert report.completed
     assert report.waypoints_reached == report.waypoints_total == 13
@@ -97,7 +98,7 @@ def test_a_course_through_the_central_barrier_reports_the_collision(
     values = {entry.key: entry.value for entry in touch.values}
     assert values['obstacle'] == 'jersey_barrier_15'
     assert float(values['force_n']) > 0.0
-    report = score(record, load_course(str(course)))
+    report = score(record, plan_route(load_course(str(course))))
     assert not report.completed
     assert {collision.obstacle for collision in report.collisions} == {'jersey_barrier_15'}
 
@@ -117,7 +118,7 @@ def test_with_the_laser_on_it_stops_before_what_no_map_knows_and_drives_on_when_
     )  # fmt: skip
     driver = nodes.start(
         FollowPath,
-        before_spin=lambda node: node.start(Drive(load_course(str(course)))),
+        before_spin=lambda node: node.start(Drive(plan_route(load_course(str(course))))),
         scan=True, progress='off',
     )  # fmt: skip
 

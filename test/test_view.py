@@ -8,7 +8,7 @@ import math
 import subprocess
 import sys
 
-from husky_sim.ros.scene_topic import QOS as SCENE_QOS
+from husky_sim.scene_topic import QOS as SCENE_QOS
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, labelled_input, number
 from playpen_testing.tab import Tab

@@ -5,7 +5,7 @@
 from collections.abc import Iterator, Sequence
 import math
 
-from husky_course.waypoints.waypoint_file import load_course
+from husky_course.waypoints import load_course
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, labelled_input
 from playpen_testing.tab import Tab

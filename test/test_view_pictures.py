@@ -12,9 +12,9 @@ import os
 from pathlib import Path
 import shutil
 
-from husky_sim.recording.recorder import RunRecorder
+from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world.world import default_worlds
+from husky_sim.world import default_worlds
 from husky_view.picture import palette
 from matplotlib.colors import rgb_to_hsv
 import numpy as np

@@ -7,9 +7,9 @@ from pathlib import Path
 import signal
 import time
 
-from husky_sim.recording.recorder import RunRecorder
+from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world.world import default_worlds
+from husky_sim.world import default_worlds
 from playpen_testing.browser import Browser
 from playpen_testing.page import button, number
 from playpen_testing.processes import Process, Processes

@@ -23,8 +23,8 @@ setup(
             'drive = husky_grader.programs:drive',
             'grade = husky_grader.programs:grade',
         ],
-        'husky_driver.course_check': [
-            'playpen = husky_grader.world_check:check_course',
+        'husky_driver.route_check': [
+            'playpen = husky_grader.world_check:check_route',
         ],
     },
 )

@@ -7,10 +7,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from husky_course.route.route import plan_route
+from husky_course.route import DriveLimits, plan_route, plan_speeds
 from husky_course.waypoints.waypoint_file import Course, load_course, parse_course
 from husky_course.waypoints.yaml_tree import FileRefused, Problem
-from husky_driver.drive.tracker import DriveLimits, plan_speeds
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import jsonschema
@@ -251,7 +250,7 @@ def test_any_file_is_either_a_course_or_refused_with_a_line(document: str | byte
         assert found
         assert all(problem.line >= 1 and problem.column >= 1 for problem in found)
     else:
-        legs = plan_route(found)
+        legs = plan_route(found).legs
         assert legs[-1].last == len(found.stops) - 1
         assert all(
             map(math.isfinite, plan_speeds(legs[0].curve, legs[0].speeds_m_s, DriveLimits()))

@@ -9,7 +9,8 @@ import signal
 import sys
 from types import FrameType
 
-from husky_course.waypoints.waypoint_file import Course, load_course
+from husky_course.route import plan_route, Route
+from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.executor import make_executor
 from husky_runtime.start import signals_held_back
@@ -54,7 +55,7 @@ def _refuse(message: str) -> int:
 
 def _run(node: FollowPath, waypoints: str) -> int:
     try:
-        drive = _checked(node, load_course(waypoints)) if waypoints else _ask()
+        drive = _checked(node, plan_route(load_course(waypoints))) if waypoints else _ask()
     except EOFError:
         print(flush=True)
         return _refuse('nobody answers; give a file: --waypoints FILE')
@@ -73,23 +74,23 @@ def _run(node: FollowPath, waypoints: str) -> int:
     return int(node.finished.result())
 
 
-def _checked(node: FollowPath, course: Course) -> Drive:
+def _checked(node: FollowPath, route: Route) -> Drive:
     """
-    Look for obstacles beside the course before anything moves.
+    Look for obstacles beside the route before anything moves.
 
     :raises ValueError: when the settings say that it must not be driven.
     """
     settings, log = node.settings, node.get_logger()
     if settings.check != 'off':
         with signals_held_back():
-            from husky_driver.course_check import near_passes
+            from husky_driver.route_check import near_passes
         x, y, yaw = settings.start
-        near = near_passes(course, world=settings.world, start=(x, y, yaw))
+        near = near_passes(route, world=settings.world, start=(x, y, yaw))
         for place in near:
-            log.warning(f'{course.file}: {place}')
+            log.warning(f'{route.course.file}: {place}')
         if near and settings.check == 'refuse':
-            raise ValueError(f'{course.file}: not driven, it passes too near to obstacles')
-    return node.new_drive(course)
+            raise ValueError(f'{route.course.file}: not driven, it passes too near to obstacles')
+    return node.new_drive(route)
 
 
 def _ask() -> Drive:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import math
 from typing import TypeVar
 
-from husky_course.waypoints.waypoint_file import MAX_SPEED_M_S, MIN_SPEED_M_S
+from husky_course.waypoints import MAX_SPEED_M_S, MIN_SPEED_M_S
 
 MIN_DISTANCE_M = 0.05
 MAX_DISTANCE_M = 100.0

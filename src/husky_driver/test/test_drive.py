@@ -7,7 +7,8 @@ from pathlib import Path
 import random
 from typing import Any
 
-from husky_course.waypoints.waypoint_file import Course, load_course, parse_course
+from husky_course.route import plan_route
+from husky_course.waypoints import Course, load_course, parse_course
 from husky_driver.drive.distance_drive import DistanceDrive
 from husky_driver.drive.drive import Drive
 from husky_driver.drive.slip import NO_SLIP
@@ -17,7 +18,7 @@ import pytest
 
 def drive_of(course: Course) -> Drive:
     """Return a drive for the plant of these tests, which does not slide."""
-    return Drive(course, slip=NO_SLIP)
+    return Drive(plan_route(course), slip=NO_SLIP)
 
 
 HUSKIES = [

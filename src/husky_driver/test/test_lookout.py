@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from husky_course.route.path import smooth_curve
+from husky_course.route import smooth_curve
 from husky_driver.checks.lookout import FRONT_M, LASER_X_M, look_along, Lookout, Scan, Sighting
 import pytest
 

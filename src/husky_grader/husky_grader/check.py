@@ -9,15 +9,12 @@ from collections.abc import Sequence
 from pathlib import Path
 import sys
 
-from husky_course.obstacles.survey import Pose, Survey
 from husky_course.printable import printable
-from husky_course.route.path import Point
-from husky_course.route.route import plan_route
-from husky_course.waypoints.waypoint_file import Course, load_course
-from husky_driver.drive.time_limit import par_time_sec
+from husky_course.route import plan_route, Point, Pose, Route, Survey
+from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, Parser
 
-from husky_grader.world_check import check_course
+from husky_grader.world_check import check_route
 
 TOO_NEAR = 1
 
@@ -49,23 +46,22 @@ def main(args: Sequence[str] | None = None) -> int:
 def _check(name: str, options: argparse.Namespace) -> int:
     x, y, yaw = options.start
     try:
-        course = load_course(name)
-        found = check_course(course, world=options.world, start=(x, y, yaw))
+        route = plan_route(load_course(name))
+        found = check_route(route, world=options.world, start=(x, y, yaw))
         if options.draw:
-            _draw(course, found, (x, y, yaw), Path(options.draw))
+            _draw(route, found, (x, y, yaw), Path(options.draw))
     except (ValueError, OSError) as error:
         print(printable(str(error), keep='\n'), file=sys.stderr)
         return BAD_INPUT
     for near in found.near:
         print(printable(f'{name}: {near}'), file=sys.stderr)
-    print(printable(f'{name}: {describe(course, found)}'))
+    print(printable(f'{name}: {describe(route, found)}'))
     return TOO_NEAR if found.near and options.refuse else 0
 
 
-def describe(course: Course, found: Survey) -> str:
+def describe(route: Route, found: Survey) -> str:
     """Return one line about a course."""
-    legs = plan_route(course)
-    length = sum(leg.curve.length_m for leg in legs)
+    course = route.course
     places = 'one place' if len(found.near) == 1 else f'{len(found.near)} places'
     verdict = f'too near in {places}' if found.near else 'ok'
     back = ' (the last is the first again)' if course.loop else ''
@@ -73,18 +69,18 @@ def describe(course: Course, found: Survey) -> str:
     if found.least_m is not None:
         nearest = f', nearest obstacle {found.nearest} at {found.least_m:.2f} m'
     return (
-        f'{verdict}: {len(course.stops)} waypoints{back}, {length:.2f} m, '
-        f'about {par_time_sec(legs):.0f} s{nearest}'
+        f'{verdict}: {len(course.stops)} waypoints{back}, {route.length_m:.2f} m, '
+        f'about {route.par_time_sec:.0f} s{nearest}'
     )
 
 
-def _draw(course: Course, found: Survey, start: Pose, path: Path) -> None:
+def _draw(route: Route, found: Survey, start: Pose, path: Path) -> None:
     from husky_grader.report.map import course_scene
     from husky_grader.report.map_png import draw  # matplotlib takes its time
 
     marks: list[Point] = [(near.x, near.y) for near in found.near]
     path.parent.mkdir(parents=True, exist_ok=True)
-    draw(course_scene(course, found.obstacles, start, marks), path)
+    draw(course_scene(route, found.obstacles, start, marks), path)
 
 
 if __name__ == '__main__':

@@ -12,10 +12,9 @@ from pathlib import Path
 import sys
 import time
 
-from husky_course.record.record import FILE_NAME
-from husky_course.route.route import plan_route
-from husky_course.waypoints.waypoint_file import load_course
-from husky_driver.drive.time_limit import limit_sec
+from husky_course.record import FILE_NAME
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
 from husky_runtime.children import run_to_end
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.domains import DomainError, OwnDomain
@@ -84,7 +83,7 @@ def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
     arguments = {
         # The driver keeps a limit of its own; this one ends a run whose driver hangs.
         'waypoints': str(Path(options.waypoints).resolve()),
-        'limit_sec': f'{limit_sec(plan_route(course)) + START_SEC:.1f}',
+        'limit_sec': f'{plan_route(course).limit_sec + START_SEC:.1f}',
         'record': str(folder.resolve() / FILE_NAME),
         'real_time_factor': '0.0' if options.fast else '1.0',
         'lockstep': str(options.fast).lower(),

@@ -13,10 +13,10 @@ import sys
 import time
 
 from husky_course.printable import printable
-from husky_course.record.record import read_record
-from husky_course.record.run import read_run, RunRecord
-from husky_course.waypoints.waypoint_file import Course, load_course
-from husky_driver.ros.progress import Tally
+from husky_course.record import read_record, read_run, RunRecord
+from husky_course.route import plan_route, Route
+from husky_course.waypoints import load_course
+from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT, nobody_reads, Parser
 
 from husky_grader.classes.grading import grade_file, Graded
@@ -111,39 +111,39 @@ def _grade(options: argparse.Namespace) -> int:
 
 
 def _grade_record(options: argparse.Namespace) -> int:
-    course = load_course(options.waypoints)
+    route = plan_route(load_course(options.waypoints))
     run = read_run(read_record(options.record), options.robot)
-    report = judge(run, course, wall_time_sec=options.wall_time)
+    report = judge(run, route, wall_time_sec=options.wall_time)
     graded = Graded(options.waypoints, as_json(report), summary(report))
-    return _show_one(graded, options, _keep(Path(options.report), report, run, course))
+    return _show_one(graded, options, _keep(Path(options.report), report, run, route))
 
 
 def _grade_controller(options: argparse.Namespace) -> int:
     from husky_grader.run.live import drive_live  # rclpy and the simulator take their time
 
     begun, folder = time.monotonic(), Path(options.report)
-    course = load_course(options.waypoints or default_course())
+    route = plan_route(load_course(options.waypoints or default_course()))
     live = drive_live(
         options.controller,
-        course,
+        route,
         folder,
         world=options.world,
         answers=_typed(options.answers),
         real_time_factor=options.real_time_factor,
     )
     run = read_run(live.record)
-    report = judge(run, course, wall_time_sec=time.monotonic() - begun)
+    report = judge(run, route, wall_time_sec=time.monotonic() - begun)
     if not report.passed:
         report = replace(report, reasons=(*live.notes, *report.reasons))
     text = f'{summary(report)}\n  the run ended: {live.ending}'
     graded = Graded(options.controller, as_json(report), text)
-    return _show_one(graded, options, _keep(folder, report, run, course))
+    return _show_one(graded, options, _keep(folder, report, run, route))
 
 
-def _keep(folder: Path, report: Report, run: RunRecord, course: Course) -> str:
+def _keep(folder: Path, report: Report, run: RunRecord, route: Route) -> str:
     """Write a report; return why it cannot be written, or nothing: the run is not lost by that."""
     try:
-        write_report(folder, report, run, course)
+        write_report(folder, report, run, route)
     except OSError as error:
         return (
             f'{folder}: the report cannot be written: {error.strerror}; free some space, or name '
@@ -161,7 +161,7 @@ def _grade_lab(options: argparse.Namespace) -> int:
         raise ValueError(f'{workspace}: no such folder; give your workspace, with src in it')
     steps = grade_lab(
         workspace,
-        load_course(options.waypoints or default_course()),
+        plan_route(load_course(options.waypoints or default_course())),
         Path(options.report),
         answers=_typed(options.answers),
         real_time_factor=options.real_time_factor,

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from husky_course.waypoints.waypoint_file import parse_course
-from husky_driver.checks.bump import Bump, forward_acceleration
-from husky_grader.run.rehearsal import drive_course
+from husky_course.route import plan_route
+from husky_course.waypoints import parse_course
+from husky_driver.checks import Bump, forward_acceleration
+from husky_grader.run.rehearsal import drive_route
 import pytest
 
 NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it
@@ -65,7 +66,7 @@ def test_a_drive_straight_against_a_wall_is_given_up(speed_m_s: float, reverse: 
         f'reverse: {str(reverse).lower()}}}]'
     )
     x, y, yaw = NORTH_WALL
-    record, drive = drive_course(course, start=(x, y, -yaw if reverse else yaw))
+    record, drive = drive_route(plan_route(course), start=(x, y, -yaw if reverse else yaw))
     assert drive.failure.startswith('the wheels drive ')
     assert 'm/s, but the IMU has felt the robot stop: something holds it near' in drive.failure
     touched_sec = record.collisions[0].time_sec

@@ -8,11 +8,12 @@ import subprocess
 import sys
 from typing import Any
 
-from husky_course.record.record import read_record
-from husky_course.waypoints.waypoint_file import load_course
+from husky_course.record import read_record
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
 from husky_grader.check import main as check
 from husky_grader.grade import main as grade
-from husky_grader.run.rehearsal import drive_course
+from husky_grader.run.rehearsal import drive_route
 from husky_grader.scoring.scoring import score
 import pytest
 
@@ -79,29 +80,29 @@ def test_whoever_has_read_enough_of_it_is_not_told_of_a_broken_pipe(
 def test_every_course_is_driven_near_its_path_at_its_speed_without_a_touch(
     courses: Path, name: str
 ) -> None:
-    course = load_course(courses / f'{name}.yaml')
-    record, drive = drive_course(course)
-    report = score(record, course)
+    route = plan_route(load_course(courses / f'{name}.yaml'))
+    record, drive = drive_route(route)
+    report = score(record, route)
     assert report.passed, report.reasons
     assert drive.reached == drive.total == report.waypoints_reached
     assert report.cross_track_rms_m <= 0.04
     assert report.cross_track_max_m <= 0.15
-    assert report.path_length_m / report.sim_time_sec >= 0.88 * course.speed_m_s
+    assert report.path_length_m / report.sim_time_sec >= 0.88 * route.course.speed_m_s
 
 
 def test_on_ground_truth_the_central_barrier_is_driven_within_three_centimetres(
     courses: Path,
 ) -> None:
-    course = load_course(courses / 'central_barrier.yaml')
-    record, _ = drive_course(course, odometry='ground_truth')
-    assert score(record, course).cross_track_rms_m <= 0.03
+    route = plan_route(load_course(courses / 'central_barrier.yaml'))
+    record, _ = drive_route(route, odometry='ground_truth')
+    assert score(record, route).cross_track_rms_m <= 0.03
 
 
 def test_a_start_elsewhere_takes_the_course_along(courses: Path) -> None:
-    course = load_course(courses / 'straight.yaml')
+    route = plan_route(load_course(courses / 'straight.yaml'))
     for odometry in ('filtered', 'wheel', 'ground_truth'):
-        record, _ = drive_course(course, start=(-5.0, 2.0, 1.0), odometry=odometry)
-        assert score(record, course).passed
+        record, _ = drive_route(route, start=(-5.0, 2.0, 1.0), odometry=odometry)
+        assert score(record, route).passed
 
 
 def test_the_same_file_gives_the_same_trajectory_to_the_last_bit(

@@ -9,9 +9,9 @@ import math
 from pathlib import Path
 from typing import Any
 
-from husky_course.waypoints.waypoint_file import Course, load_course, parse_course
-from husky_driver.drive.drive import Drive
-from husky_driver.drive.slip import NO_SLIP
+from husky_course.route import plan_route
+from husky_course.waypoints import Course, load_course, parse_course
+from husky_driver.drive import Drive, NO_SLIP
 from husky_driver.motion import Odometry
 from husky_grader.run.referee import Referee
 import pytest
@@ -55,10 +55,13 @@ def test_a_right_drive_ends_at_the_end_of_the_course(
     courses: Path, drive_to_end: Callable[..., Any], name: str
 ) -> None:
     course = load_course(courses / f'{name}.yaml')
-    track = drive_to_end(Drive(course, slip=NO_SLIP)).track
+    track = drive_to_end(Drive(plan_route(course), slip=NO_SLIP)).track
     end = track[-1]
     after = standing(end.time_sec, end.x_m, end.y_m, 5.0)
-    assert ending(Referee(course), track + after)[0] == 'it stands at the end of the course'
+    assert (
+        ending(Referee(plan_route(course)), track + after)[0]
+        == 'it stands at the end of the course'
+    )
 
 
 @pytest.mark.parametrize(
@@ -74,17 +77,17 @@ def test_a_right_drive_ends_at_the_end_of_the_course(
 def test_a_long_way_back_to_where_it_was_is_progress(
     drive_to_end: Callable[..., Any], course: Course
 ) -> None:
-    track = drive_to_end(Drive(course, slip=NO_SLIP), limit_sec=1000.0).track
+    track = drive_to_end(Drive(plan_route(course), slip=NO_SLIP), limit_sec=1000.0).track
     end = track[-1]
     after = standing(end.time_sec, end.x_m, end.y_m, 5.0)
-    over, when = ending(Referee(course), track + after)
+    over, when = ending(Referee(plan_route(course)), track + after)
     assert over == 'it stands at the end of the course'
     assert when >= end.time_sec
 
 
 def test_one_that_drives_round_and_round_is_ended() -> None:
     course = parse_course('waypoints: [[0, 0], [200, 0]]')
-    over, when = ending(Referee(course), circles(0.5, 100.0))
+    over, when = ending(Referee(plan_route(course)), circles(0.5, 100.0))
     assert over == 'it came no nearer to its goal for 30 s'
     assert when < 40.0
 
@@ -92,16 +95,16 @@ def test_one_that_drives_round_and_round_is_ended() -> None:
 def test_one_that_dwells_where_it_is_asked_to_may_go_on() -> None:
     course = parse_course('waypoints: [[0, 0], {x: 2, y: 0, dwell: 600}, [4, 0]]')
     way = [Odometry(k * PERIOD_SEC, 0.01 * k, 0.0, 0.0, 0.5, 0.0) for k in range(201)]
-    assert ending(Referee(course), way + standing(4.0, 2.0, 0.0, 605.0))[0] == ''
-    over, when = ending(Referee(course), way + standing(4.0, 2.0, 0.0, 700.0))
+    assert ending(Referee(plan_route(course)), way + standing(4.0, 2.0, 0.0, 605.0))[0] == ''
+    over, when = ending(Referee(plan_route(course)), way + standing(4.0, 2.0, 0.0, 700.0))
     assert over == 'it stood still for 608 s'
     assert when == pytest.approx(612.0, abs=0.1)
     elsewhere = [now._replace(y_m=1.0) for now in way] + standing(4.0, 2.0, 1.0, 20.0)
-    assert ending(Referee(course), elsewhere)[0] == 'it stood still for 8 s'
+    assert ending(Referee(plan_route(course)), elsewhere)[0] == 'it stood still for 8 s'
 
 
 def test_one_that_resets_the_simulator_for_ever_is_ended() -> None:
     course = parse_course('waypoints: [[0, 0], [4, 0]]')
     way = [Odometry(k * PERIOD_SEC, 0.01 * k, 0.0, 0.0, 0.5, 0.0) for k in range(201)]
-    over, _ = ending(Referee(course), way * 100)
+    over, _ = ending(Referee(plan_route(course)), way * 100)
     assert over.startswith(('time is up after', 'it came no nearer'))

@@ -9,9 +9,10 @@ import subprocess
 import sys
 import time
 
-from husky_course.record.record import read_record
-from husky_course.waypoints.waypoint_file import load_course
-from husky_grader.run.rehearsal import drive_course
+from husky_course.record import read_record
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+from husky_grader.run.rehearsal import drive_route
 from husky_grader.scoring.scoring import score
 import pytest
 
@@ -25,7 +26,7 @@ def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep
     if name == 'through':  # into the barrier: the driver gives up
         file = tmp_path / 'through.yaml'
         file.write_text('speed: 0.6\nwaypoints: [[0, 0], [4.5, 0]]\n')
-    course, record = load_course(file), tmp_path / 'run.record'
+    route, record = plan_route(load_course(file)), tmp_path / 'run.record'
     environment = {
         **os.environ,
         'ROS_DOMAIN_ID': str(domain),
@@ -50,7 +51,7 @@ def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep
     while not record.exists():
         assert time.monotonic() < deadline, 'the simulator left no record'
         time.sleep(0.01)
-    over_dds = score(read_record(record), course)
-    in_process = score(drive_course(course)[0], course)
+    over_dds = score(read_record(record), route)
+    in_process = score(drive_route(route)[0], route)
     assert over_dds.trajectory_sha256 == in_process.trajectory_sha256
     assert over_dds.score == in_process.score

@@ -4,10 +4,9 @@ from collections.abc import Callable
 from pathlib import Path
 import re
 
-from husky_course.record.events import Touch
-from husky_course.record.record import Disturbance, Record
-from husky_course.record.run import read_run, RunRecord
-from husky_course.waypoints.waypoint_file import parse_course
+from husky_course.record import Collision, Disturbance, read_run, Record, RunRecord
+from husky_course.route import plan_route
+from husky_course.waypoints import parse_course
 from husky_grader.report.map import run_scene, Scene
 from husky_grader.report.map_svg import map_svg, SIZE
 from husky_grader.report.plot_svg import Plot, ticks
@@ -16,8 +15,8 @@ from husky_grader.report.report_html import page
 from husky_grader.scoring.scoring import judge
 import pytest
 
-COURSE = parse_course('tolerance: 0.2\nwaypoints: [[0, 0], [2, 0], [4, 0]]')
-TOUCH = Touch(
+ROUTE = plan_route(parse_course('tolerance: 0.2\nwaypoints: [[0, 0], [2, 0], [4, 0]]'))
+TOUCH = Collision(
     robot='husky',
     obstacle='a <cone>',
     part='front_left_wheel',
@@ -38,7 +37,7 @@ def run(make_record: Callable[..., Record]) -> RunRecord:
 
 @pytest.fixture
 def scene(run: RunRecord) -> Scene:
-    return run_scene(run, COURSE, judge(run, COURSE))
+    return run_scene(run, ROUTE, judge(run, ROUTE))
 
 
 def test_the_band_around_the_path_is_as_wide_as_the_tolerance(scene: Scene) -> None:
@@ -65,7 +64,7 @@ def test_missed_waypoints_and_collisions_bear_the_numbers_of_the_text(scene: Sce
 
 
 def test_the_page_holds_everything_and_loads_nothing(run: RunRecord, tmp_path: Path) -> None:
-    write_report(tmp_path, judge(run, COURSE), run, COURSE)
+    write_report(tmp_path, judge(run, ROUTE), run, ROUTE)
     page = (tmp_path / 'report.html').read_text()
     for part in ('given path', 'true path', 'believed path', 'error', 'collision', 'Speed'):
         assert part in page
@@ -78,7 +77,7 @@ def test_the_page_holds_everything_and_loads_nothing(run: RunRecord, tmp_path: P
 
 
 def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
-    report = judge(run, COURSE)
+    report = judge(run, ROUTE)
     assert as_json(report)['disturbances'] == [
         {'time_sec': 1.0, 'topic': 'odometry/filtered', 'nodes': ['/<other>\x1b[2J']}
     ]
@@ -92,7 +91,7 @@ def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
     content = as_json(report)
     assert content['score'] == 0.0
     assert content['parts'][-1]['name'] == 'alone'
-    html = page(report, run, run_scene(run, COURSE, report))
+    html = page(report, run, run_scene(run, ROUTE, report))
     assert '<span class="score">0.0</span>' in html
     assert '<td>alone</td><td class="n">x 0.000</td>' in html
 
@@ -103,7 +102,7 @@ def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
 def test_what_has_not_the_shape_of_a_report_is_none(
     run: RunRecord, change: dict[str, object]
 ) -> None:
-    content = as_json(judge(run, COURSE))
+    content = as_json(judge(run, ROUTE))
     assert is_report(content)
     assert not is_report({**content, **change})
     assert not is_report({})

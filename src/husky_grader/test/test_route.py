@@ -8,9 +8,9 @@ import math
 from pathlib import Path
 import random
 
-from husky_course.route.route import plan_route
-from husky_course.waypoints.waypoint_file import Course, load_course, parse_course, Waypoint
-from husky_driver.drive.drive import Drive
+from husky_course.route import plan_route
+from husky_course.waypoints import Course, load_course, parse_course, Waypoint
+from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_grader.run.rehearsal import drive_with
 import pytest
@@ -36,7 +36,7 @@ def zigzag(seed: int) -> Course:
 
 def driven(course: Course) -> tuple[Drive, float]:
     """Drive with the simulator's physics; return the drive and how far it came off the path."""
-    drive, worst_m = Drive(course), 0.0
+    drive, worst_m = Drive(plan_route(course)), 0.0
 
     def controller(odometry: Odometry) -> Command | None:
         nonlocal worst_m
@@ -85,11 +85,11 @@ def test_a_corner_too_tight_for_a_curve_is_a_cut(degrees: float, arm_m: float, l
     turn = math.radians(degrees)
     far = Waypoint(2.0 + arm_m * math.cos(turn), arm_m * math.sin(turn))
     course = Course('corner', (Waypoint(0.0, 0.0), Waypoint(2.0, 0.0), far))
-    assert len(plan_route(course)) == legs
+    assert len(plan_route(course).legs) == legs
 
 
 def test_the_lab_s_smooth_courses_are_one_curve_each(courses: Path) -> None:
     for file in sorted(courses.glob('*.yaml')):
         course = load_course(file)
         if course.corners == 'smooth':
-            assert len(plan_route(course)) == 1, file.name
+            assert len(plan_route(course).legs) == 1, file.name

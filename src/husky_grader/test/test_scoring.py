@@ -6,19 +6,19 @@ from itertools import pairwise
 import math
 import struct
 
-from husky_course.record.events import Touch
-from husky_course.record.record import COLUMNS, Disturbance, Record
-from husky_course.record.run import RecordRefused
-from husky_course.route.route import plan_route
-from husky_course.waypoints.waypoint_file import parse_course
+from husky_course.record import Collision, COLUMNS, Disturbance, Record, RecordRefused
+from husky_course.route import plan_route
+from husky_course.waypoints import parse_course
 from husky_grader.scoring.alignment import projected
 from husky_grader.scoring.scoring import score
 import numpy as np
 import pytest
 
 SPEED_M_S = 0.5
-STRAIGHT = parse_course('speed: 0.5\nwaypoints: [[0, 0], [2, 0], [4, 0]]')
-LOOP = parse_course('speed: 0.5\nloop: true\nwaypoints: [[0, 0], [3, 0], [3, 3], [0, 3]]')
+STRAIGHT = plan_route(parse_course('speed: 0.5\nwaypoints: [[0, 0], [2, 0], [4, 0]]'))
+LOOP = plan_route(
+    parse_course('speed: 0.5\nloop: true\nwaypoints: [[0, 0], [3, 0], [3, 3], [0, 3]]')
+)
 Make = Callable[..., Record]
 Places = list[tuple[float, float]]
 
@@ -55,8 +55,8 @@ def test_a_parallel_run_is_off_the_path_by_its_distance(make_record: Make) -> No
     assert tracking.cost_points == pytest.approx(25.0)
 
 
-def touch_at(time_sec: float) -> Touch:
-    return Touch(
+def touch_at(time_sec: float) -> Collision:
+    return Collision(
         robot='husky',
         obstacle='cone',
         part='base',
@@ -221,7 +221,7 @@ def test_a_record_that_breaks_off_is_judged_as_far_as_it_goes(make_record: Make)
 
 def test_a_run_laid_along_its_path_is_projected_as_pose_by_pose() -> None:
     chance = np.random.default_rng(1)
-    curve = plan_route(LOOP)[0].curve
+    curve = LOOP.legs[0].curve
     places = np.array([curve.point_at(s) for s in np.linspace(0.0, curve.length_m, 3000)])
     x, y = (places + chance.normal(0.0, 0.05, places.shape)).T
     near = np.array([curve.index_at(s) for s in np.linspace(0.0, curve.length_m, 3000)])

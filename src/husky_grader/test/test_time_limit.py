@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from pathlib import Path
 
-from husky_course.route.route import plan_route
-from husky_course.waypoints.waypoint_file import Course, load_course, parse_course, Waypoint
-from husky_driver.drive.time_limit import LIMIT_EXTRA_SEC, limit_sec, par_time_sec, TimeLimit
+from husky_course.route import LIMIT_EXTRA_SEC, plan_route
+from husky_course.waypoints import Course, load_course, parse_course, Waypoint
+from husky_driver.drive import TimeLimit
 import pytest
 
 PERIOD_SEC = 0.02
@@ -22,19 +22,19 @@ def ends_at(limit: TimeLimit, *, nearer_until_sec: float, to_sec: float) -> tupl
 
 def test_a_course_may_take_three_times_what_it_needs(courses: Path) -> None:
     for file in sorted(courses.glob('*.yaml')):
-        legs = plan_route(load_course(file))
-        assert 3.0 <= (limit_sec(legs) - LIMIT_EXTRA_SEC) / par_time_sec(legs) < 3.5, file.name
+        route = plan_route(load_course(file))
+        assert 3.0 <= (route.limit_sec - LIMIT_EXTRA_SEC) / route.par_time_sec < 3.5, file.name
 
 
 def test_a_long_slow_course_has_the_time_that_it_needs() -> None:
     far = Course('far', (Waypoint(0.0, 0.0), Waypoint(1000.0, 1000.0)), speed_m_s=0.05)
-    assert limit_sec(plan_route(far)) > 3 * 1414 / 0.05
+    assert plan_route(far).limit_sec > 3 * 1414 / 0.05
 
 
 def test_bends_that_must_be_driven_slowly_have_their_time() -> None:
     points = tuple(Waypoint(0.06 * k, 0.006 * (k % 2)) for k in range(500))
-    legs = plan_route(Course('dense', points, speed_m_s=1.0))
-    assert limit_sec(legs) > 3 * par_time_sec(legs) + 100.0
+    route = plan_route(Course('dense', points, speed_m_s=1.0))
+    assert route.limit_sec > 3 * route.par_time_sec + 100.0
 
 
 def test_who_comes_no_nearer_gives_up_after_half_a_minute() -> None:

@@ -11,7 +11,7 @@ from husky_course.robot import RobotStart
 import mujoco
 
 from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, SimulationConfig
-from husky_sim.robot.contacts import Touch, TouchDetector
+from husky_sim.robot.contacts import Collision, TouchDetector
 from husky_sim.robot.diff_drive import VelocityController, WheelOdometry
 from husky_sim.robot.husky import Husky, set_grip
 from husky_sim.sensors.imu import Imu, new_noise
@@ -96,7 +96,7 @@ class Simulation:
         for start in config.robots:
             set_grip(self.model, start.name, GRIP[config.ground.slip])
         self.data = mujoco.MjData(self.model)
-        self.touches: list[Touch] = []
+        self.touches: list[Collision] = []
         self.periods = 0
         self._detector = TouchDetector(self.world, self.data)
         self.robots = [
@@ -140,7 +140,7 @@ class Simulation:
             robot.observe(self.periods)
         self.touches = self._detector.reports(self.time_sec)
 
-    def unreported_touches(self) -> list[Touch]:
+    def unreported_touches(self) -> list[Collision]:
         """Return the touches of the last moments, whose force had no time to reach its peak."""
         return self._detector.remaining()
 

@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 
 from husky_course.robot import ROBOT_LENGTH_M, RobotStart
-from husky_sim.robot.contacts import Touch
+from husky_sim.robot.contacts import Collision
 from husky_sim.simulation import Simulation
 import pytest
 
@@ -24,7 +24,7 @@ BOX = '<body name="box" pos="{x} 0 0.5"><geom type="box" size="0.1 1 0.5"/></bod
 
 def touches(
     simulation: Simulation, speed_m_s: float, *, seconds: float, yaw_rate_rad_s: float = 0.0
-) -> list[Touch]:
+) -> list[Collision]:
     """Drive, and return every touch."""
     found = []
     for _ in range(round(seconds / 0.02)):

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_course.record.record import Disturbance, read_record
+from husky_course.record import Disturbance, read_record
 from husky_sim.ros.interference import GONE
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry

@@ -11,12 +11,12 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, TwistStamped
-from husky_course.record.record import read_record
+from husky_course.record import read_record
 from husky_course.robot import RobotStart
 from husky_sim.errors import SettingError, StartPoseError, WorldError
 from husky_sim.ros.node import SimulatorNode
-from husky_sim.ros.scene_topic import QOS as SCENE_QOS
-from husky_sim.ros.scene_topic import read_scene
+from husky_sim.scene_topic import QOS as SCENE_QOS
+from husky_sim.scene_topic import read_scene
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest

@@ -4,7 +4,7 @@
 
 import math
 
-from husky_course.obstacles.outline import clearances, least_clearance, Outline
+from husky_course.outline import clearances, least_clearance, Outline
 from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 from husky_sim.world.silhouette import outline_of
 from hypothesis import given

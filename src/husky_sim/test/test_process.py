@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 
-from husky_course.record.record import read_record
+from husky_course.record import read_record
 import pytest
 
 

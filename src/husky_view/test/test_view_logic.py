@@ -8,12 +8,11 @@ import math
 from pathlib import Path
 import socket
 
-from husky_course.record.record import read_record, Record, RecordRefused
+from husky_course.record import read_record, Record, RecordRefused
 from husky_course.robot import RobotStart
-from husky_sim.recording.pushed import loose_bodies, MOVED
-from husky_sim.recording.recorder import RunRecorder
+from husky_sim.recording import loose_bodies, MOVED, RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world.world import default_worlds
+from husky_sim.world import default_worlds
 from husky_view.editor import course
 from husky_view.editor.draft import Draft
 from husky_view.live.pace import Pace
@@ -205,7 +204,7 @@ def test_a_draft_takes_back_one_change_after_the_other_and_a_drag_at_once() -> N
 
 
 def test_a_saved_draft_is_the_course_that_the_driver_reads(tmp_path: Path) -> None:
-    from husky_course.waypoints.waypoint_file import load_course
+    from husky_course.waypoints import load_course
 
     draft = Draft()
     for x, y in ((0.0, 0.0), (1.234, -0.004), (2.5, 1.0)):

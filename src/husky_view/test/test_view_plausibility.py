@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from husky_course.robot import RobotStart
-from husky_sim.ros.scene_topic import Scene, TRACK
-from husky_sim.world.world import default_worlds, load_world, World
+from husky_sim.scene_topic import Scene, TRACK
+from husky_sim.world import default_worlds, load_world, World
 from husky_view.live.plausibility import SceneCheck
 import numpy as np
 import pytest

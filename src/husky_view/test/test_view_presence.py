@@ -5,8 +5,8 @@
 from pathlib import Path
 
 from husky_course.robot import RobotStart
-from husky_sim.ros.scene_topic import world_key
-from husky_sim.world.world import default_worlds, load_world
+from husky_sim.scene_topic import world_key
+from husky_sim.world import default_worlds, load_world
 from husky_view.live.presence import FIRST_SEC, GONE_SEC, Presence, State
 
 

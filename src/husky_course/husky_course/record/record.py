@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from husky_course.obstacles.outline import least_clearance, Outline
+from husky_course.outline import least_clearance, Outline
 from husky_course.record.blocks import read_blocks
-from husky_course.record.events import Touch
+from husky_course.record.events import Collision, Disturbance, Push
 from husky_course.robot import RobotStart
 
 FORMAT = 'husky_playpen_record'
@@ -60,23 +60,6 @@ class RecordRefused(ValueError):
     """A file is no record that can be believed; the message is one line for a person."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Disturbance:
-    """Somebody else spoke on a topic of this run: when it was noticed, where, and who."""
-
-    time_sec: float
-    topic: str
-    nodes: tuple[str, ...]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Push:
-    """Where a body went that was pushed."""
-
-    time_sec: Array
-    qpos: Array  # (n, joint coordinates of the body)
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Record:
     """A run: one row of `rows` for every control period; the first is the start."""
@@ -86,7 +69,7 @@ class Record:
     robots: tuple[RobotStart, ...]
     obstacles: tuple[Outline, ...]
     rows: Array  # (periods + 1, robots, len(COLUMNS))
-    collisions: tuple[Touch, ...] = ()
+    collisions: tuple[Collision, ...] = ()
     pushed: Mapping[str, Push] = field(default_factory=dict)  # by the name of the body
     disturbances: tuple[Disturbance, ...] = ()
     complete: bool = True  # false: the simulator ended before it could say so
@@ -183,7 +166,7 @@ class _Events:
 
     def __init__(self, robots: frozenset[str]) -> None:
         self._robots = robots
-        self._touches: list[Touch] = []
+        self._touches: list[Collision] = []
         self._pushes: dict[str, tuple[list[float], list[list[float]]]] = {}
         self.disturbances: list[Disturbance] = []
         self.complete = False
@@ -204,11 +187,11 @@ class _Events:
             else:
                 raise ValueError(f'unknown event {kind!r}')
 
-    def _touch(self, event: Mapping[str, Any]) -> Touch:
+    def _touch(self, event: Mapping[str, Any]) -> Collision:
         x, y, z = (_number(value) for value in event['position'])
         if event['robot'] not in self._robots:
             raise ValueError(f'a collision of {event["robot"]!r}, which is no robot of the run')
-        return Touch(
+        return Collision(
             robot=event['robot'],
             obstacle=_text(event['obstacle']),
             part=_text(event['part']),
@@ -217,7 +200,7 @@ class _Events:
             position=(x, y, z),
         )
 
-    def collisions(self, end_sec: float) -> tuple[Touch, ...]:
+    def collisions(self, end_sec: float) -> tuple[Collision, ...]:
         """Return them in order; of a record that was cut off, those that its rows reach."""
         if any(touch.time_sec < 0.0 for touch in self._touches):
             raise ValueError('a collision before the run')

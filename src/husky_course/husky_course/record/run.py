@@ -16,11 +16,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from husky_course.obstacles.outline import Outline
-from husky_course.record.events import Touch as Collision
-from husky_course.record.record import COLUMNS, Disturbance, Record, RecordRefused
-
-__all__ = ['Collision', 'Outline', 'RecordRefused', 'RunRecord', 'read_run']
+from husky_course.outline import Outline
+from husky_course.record.events import Collision, Disturbance
+from husky_course.record.record import COLUMNS, Record, RecordRefused
 
 Array = npt.NDArray[np.float64]
 

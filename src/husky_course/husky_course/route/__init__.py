@@ -1,2 +1,26 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+"""The route of a course: legs on smooth curves, and how long they take."""
+
+from husky_course.route.legs import Leg
+from husky_course.route.path import Curve, Point, smooth_curve
+from husky_course.route.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, plan_route, Route
+from husky_course.route.speeds import DriveLimits, plan_speeds
+from husky_course.route.survey import NearPass, Pose, Survey, survey_route
+
+__all__ = [
+    'LIMIT_EXTRA_SEC',
+    'LIMIT_FACTOR',
+    'Curve',
+    'DriveLimits',
+    'Leg',
+    'NearPass',
+    'Point',
+    'Pose',
+    'Route',
+    'Survey',
+    'plan_route',
+    'plan_speeds',
+    'smooth_curve',
+    'survey_route',
+]

@@ -1,98 +1,83 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-Cut a course into legs: stretches driven in one go, with a stop at the end of each.
-
-A leg ends where the robot has to stand: at a sharp corner, where it begins or ends to drive
-backwards, at a waypoint with a yaw or a dwell, and at the end of the course. A corner that is too
-tight for a smooth curve is a sharp one, whatever the course says: of one that turns right back
-the curve would be a cusp, which nobody can follow.
-"""
+"""A course planned once: its legs, its path as one curve, and the time it takes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from functools import cached_property
 import math
 
-from husky_course.route.path import Curve, Point, smooth_curve
-from husky_course.waypoints.waypoint_file import Course, Waypoint
+from husky_course.route.legs import lead_in, Leg, legs_of
+from husky_course.route.path import Curve, joined, Point
+from husky_course.route.speeds import DriveLimits, plan_speeds
+from husky_course.waypoints import Course
 
-SHARP_CORNER_RAD = math.radians(3.0)  # straighter than this needs no stop
-# Found by driving random courses in the empty world: with these, 500 of 500 end, at most 5 cm off
-# the path; without the second, 1 in 7 is more than 6 cm off; without both, some never end.
-TURN_BACK_RAD = math.radians(120.0)  # more than this is done on the spot
-TIGHTEST_PER_M = 20.0  # curvature: so is a bend with less than 5 cm of radius
+STOP_ALLOWANCE_SEC = 1.0  # for each stop on the way, beside the turning
+TURN_ALLOWANCE_RAD_S = 1.0
+LIMIT_FACTOR, LIMIT_EXTRA_SEC = 3.0, 20.0  # of the time that the course takes
 
 
 @dataclass(frozen=True)
-class Leg:
-    """One stretch; `first` is the number of the waypoint (in `Course.stops`) it begins at."""
+class Route:
+    """The legs of a course in the order of driving, in the frame odom."""
 
-    curve: Curve
-    speeds_m_s: tuple[float, ...]  # wished, of each piece between two waypoints
-    first: int
-    reverse: bool = False
-    end_yaw_rad: float | None = None
-    dwell_sec: float = 0.0
+    course: Course
+    legs: tuple[Leg, ...]
 
-    @property
-    def last(self) -> int:
-        return self.first + len(self.speeds_m_s)
+    @cached_property
+    def curve(self) -> Curve:
+        """The whole path."""
+        return joined([leg.curve for leg in self.legs])
 
+    @cached_property
+    def length_m(self) -> float:
+        """Length of the path."""
+        return sum(leg.curve.length_m for leg in self.legs)
 
-def plan_route(course: Course) -> list[Leg]:
-    """Return the legs from the first waypoint to the last."""
-    stops = course.stops
-    cuts = [0, *(i for i in range(1, len(stops) - 1) if _is_cut(course, i)), len(stops) - 1]
-    whole = course.loop and len(cuts) == 2 and not _is_too_tight(stops[-2], stops[0], stops[1])
-    legs = []
-    for begin, end in pairwise(cuts):
-        part = stops[begin : end + 1]
-        points = [(point.x_m, point.y_m) for point in part]
-        curve = smooth_curve(points[:-1] if whole else points, closed=whole)
-        speeds = tuple(point.speed_m_s or course.speed_m_s for point in part[1:])
-        goal = part[-1]
-        legs.append(Leg(curve, speeds, begin, goal.reverse, goal.yaw_rad, goal.dwell_sec))
-    return legs
+    @cached_property
+    def par_time_sec(self) -> float:
+        """Time the course takes at the asked speed, with allowances for its stops."""
+        seconds, heading = 0.0, 0.0
+        for leg in self.legs:
+            seconds += _asked_sec(leg) + STOP_ALLOWANCE_SEC + leg.dwell_sec
+            seconds += _turn_sec(heading, leg.begin_yaw_rad)
+            heading = leg.arrival_yaw_rad
+            if leg.end_yaw_rad is not None:
+                seconds += _turn_sec(heading, leg.end_yaw_rad)
+                heading = leg.end_yaw_rad
+        return seconds
 
+    @cached_property
+    def limit_sec(self) -> float:
+        """How long it may take: three times what it needs, bends included, and 20 s."""
+        limits = DriveLimits()
+        slowed = sum(_slowed_sec(leg, limits) for leg in self.legs)
+        return LIMIT_FACTOR * (self.par_time_sec + slowed) + LIMIT_EXTRA_SEC
 
-def lead_in(course: Course, start: Point) -> Leg | None:
-    """Return the straight way to the first waypoint, or None when the robot is at it."""
-    first = course.waypoints[0]
-    goal = (first.x_m, first.y_m)
-    if math.dist(start, goal) <= course.tolerance_m:
-        return None
-    speed = first.speed_m_s or course.speed_m_s
-    return Leg(smooth_curve([start, goal]), (speed,), -1)
-
-
-def _is_cut(course: Course, i: int) -> bool:
-    before, here, after = course.stops[i - 1 : i + 2]
-    if here.yaw_rad is not None or here.dwell_sec > 0.0 or here.reverse != after.reverse:
-        return True
-    if course.corners == 'sharp' and _corner(before, here, after) > SHARP_CORNER_RAD:
-        return True
-    return _is_too_tight(before, here, after)
+    def begun_at(self, place: Point) -> Route:
+        """Return the route with the straight way from a place to its first waypoint."""
+        way = lead_in(self.course, place)
+        return self if way is None else replace(self, legs=(way, *self.legs))
 
 
-def _is_too_tight(before: Waypoint, here: Waypoint, after: Waypoint) -> bool:
-    """
-    Tell whether a curve cannot be driven through a corner.
-
-    The curvature is that of the centripetal Catmull-Rom curve at a corner between two chords as
-    long as the shorter one.
-    """
-    turn = _corner(before, here, after)
-    if turn > TURN_BACK_RAD:
-        return True
-    place = (here.x_m, here.y_m)
-    chord = min(math.dist(place, (near.x_m, near.y_m)) for near in (before, after))
-    curvature = 4.0 * math.sin(turn / 2) / (chord * math.cos(turn / 2) ** 2)
-    return curvature > TIGHTEST_PER_M
+def plan_route(course: Course) -> Route:
+    """Return the route from the first waypoint to the last."""
+    return Route(course, legs_of(course))
 
 
-def _corner(before: Waypoint, here: Waypoint, after: Waypoint) -> float:
-    first = math.atan2(here.y_m - before.y_m, here.x_m - before.x_m)
-    second = math.atan2(after.y_m - here.y_m, after.x_m - here.x_m)
-    return abs(math.remainder(second - first, 2 * math.pi))
+def _turn_sec(begin_rad: float, end_rad: float) -> float:
+    return abs(math.remainder(end_rad - begin_rad, 2 * math.pi)) / TURN_ALLOWANCE_RAD_S
+
+
+def _asked_sec(leg: Leg) -> float:
+    knots = leg.curve.knot_s
+    return sum((knots[i + 1] - knots[i]) / speed for i, speed in enumerate(leg.speeds_m_s))
+
+
+def _slowed_sec(leg: Leg, limits: DriveLimits) -> float:
+    """Return how much longer a leg takes than at the asked speed, for its bends and its end."""
+    s = leg.curve.s
+    speeds = plan_speeds(leg.curve, leg.speeds_m_s, limits)
+    planned = sum(2.0 * (s[i + 1] - s[i]) / (speeds[i] + speeds[i + 1]) for i in range(len(s) - 1))
+    return max(planned - _asked_sec(leg), 0.0)

@@ -1,2 +1,8 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+"""What the driver notices by itself: nonsense, obstacles, a robot that is held."""
+
+from husky_driver.checks.bump import Bump, forward_acceleration
+from husky_driver.checks.plausibility import no_rotation, OdometryCheck
+
+__all__ = ['Bump', 'OdometryCheck', 'forward_acceleration', 'no_rotation']

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import math
 from typing import NamedTuple
 
-from husky_course.route.path import Curve
+from husky_course.route import Curve
 import numpy as np
 
 LASER_X_M = 0.337  # front_laser in base_link

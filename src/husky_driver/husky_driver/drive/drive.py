@@ -11,14 +11,14 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator
 import math
 
-from husky_course.route.route import lead_in, Leg, plan_route
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.route import DriveLimits, Leg, plan_speeds, Route
+from husky_course.waypoints import Course
 
 from husky_driver.checks.plausibility import OdometryCheck
 from husky_driver.checks.watchdog import Watchdog
 from husky_driver.drive.slip import SlipCorrection, SlipModel
 from husky_driver.drive.time_limit import NEARER_M, TimeLimit
-from husky_driver.drive.tracker import DriveLimits, plan_speeds, Tracker
+from husky_driver.drive.tracker import Tracker
 from husky_driver.motion import Command, Odometry, STOP
 
 ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
@@ -37,14 +37,14 @@ class Drive:
     """Follows a course; give it every odometry message once, in order."""
 
     def __init__(
-        self, course: Course, limits: DriveLimits | None = None, *, slip: SlipModel | None = None
+        self, route: Route, limits: DriveLimits | None = None, *, slip: SlipModel | None = None
     ) -> None:
         """
         Prepare; the course begins at the first odometry.
 
         :param slip: what this odometry misses; by default that of the simulated Husky's wheels.
         """
-        self.course = course
+        self._planned = self.route = route
         self._slip = SlipCorrection(slip or SlipModel())
         self.limits = limits or DriveLimits()
         self.finished = False
@@ -52,7 +52,6 @@ class Drive:
         self.nonsense = ''  # what it heard that cannot be true, if it did
         self.held = False  # true: stands where it is, and goes on when false again
         self.reached = 0  # waypoints, counted in order
-        self.legs = plan_route(course)
         self._leg_index = 0
         self._tracker: Tracker | None = None
         self._now: Odometry | None = None
@@ -68,19 +67,23 @@ class Drive:
         self._wishes: Iterator[Command] = iter(())
 
     @property
+    def course(self) -> Course:
+        return self.route.course
+
+    @property
     def total(self) -> int:
         return len(self.course.stops)
 
     @property
     def length_m(self) -> float:
-        return sum(leg.curve.length_m for leg in self.legs)
+        return self.route.length_m
 
     @property
     def remaining_m(self) -> float:
         """Length of the path that is left, along the curve."""
         if self._tracker is None:
             return self.length_m
-        later = sum(leg.curve.length_m for leg in self.legs[self._leg_index + 1 :])
+        later = sum(leg.curve.length_m for leg in self.route.legs[self._leg_index + 1 :])
         return self._tracker.remaining_m + later
 
     @property
@@ -176,23 +179,20 @@ class Drive:
         return None if self.finished else STOP
 
     def _begin(self, odometry: Odometry) -> None:
-        self._place(odometry)
         self._started_sec = odometry.time_sec
         self._command = STOP
         self._watchdog = Watchdog(odometry)
         self._next = self.reached = 0
         self.finished, self.failure, self._gave_up_sec = False, '', None
-        self.legs = plan_route(self.course)
-        way = lead_in(self.course, (odometry.x_m, odometry.y_m))
-        if way is not None:
-            self.legs.insert(0, way)
+        self.route = self._route_from(odometry)
         self._leg_index, self._tracker = 0, None  # not those from before a reset
         self._least_m, self._dwelling = math.inf, False
-        self._limit = TimeLimit(self.legs, odometry.time_sec)
+        self._limit = TimeLimit(self.route, odometry.time_sec)
         self._wishes = self._drive()
 
-    def _place(self, start: Odometry) -> None:
-        """Fit the course to where the robot starts; a waypoint file stays as it is."""
+    def _route_from(self, start: Odometry) -> Route:
+        """Return the route from where the robot starts."""
+        return self._planned.begun_at((start.x_m, start.y_m))
 
     # The course as a story: each generator yields one wished command a period and sees the
     # newest odometry in self._now when it goes on.
@@ -200,7 +200,7 @@ class Drive:
     def _drive(self) -> Generator[Command, None, None]:
         if not self._odometry().is_standing:  # it was driving something else
             yield from self._stand()
-        for index, leg in enumerate(self.legs):
+        for index, leg in enumerate(self.route.legs):
             self._leg_index = index
             self._tracker = tracker = self._track(leg)
             now = self._odometry()
@@ -294,7 +294,7 @@ class Drive:
     def _left_behind(self, number: int, tolerance_m: float) -> bool:
         if self._tracker is None:
             return False
-        leg = self.legs[self._leg_index]
+        leg = self.route.legs[self._leg_index]
         if number >= leg.last:
             return False
         if number <= leg.first:

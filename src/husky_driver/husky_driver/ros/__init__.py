@@ -1,2 +1,9 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+"""What the driver says and hears over ROS."""
+
+from husky_driver.ros.node import FollowPath
+from husky_driver.ros.progress import Tally
+from husky_driver.ros.readings import read_odometry
+
+__all__ = ['FollowPath', 'Tally', 'read_odometry']

@@ -10,7 +10,7 @@ the place on the path that is steered for. Nothing here takes part in driving.
 from __future__ import annotations
 
 from geometry_msgs.msg import PointStamped, Pose, PoseArray, PoseStamped
-from husky_course.route.path import Point
+from husky_course.route import Point
 from nav_msgs.msg import Path
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -29,7 +29,7 @@ class DriveDisplay:
 
     def __init__(self, node: Node, drive: Drive) -> None:
         self._drive = drive
-        self._legs: object = None
+        self._route: object = None
         self._left = -1
         self._path = node.create_publisher(Path, 'path', _KEPT)
         self._waypoints = node.create_publisher(PoseArray, 'waypoints', _KEPT)
@@ -40,13 +40,13 @@ class DriveDisplay:
 
     def show(self, drive: Drive) -> None:
         """Go over to another drive."""
-        self._drive, self._legs, self._left = drive, None, -1
+        self._drive, self._route, self._left = drive, None, -1
 
     def update(self) -> None:
         """Publish what has changed; call it now and then."""
         drive = self._drive
-        if drive.legs is not self._legs:  # planned anew, from where the robot stands
-            self._legs = drive.legs
+        if drive.route is not self._route:  # planned anew, from where the robot stands
+            self._route = drive.route
             self._publish_course()
         left = drive.total - drive.reached
         if left != self._left:
@@ -60,7 +60,7 @@ class DriveDisplay:
     def _publish_course(self) -> None:
         path = Path()
         path.header.frame_id = 'odom'
-        for leg in self._drive.legs:
+        for leg in self._drive.route.legs:
             curve = leg.curve
             xs, ys = [*curve.x[:-1:EVERY], curve.x[-1]], [*curve.y[:-1:EVERY], curve.y[-1]]
             path.poses += [_stamped(point) for point in zip(xs, ys, strict=True)]

@@ -10,7 +10,8 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_course.waypoints.waypoint_file import Course, load_course
+from husky_course.route import plan_route, Route
+from husky_course.waypoints import load_course
 from nav_msgs.msg import Odometry as OdometryMsg
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
@@ -75,10 +76,10 @@ class FollowPath(Node):
         topic = 'husky_velocity_controller/cmd_vel'
         self._commands = self.create_publisher(Twist, topic, 10)
 
-    def new_drive(self, course: Course) -> Drive:
-        """Return a drive of the course as the settings want it."""
+    def new_drive(self, route: Route) -> Drive:
+        """Return a drive of a route as the settings want it."""
         slips = self.settings.slip and self.settings.odometry != 'ground_truth'
-        return Drive(course, slip=None if slips else NO_SLIP)
+        return Drive(route, slip=None if slips else NO_SLIP)
 
     def start(self, drive: Drive) -> None:
         """Begin to listen to odometry and to drive."""
@@ -157,10 +158,10 @@ class FollowPath(Node):
         for parameter in parameters:
             if parameter.name == 'waypoints':
                 try:
-                    course = load_course(str(parameter.value))
+                    route = plan_route(load_course(str(parameter.value)))
                 except ValueError as error:
                     return SetParametersResult(successful=False, reason=str(error))
-                self._drive = self.new_drive(course)
+                self._drive = self.new_drive(route)
                 self._display.show(self._drive)
                 self._hold()
                 self._say(f'going over to {parameter.value}')

@@ -15,9 +15,9 @@ from threading import Thread
 import time
 from typing import Any
 
-from husky_course.record.record import FILE_NAME
-from husky_course.record.run import read_run
-from husky_course.waypoints.waypoint_file import load_course
+from husky_course.record import FILE_NAME, read_run
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
 
 import husky_course
 import husky_driver
@@ -66,23 +66,23 @@ def grade_file(
     :param each_second: called with every second of simulated time.
     :raises OSError: when the report cannot be written.
     """
-    from husky_grader.run.rehearsal import drive_course  # the simulator takes its time
+    from husky_grader.run.rehearsal import drive_route  # the simulator takes its time
 
     begun = time.monotonic()
     try:
-        course = load_course(file)
+        route = plan_route(load_course(file))
         # To load matplotlib takes as long as to drive, and the physics leaves Python alone.
         Thread(target=_load_pictures, daemon=True).start()
-        record, drive = drive_course(
-            course, world=world, record=folder / FILE_NAME, each_second=each_second
+        record, drive = drive_route(
+            route, world=world, record=folder / FILE_NAME, each_second=each_second
         )
         run = read_run(record)
     except ValueError as error:
         return Graded(file, None, str(error), refused=str(error))
-    report = judge(run, course, wall_time_sec=time.monotonic() - begun)
+    report = judge(run, route, wall_time_sec=time.monotonic() - begun)
     if drive.failure:
         report = replace(report, reasons=(*report.reasons, f'gave up: {drive.failure}'))
-    write_report(folder, report, run, course)
+    write_report(folder, report, run, route)
     keep_course(Path(file), folder)
     return Graded(file, as_json(report), summary(report))
 
@@ -127,6 +127,6 @@ def _programs_and_worlds(world: str) -> list[Path]:
     paths: list[Path] = [Path(world)] if world else []
     for package in (husky_course, husky_driver, husky_grader, husky_sim):
         paths += sorted(Path(package.__path__[0]).rglob('*.py'))
-    from husky_sim.world.world import default_worlds
+    from husky_sim.world import default_worlds
 
     return [*paths, *sorted(default_worlds().glob('*.xml'))]

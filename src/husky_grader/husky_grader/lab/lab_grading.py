@@ -10,8 +10,8 @@ import json
 from pathlib import Path
 import shutil
 
-from husky_course.record.run import read_run
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.record import read_run
+from husky_course.route import Route
 
 from husky_grader.lab.lab_graph import publisher_step, subscriber_step
 from husky_grader.lab.lab_steps import (
@@ -36,7 +36,7 @@ POINTS = {
 
 def grade_lab(
     workspace: Path,
-    course: Course,
+    route: Route,
     folder: Path,
     *,
     answers: str = '',
@@ -51,7 +51,7 @@ def grade_lab(
     for step in _files_and_graph(workspace.resolve(), folder):
         steps.append(step)
         done(step)
-    step = _drive_step(workspace, course, folder, answers, real_time_factor)
+    step = _drive_step(workspace, route, folder, answers, real_time_factor)
     steps.append(step)
     done(step)
     total = sum(step.points for step in steps)
@@ -84,7 +84,7 @@ def _is_built(folder: Path) -> bool:
 
 
 def _drive_step(
-    workspace: Path, course: Course, folder: Path, answers: str, real_time_factor: float
+    workspace: Path, route: Route, folder: Path, answers: str, real_time_factor: float
 ) -> Step:
     most = POINTS['drive']
     if not _is_built(folder):
@@ -96,17 +96,17 @@ def _drive_step(
         return failed('drive', most, str(error))
     live = drive_live(
         str(program),
-        course,
+        route,
         folder / 'drive',
         answers=answers,
         environment=environment,
         real_time_factor=real_time_factor,
     )
     run = read_run(live.record)
-    report = judge(run, course)
+    report = judge(run, route)
     if not report.passed:
         report = replace(report, reasons=(*live.notes, *report.reasons))
-    write_report(folder / 'drive', report, run, course)
+    write_report(folder / 'drive', report, run, route)
     why = '; '.join(report.reasons) if report.reasons else f'{report.course} passed'
     return Step('drive', most, most * report.score / 100.0, why)
 

@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from husky_grader.scoring.alignment import spread
-from husky_course.route.path import joined, Point
-from husky_course.route.route import plan_route
-from husky_course.record.run import Outline, RunRecord
+from husky_course.route import Point, Route
+from husky_course.route import Point, Route
+from husky_course.outline import Outline
+from husky_course.record import RunRecord
 from husky_grader.scoring.scoring import Report
-from husky_course.waypoints.waypoint_file import Course
 
 Array = npt.NDArray[np.float64]
 
@@ -85,7 +85,7 @@ def thinned(points: Sequence[Point]) -> list[Point]:
 
 
 def course_scene(
-    course: Course,
+    route: Route,
     obstacles: tuple[Outline, ...],
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     marks: Sequence[Point] = (),
@@ -97,11 +97,11 @@ def course_scene(
     def to_world(x: float, y: float) -> Point:
         return x0 + cos * x - sin * y, y0 + sin * x + cos * y
 
-    curves = [leg.curve for leg in plan_route(course)]
+    course = route.course
     return Scene(
         title=course.name,
         obstacles=obstacles,
-        given=thinned([to_world(x, y) for c in curves for x, y in zip(c.x, c.y, strict=True)]),
+        given=thinned([to_world(x, y) for x, y in zip(route.curve.x, route.curve.y, strict=True)]),
         waypoints=[to_world(point.x_m, point.y_m) for point in course.waypoints],
         tolerance_m=course.tolerance_m,
         start=start,
@@ -111,21 +111,20 @@ def course_scene(
     )
 
 
-def run_scene(run: RunRecord, course: Course, report: Report) -> Scene:
+def run_scene(run: RunRecord, route: Route, report: Report) -> Scene:
     """Return the map of a run that was judged."""
-    scene = course_scene(course, run.obstacles, run.start)
+    scene = course_scene(route, run.obstacles, run.start)
     seen = spread(run.x, run.y, MAX_POINTS)
-    curve = joined([leg.curve for leg in plan_route(course)])
     driven = slice(report.begin, report.end + 1)
     beside = spread(run.x[driven], run.y[driven], MAX_POINTS) + report.begin
-    asked = np.array([curve.point_at(along) for along in report.along_m[beside]])
+    asked = np.array([route.curve.point_at(along) for along in report.along_m[beside]])
     missed = [i for i, got in enumerate(report.visits) if not got]  # a loop's last is its first
     return replace(
         scene,
         true=_points(*run.to_world(run.x[seen], run.y[seen])),
         believed=_points(*run.to_world(run.odom_x[seen], run.odom_y[seen])),
         marks=[touch.position[:2] for touch in run.collisions],
-        missed=frozenset(i % len(course.waypoints) for i in missed),
+        missed=frozenset(i % len(route.course.waypoints) for i in missed),
         error=[
             *_points(*run.to_world(run.x[beside], run.y[beside])),
             *_points(*run.to_world(asked[:, 0], asked[:, 1]))[::-1],

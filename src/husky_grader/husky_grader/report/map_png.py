@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
 from husky_course.printable import printable
-from husky_course.route.path import Point
+from husky_course.route import Point
 from husky_grader.report.map import corners, Scene
 
 MAX_NUMBERS = 60  # more could not be read, and take time

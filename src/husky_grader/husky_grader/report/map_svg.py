@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from html import escape
 
 from husky_course.printable import printable
-from husky_course.route.path import Point
+from husky_course.route import Point
 from husky_grader.report.map import corners, Scene
 
 SIZE = 1000.0  # the longer side, in units of the drawing

@@ -12,10 +12,10 @@ from typing import Any
 from husky_grader.report.atomic_file import replacing
 from husky_course.printable import printable
 from husky_grader.report.report_html import page
-from husky_course.record.run import RunRecord
+from husky_course.record import RunRecord
 from husky_grader.report.map import run_scene
 from husky_grader.scoring.scoring import Report
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.route import Route
 
 REPORT_FILES = ('report.json', 'report.html', 'path.png')
 JSON_KEYS = (
@@ -51,12 +51,12 @@ def is_report(content: object) -> bool:
     )
 
 
-def write_report(folder: Path, report: Report, run: RunRecord, course: Course) -> None:
+def write_report(folder: Path, report: Report, run: RunRecord, route: Route) -> None:
     """Write the three files, each whole or not at all."""
     from husky_grader.report.map_png import draw  # matplotlib takes its time
 
     folder.mkdir(parents=True, exist_ok=True)
-    scene = run_scene(run, course, report)
+    scene = run_scene(run, route, report)
     _write(folder / 'report.json', json.dumps(as_json(report), indent=2) + '\n')
     _write(folder / 'report.html', page(report, run, scene))
     with replacing(folder / 'path.png') as part:

@@ -10,7 +10,7 @@ from husky_course.printable import printable
 from husky_grader.report.map_svg import map_svg
 from husky_grader.report.plot_svg import MAX_POINTS, Plot
 from husky_grader.report.report_style import STYLE
-from husky_course.record.run import RunRecord
+from husky_course.record import RunRecord
 from husky_grader.report.map import Scene
 from husky_grader.scoring.score_parts import FORMULA, FULL_TRACKING_M
 from husky_grader.scoring.scoring import Report

@@ -1,2 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+"""Runs to be judged: in one process, or live on a ROS graph."""
+
+from husky_grader.run.rehearsal import drive_route
+
+__all__ = ['drive_route']

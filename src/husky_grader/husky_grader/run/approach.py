@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import math
 
-from husky_course.waypoints.waypoint_file import Course
-from husky_driver.drive.time_limit import NEARER_M
+from husky_course.waypoints import Course
+from husky_driver.drive import NEARER_M
 
 VISIT_M = 1.0  # so near it was there, also where the course asks for less
 

@@ -19,8 +19,8 @@ import sys
 import time
 from typing import Any
 
-from husky_course.record.record import FILE_NAME, read_record, Record
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.record import FILE_NAME, read_record, Record
+from husky_course.route import Route
 from husky_runtime.children import descendants_ended, Process, tail_of
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.executor import make_executor
@@ -57,7 +57,7 @@ class LiveRun:
 
 def drive_live(
     command: str,
-    course: Course,
+    route: Route,
     folder: Path,
     *,
     world: str = '',
@@ -95,7 +95,7 @@ def drive_live(
         _await_simulator(watcher, executor, running, folder)
         theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
         controller = _start(command, theirs, folder, answers)
-        referee = Referee(course, start_within_sec=patience_sec)
+        referee = Referee(route, start_within_sec=patience_sec)
         ending, notes = _watch(watcher, executor, running, controller, referee, folder)
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')

@@ -6,9 +6,8 @@ from __future__ import annotations
 
 import math
 
-from husky_course.route.route import lead_in, plan_route
-from husky_course.waypoints.waypoint_file import Course
-from husky_driver.drive.time_limit import TimeLimit
+from husky_course.route import Route
+from husky_driver.drive import TimeLimit
 
 from husky_grader.run.approach import Approach
 
@@ -23,14 +22,13 @@ STANDING_RAD_S = 0.05
 class Referee:
     """Watches the true pose, in the frame the robot started in."""
 
-    def __init__(self, course: Course, *, start_within_sec: float = START_WITHIN_SEC) -> None:
+    def __init__(self, route: Route, *, start_within_sec: float = START_WITHIN_SEC) -> None:
         self._start_within_sec = start_within_sec
-        legs = plan_route(course)
+        course = route.course
         self._goal = course.stops[-1]
         self._tolerance_m = course.tolerance_m
-        self._half_m = sum(leg.curve.length_m for leg in legs) / 2
-        way = lead_in(course, (0.0, 0.0))
-        self._limit = TimeLimit([*([way] if way else []), *legs], 0.0)
+        self._half_m = route.length_m / 2
+        self._limit = TimeLimit(route.begun_at((0.0, 0.0)), 0.0)
         self._approach = Approach(course)
         self._dwells = [stop for stop in course.stops[:-1] if stop.dwell_sec > 0.0]
         self._heard_sec: float | None = None

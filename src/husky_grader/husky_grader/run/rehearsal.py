@@ -15,17 +15,16 @@ import math
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from husky_course.record.record import FILE_NAME, read_record, Record
+from husky_course.record import FILE_NAME, read_record, Record
 from husky_course.robot import RobotStart
-from husky_course.waypoints.waypoint_file import Course
-from husky_driver.checks.bump import forward_acceleration
-from husky_driver.drive.drive import Drive
-from husky_driver.drive.slip import NO_SLIP
+from husky_course.route import Route
+from husky_driver.checks import forward_acceleration
+from husky_driver.drive import Drive, NO_SLIP
 from husky_driver.motion import Command, Odometry, relative, yaw_of
 from husky_sim.errors import SimulatorError
-from husky_sim.recording.recorder import RunRecorder
+from husky_sim.recording import RunRecorder
 from husky_sim.simulation import SimulatedRobot, Simulation
-from husky_sim.world.world import default_worlds
+from husky_sim.world import default_worlds
 
 from husky_sim.config import CONTROL_PERIOD_SEC, SimulationConfig
 
@@ -36,8 +35,8 @@ Controller = Callable[[Odometry], Command | None]
 Feel = Callable[[float, float], None]
 
 
-def drive_course(
-    course: Course,
+def drive_route(
+    route: Route,
     *,
     world: str = '',
     start: Pose = (0.0, 0.0, 0.0),
@@ -46,7 +45,7 @@ def drive_course(
     each_second: Callable[[], object] = lambda: None,
 ) -> tuple[Record, Drive]:
     """
-    Drive the course to its end; return the simulator's record and the drive.
+    Drive a route to its end; return the simulator's record and the drive.
 
     :param world: MJCF file; empty: the playpen.
     :param odometry: which pose to follow: filtered, wheel or ground_truth.
@@ -55,7 +54,7 @@ def drive_course(
     :raises ValueError: when the world or the start cannot be used.
     :raises OSError: when the record cannot be written.
     """
-    drive = Drive(course, slip=NO_SLIP if odometry == 'ground_truth' else None)
+    drive = Drive(route, slip=NO_SLIP if odometry == 'ground_truth' else None)
     driven = drive_with(
         drive.step,
         feel=drive.feel,

@@ -7,9 +7,9 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from husky_driver.checks.plausibility import no_rotation, OdometryCheck
+from husky_driver.checks import no_rotation, OdometryCheck
 from husky_driver.motion import relative, yaw_of
-from husky_driver.ros.readings import read_odometry
+from husky_driver.ros import read_odometry
 from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.node import Node

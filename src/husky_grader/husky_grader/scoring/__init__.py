@@ -1,2 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+"""The score of a run, and why."""
+
+from husky_grader.scoring.scoring import Report, score
+
+__all__ = ['Report', 'score']

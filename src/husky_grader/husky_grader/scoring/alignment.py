@@ -11,7 +11,7 @@ programming).
 
 from __future__ import annotations
 
-from husky_course.route.path import Curve
+from husky_course.route import Curve
 import numpy as np
 import numpy.typing as npt
 

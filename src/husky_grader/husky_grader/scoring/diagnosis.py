@@ -8,9 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 import math
 
-from husky_course.record.run import RunRecord
-from husky_course.route.path import Curve
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.record import RunRecord
+from husky_course.route import Curve
+from husky_course.waypoints import Course
 import numpy as np
 import numpy.typing as npt
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from husky_course.record.run import RunRecord
-from husky_course.route.route import Leg
+from husky_course.record import RunRecord
+from husky_course.route import Leg
 import numpy as np
 import numpy.typing as npt
 

@@ -7,12 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from husky_course.record.record import Disturbance, Record
-from husky_course.record.run import Collision, read_run, RunRecord
-from husky_course.route.path import joined
-from husky_course.route.route import plan_route
-from husky_course.waypoints.waypoint_file import Course
-from husky_driver.drive.time_limit import par_time_sec
+from husky_course.record import Collision, Disturbance, read_run, Record, RunRecord
+from husky_course.route import Route
+from husky_course.waypoints import Course
 import numpy as np
 import numpy.typing as npt
 
@@ -67,7 +64,7 @@ class Report:
 
 def score(
     record: Record,
-    course: Course,
+    route: Route,
     *,
     wall_time_sec: float | None = None,
     robot: str | None = None,
@@ -77,12 +74,11 @@ def score(
 
     :raises RecordRefused: when the record cannot be judged.
     """
-    return judge(read_run(record, robot), course, wall_time_sec=wall_time_sec)
+    return judge(read_run(record, robot), route, wall_time_sec=wall_time_sec)
 
 
-def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None) -> Report:
-    legs = plan_route(course)
-    curve = joined([leg.curve for leg in legs])
+def judge(run: RunRecord, route: Route, *, wall_time_sec: float | None = None) -> Report:
+    course, curve = route.course, route.curve
     end = _end(run)
     along, errors = align(curve, run.x, run.y)
     visits = waypoints_in_order(course, run.x[run.begin :], run.y[run.begin :])
@@ -90,14 +86,14 @@ def judge(run: RunRecord, course: Course, *, wall_time_sec: float | None = None)
     judged = _judged(run, course, end)
     rms = math.sqrt(float(np.mean(errors[judged] ** 2))) if len(judged) else 0.0
     worst = float(np.abs(errors[judged]).max(initial=0.0))
-    asked = asked_of(legs, along)
+    asked = asked_of(route.legs, along)
     manner = manner_of(run, asked, along, judged)
     reached, needed = sum(visits), float(run.time_sec[end])
     progress = float(along[judged].max(initial=0.0)) / curve.length_m
     factors = [
         ('completion', score_parts.completion(reached, len(visits), stands_at_end=stands)),
         ('collisions', score_parts.collisions([c.obstacle for c in run.collisions])),
-        ('time', score_parts.time(needed, progress * par_time_sec(legs), manner.too_fast)),
+        ('time', score_parts.time(needed, progress * route.par_time_sec, manner.too_fast)),
         ('tracking', score_parts.tracking(rms, manner.wrong_way)),
     ]
     if run.disturbances:

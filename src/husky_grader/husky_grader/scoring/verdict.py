@@ -7,9 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
-from husky_course.record.record import Disturbance
-from husky_course.record.run import RunRecord
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.record import Disturbance, RunRecord
+from husky_course.waypoints import Course
 import numpy as np
 
 from husky_grader.scoring.driving_style import ENOUGH_M, Manner

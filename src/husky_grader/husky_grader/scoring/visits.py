@@ -7,7 +7,7 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Sequence
 
-from husky_course.waypoints.waypoint_file import Course, Waypoint
+from husky_course.waypoints import Course, Waypoint
 import numpy as np
 import numpy.typing as npt
 

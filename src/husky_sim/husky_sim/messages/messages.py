@@ -16,7 +16,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
 
 from husky_sim.messages.packed_message import PackedMessage
-from husky_sim.robot.contacts import Touch
+from husky_sim.robot.contacts import Collision
 from husky_sim.robot.diff_drive import WheelOdometry
 from husky_sim.robot.husky import JOINTS, Quaternion, Vector
 from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
@@ -202,7 +202,7 @@ def packed_messages() -> list[PackedMessage]:
     ]
 
 
-def new_collision(touch: Touch) -> DiagnosticStatus:
+def new_collision(touch: Collision) -> DiagnosticStatus:
     """Make the message of a collision."""
     x, y, z = touch.position
     return DiagnosticStatus(

@@ -17,10 +17,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from husky_course.obstacles.outline import Outline
-from husky_course.record.blocks import block_of
-from husky_course.record.events import Touch
-from husky_course.record.record import COLUMNS, FORMAT, VERSION
+from husky_course.outline import Outline
+from husky_course.record import block_of, Collision, COLUMNS, FORMAT, VERSION
 import numpy as np
 
 from husky_sim.config import CONTROL_PERIOD_SEC
@@ -114,7 +112,7 @@ class RunRecorder:
     def _note(self, event: str, **values: Any) -> None:
         self._events.append({'event': event, **values})
 
-    def _note_touches(self, touches: Iterable[Touch]) -> None:
+    def _note_touches(self, touches: Iterable[Collision]) -> None:
         for touch in touches:
             self._note('collision', **asdict(touch))
 

@@ -10,7 +10,7 @@ force until then. Wheels on the ground touch nothing.
 
 from dataclasses import dataclass
 
-from husky_course.record.events import Touch as Touch
+from husky_course.record import Collision as Collision
 import mujoco
 import numpy as np
 
@@ -23,15 +23,15 @@ _REMEMBERED = 10000
 
 @dataclass
 class _Contact:
-    touch: Touch
+    touch: Collision
     last_seen_sec: float
     force_n: float = 0.0
     reported: bool = False
 
-    def report(self) -> Touch:
+    def report(self) -> Collision:
         self.reported = True
         touch = self.touch
-        return Touch(
+        return Collision(
             robot=touch.robot,
             obstacle=touch.obstacle,
             part=touch.part,
@@ -91,12 +91,12 @@ class TouchDetector:
 
     def _begin(
         self, pair: tuple[int, int], contacts: list[tuple[int, int]], time_sec: float
-    ) -> Touch:
+    ) -> Collision:
         depths = self._data.contact.dist
         index, geom = min(contacts, key=lambda contact: float(depths[contact[0]]))
         x, y, z = self._data.contact.pos[index].tolist()
         names = self._world.names
-        return Touch(
+        return Collision(
             robot=names[pair[0]],
             obstacle=names[pair[1]],
             part=self._world.part(geom),
@@ -109,7 +109,7 @@ class TouchDetector:
         mujoco.mj_contactForce(self._world.model, self._data, index, self._force)
         return abs(float(self._force[0]))
 
-    def reports(self, time_sec: float) -> list[Touch]:
+    def reports(self, time_sec: float) -> list[Collision]:
         """Return the touches that began PEAK_SEC ago and were not reported yet."""
         if not self._contacts:
             return []
@@ -119,6 +119,6 @@ class TouchDetector:
             if not contact.reported and time_sec - contact.touch.time_sec >= PEAK_SEC
         ]
 
-    def remaining(self) -> list[Touch]:
+    def remaining(self) -> list[Collision]:
         """Return the touches that a run ended too early to report."""
         return [c.report() for c in self._contacts.values() if not c.reported]

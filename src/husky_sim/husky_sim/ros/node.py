@@ -40,8 +40,8 @@ from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pacing import Pacer
 from husky_sim.ros.parameters import CHANGEABLE, read_factor, read_run, read_simulation
 from husky_sim.ros.robot_topics import QOS, RobotTopics
-from husky_sim.ros.scene_topic import SceneTopic
 from husky_sim.ros.simulation_services import add_simulation_services
+from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
 
 REPEAT_SEC = 0.5

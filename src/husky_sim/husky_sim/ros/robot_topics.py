@@ -19,7 +19,7 @@ from std_msgs.msg import Bool
 from husky_sim.messages import messages
 from husky_sim.messages.messages import Stamp
 from husky_sim.messages.packed_message import Form
-from husky_sim.robot.contacts import Touch
+from husky_sim.robot.contacts import Collision
 from husky_sim.ros.sensor_topics import SensorTopics
 from husky_sim.ros.transforms import TransformTopics
 from husky_sim.simulation import SimulatedRobot, Simulation
@@ -162,7 +162,7 @@ class RobotTopics:
         self._sensors.publish(stamp)
         self._transforms.publish(stamp, self.robot)
 
-    def publish_collision(self, touch: Touch) -> None:
+    def publish_collision(self, touch: Collision) -> None:
         """Publish one collision."""
         self._collision_publisher.publish(messages.new_collision(touch))
 

@@ -5,7 +5,7 @@
 from collections.abc import Sequence
 import math
 
-from husky_course.obstacles.outline import Array, Outline
+from husky_course.outline import Array, Outline
 import mujoco
 import numpy as np
 

@@ -15,7 +15,7 @@ import math
 from pathlib import Path
 import warnings
 
-from husky_course.obstacles.outline import Outline
+from husky_course.outline import Outline
 from husky_course.robot import RobotStart
 import mujoco
 import numpy as np

@@ -14,10 +14,10 @@ import math
 from pathlib import Path
 import re
 
-from husky_course.obstacles.outline import clearances, Outline
+from husky_course.outline import clearances, Outline
 from husky_course.robot import RobotStart
-from husky_course.route.route import Leg, plan_route
-from husky_course.waypoints.waypoint_file import Course, parse_course, Waypoint
+from husky_course.route import Leg, plan_route
+from husky_course.waypoints import Course, parse_course, Waypoint
 import numpy as np
 import numpy.typing as npt
 
@@ -48,8 +48,8 @@ def preview(draft: Draft, start: RobotStart, obstacles: Sequence[Outline]) -> Pr
 
     :raises CourseRefused: if the driver would not take it.
     """
-    legs = plan_route(_parsed(draft.text(), 'the draft'))
-    poses = np.concatenate([_poses(leg) for leg in legs])
+    route = plan_route(_parsed(draft.text(), 'the draft'))
+    poses = np.concatenate([_poses(leg) for leg in route.legs])
     poses[:, :2] = to_world(start, poses[:, :2])
     poses[:, 2] += start.yaw
     return Preview(line=poses[:, :2], clearance_m=clearances(poses, obstacles))
@@ -114,8 +114,8 @@ def path_of(file: Path) -> tuple[Array, Array]:
     except OSError as error:
         raise CourseRefused(f'{file}: {error.strerror}') from error
     course = _parsed(text, file.name)
-    legs = plan_route(course)
-    line = np.concatenate([_poses(leg) for leg in legs])[:, :2]
+    route = plan_route(course)
+    line = np.concatenate([_poses(leg) for leg in route.legs])[:, :2]
     return line, np.array([(waypoint.x_m, waypoint.y_m) for waypoint in course.waypoints])
 
 

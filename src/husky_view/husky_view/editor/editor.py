@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from husky_sim.world.world import World
+from husky_sim.world import World
 import numpy as np
 import numpy.typing as npt
 import viser

@@ -12,8 +12,8 @@ import time
 from typing import Any
 
 from husky_sim.errors import SimulatorError
-from husky_sim.ros.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
-from husky_sim.world.world import load_world
+from husky_sim.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
+from husky_sim.world import load_world
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node

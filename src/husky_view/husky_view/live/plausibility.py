@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tell scenes that can be from nonsense, which is not drawn."""
 
-from husky_sim.ros.scene_topic import Scene, TRACK
-from husky_sim.world.world import World
+from husky_sim.scene_topic import Scene, TRACK
+from husky_sim.world import World
 import mujoco
 import numpy as np
 import numpy.typing as npt

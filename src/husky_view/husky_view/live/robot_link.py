@@ -9,6 +9,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped, PoseArray, Twist
+from husky_course.record import Collision
 from nav_msgs.msg import Path
 import numpy as np
 from rclpy.node import Node
@@ -18,7 +19,6 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool, UInt32
 
 from husky_view.live.plausibility import FARTHEST_M
-from husky_view.picture.collisions import Collision
 from husky_view.picture.picture import Picture, RobotPicture
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

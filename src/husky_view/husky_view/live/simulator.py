@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from husky_course.robot import RobotStart
-from husky_sim.world.world import default_worlds
+from husky_sim.world import default_worlds
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.node import Node

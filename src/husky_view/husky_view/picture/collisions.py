@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Collisions: a red flash at the place, and then a pin with the obstacle's name."""
 
-from dataclasses import dataclass
 from typing import Any
 
+from husky_course.record import Collision
 import viser
 
 from husky_view.picture import palette
@@ -17,21 +17,6 @@ PIN_M = 1.2
 """So high above the place stands what is seen of it, or walls and the robot would hide it."""
 
 _FLASH_SCALE = 4.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class Collision:
-    """What touched what, where, when and how hard."""
-
-    robot: str
-    obstacle: str
-    part: str
-    time_sec: float
-    force_n: float
-    position: tuple[float, float, float]
-
-    def __str__(self) -> str:
-        return f'{self.obstacle} ({self.part}, {self.force_n:.0f} N) at {self.time_sec:.1f} s'
 
 
 class CollisionMarks:

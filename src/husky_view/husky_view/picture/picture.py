@@ -6,16 +6,17 @@ All that is to be seen of a run: the playpen, the robots, their trails and paths
 Neither live nor replayed, and without ROS. For one thread.
 """
 
+from husky_course.record import Collision
 from husky_course.robot import RobotStart
-from husky_sim.ros.scene_topic import Scene, TRACK
-from husky_sim.world.world import World
+from husky_sim.scene_topic import Scene, TRACK
+from husky_sim.world import World
 import numpy as np
 import numpy.typing as npt
 import viser
 
 from husky_view.picture import palette
 from husky_view.picture.cameras import Cameras
-from husky_view.picture.collisions import Collision, CollisionMarks
+from husky_view.picture.collisions import CollisionMarks
 from husky_view.picture.marks import LidarMark, lifted, PathMark, PointMark, WaypointMarks
 from husky_view.picture.planar import distance_to_line, to_world
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The playpen and its robots on the page."""
 
-from husky_sim.world.world import World
+from husky_sim.world import World
 from mjviser import ViserMujocoScene
 import mujoco
 import numpy as np

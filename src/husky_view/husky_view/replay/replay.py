@@ -11,10 +11,10 @@ from threading import Event
 import time
 from typing import Any, NoReturn
 
-from husky_course.record.record import RecordRefused
+from husky_course.record import RecordRefused
 from husky_sim.errors import SimulatorError
-from husky_sim.ros.scene_topic import TRACK
-from husky_sim.world.world import load_world
+from husky_sim.scene_topic import TRACK
+from husky_sim.world import load_world
 import numpy as np
 import viser
 

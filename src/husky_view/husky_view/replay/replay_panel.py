@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 import math
 from typing import Any
 
+from husky_course.record import Collision
 import viser
 
 from husky_view.picture import cameras
-from husky_view.picture.collisions import Collision
 from husky_view.picture.page import page_html
 from husky_view.picture.palette import legend_html
 from husky_view.replay.playback import Playback

@@ -3,20 +3,19 @@
 """A recorded run, as it is replayed: read, checked, and asked for what was at a time."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, replace
 import math
 
-from husky_course.record.record import COLUMNS, Push, read_record, RecordRefused
+from husky_course.record import Collision, COLUMNS, Push, read_record, RecordRefused
 from husky_course.robot import RobotStart
-from husky_sim.recording.pushed import loose_bodies
-from husky_sim.robot.husky import JOINTS
-from husky_sim.ros.scene_topic import Scene, TRACK
-from husky_sim.world.world import World
+from husky_sim.recording import loose_bodies
+from husky_sim.robot import JOINTS
+from husky_sim.scene_topic import Scene, TRACK
+from husky_sim.world import World
 import numpy as np
 import numpy.typing as npt
 
 from husky_sim.config import DriveConfig
-from husky_view.picture.collisions import Collision
 
 Array = npt.NDArray[np.float64]
 
@@ -63,8 +62,8 @@ def load_run(path: str) -> Run:
         track=rows[:, :, first : first + len(TRACK)],
         turns=np.stack([_wheel_turns(rows[:, place]) for place in range(rows.shape[1])], axis=1),
         collisions=tuple(
-            Collision(**{**asdict(touch), 'time_sec': touch.time_sec - begin_sec})
-            for touch in record.collisions
+            replace(collision, time_sec=collision.time_sec - begin_sec)
+            for collision in record.collisions
         ),
         pushed={
             name: Push(time_sec=push.time_sec - begin_sec, qpos=push.qpos)

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Look along a course, before anything moves, for obstacles that the robot would pass too near."""
+"""Look along a route, before anything moves, for obstacles that the robot would pass too near."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import math
 
 import numpy as np
 
-from husky_course.obstacles.outline import clearances, Outline
+from husky_course.outline import clearances, Outline
+from husky_course.route.legs import Leg
 from husky_course.route.path import Curve
-from husky_course.route.route import lead_in, Leg, plan_route
+from husky_course.route.route import Route
 from husky_course.waypoints.waypoint_file import Course
 
 ENOUGH_M = 0.15  # what a good drive may be off the path, and a little
@@ -44,7 +45,7 @@ class NearPass:
 
 @dataclass(frozen=True)
 class Survey:
-    """What was found along a course."""
+    """What was found along a route."""
 
     obstacles: tuple[Outline, ...]
     near: tuple[NearPass, ...]
@@ -52,8 +53,8 @@ class Survey:
     nearest: str
 
 
-def survey(
-    course: Course, obstacles: Sequence[Outline], *, start: Pose = (0.0, 0.0, 0.0)
+def survey_route(
+    route: Route, obstacles: Sequence[Outline], *, start: Pose = (0.0, 0.0, 0.0)
 ) -> Survey:
     """
     Return where the robot, driving exactly on the course, would come too near to an obstacle.
@@ -63,12 +64,12 @@ def survey(
     found = tuple(obstacles)
     if not found:
         return Survey(found, (), None, '')
-    poses, numbers = _poses(course, start)
+    poses, numbers = _poses(route, start)
     table = np.array([clearances(poses, [obstacle]) for obstacle in found])
     nearest = int(table.min(axis=1).argmin())
     return Survey(
         obstacles=found,
-        near=tuple(_near_passes(course, poses, numbers, table, [o.name for o in found])),
+        near=tuple(_near_passes(route.course, poses, numbers, table, [o.name for o in found])),
         least_m=float(table.min()),
         nearest=found[nearest].name,
     )
@@ -93,23 +94,20 @@ def _near_passes(
     return passes
 
 
-def _poses(course: Course, start: Pose) -> tuple[np.ndarray, np.ndarray]:
+def _poses(route: Route, start: Pose) -> tuple[np.ndarray, np.ndarray]:
     """Return poses in the frame world, and the number of the waypoint each one leads to."""
     poses: list[Pose] = []
     numbers: list[int] = []
     heading = 0.0
-    way = lead_in(course, (0.0, 0.0))
-    for leg in [*([way] if way else []), *plan_route(course)]:
+    for leg in route.begun_at((0.0, 0.0)).legs:
         back = math.pi if leg.reverse else 0.0
-        first = (leg.curve.x[0], leg.curve.y[0])
-        facing = leg.curve.heading[0] + back
-        turn = _turn(*first, heading, facing)
+        turn = _turn(leg.curve.x[0], leg.curve.y[0], heading, leg.begin_yaw_rad)
         poses += turn
         numbers += [leg.first] * len(turn)
         driven = _drive(leg.curve, back)
         poses += driven
         numbers += _numbers(leg, len(driven))
-        heading = leg.curve.heading[-1] + back
+        heading = leg.arrival_yaw_rad
         if leg.end_yaw_rad is not None:
             turn = _turn(leg.curve.x[-1], leg.curve.y[-1], heading, leg.end_yaw_rad)
             poses += turn

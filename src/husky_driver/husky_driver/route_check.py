@@ -1,0 +1,34 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Asks who knows the obstacles of a world whether a route passes too near to them.
+
+The driver knows none: it runs on a robot's computer too. A package that does declares an entry
+point of the group `husky_driver.route_check`: a function as RouteCheck. husky_grader does.
+"""
+
+from __future__ import annotations
+
+from importlib.metadata import entry_points
+from typing import Protocol
+
+from husky_course.route import NearPass, Pose, Route, Survey
+
+GROUP = 'husky_driver.route_check'
+
+
+class RouteCheck(Protocol):
+    """Looks along a route; see husky_grader.world_check."""
+
+    def __call__(self, route: Route, *, world: str, start: Pose) -> Survey:
+        """Return what is near the route."""
+
+
+def near_passes(route: Route, *, world: str, start: Pose) -> list[NearPass]:
+    """
+    Return where the route passes too near to obstacles, as far as an installed package knows.
+
+    :raises ValueError: when the world cannot be used.
+    """
+    checks: list[RouteCheck] = [entry.load() for entry in entry_points(group=GROUP)]
+    return [near for check in checks for near in check(route, world=world, start=start).near]
