@@ -200,7 +200,7 @@ def closure(package: str) -> set[str]:
 @cache
 def needed_by(name: str) -> frozenset[str]:
     """Return the modules of the distributions that those of a module require."""
-    needed = set()
+    needed: set[str] = set()
     for distribution in metadata.packages_distributions().get(name, ()):
         for line in metadata.requires(distribution) or ():
             if 'extra ==' not in line or 'fastrtps' in line:
