@@ -83,7 +83,7 @@ def test_the_slider_reaches_the_end_and_play_begins_again(page: Tab) -> None:
 
 
 @pytest.mark.timeout(60)
-def test_ctrl_c_ends_a_replay_within_two_seconds(report: Path, slack: float) -> None:
+def test_ctrl_c_ends_a_replay_within_two_seconds(report: Path) -> None:
     with Processes() as processes:
         replay = processes.start(
             'ros2', 'run', 'husky_sim', 'replay', str(report), '--port', '18280'
@@ -92,5 +92,5 @@ def test_ctrl_c_ends_a_replay_within_two_seconds(report: Path, slack: float) -> 
         begun = time.monotonic()
         replay.signal(signal.SIGINT)
         assert replay.wait(timeout_sec=10.0) == 0
-        assert time.monotonic() - begun < 2.0 * slack
+        assert time.monotonic() - begun < 2.0
         assert 'Traceback' not in replay.output

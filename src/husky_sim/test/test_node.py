@@ -194,7 +194,7 @@ def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) 
     assert run.probe.count_publishers('odometry/filtered') == 0
 
 
-def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench], slack: float) -> None:
+def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=0.5)
     run.matched()
 
@@ -206,15 +206,15 @@ def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench], slack: float)
         )
         return time.monotonic() - begin
 
-    assert 1.9 < taken_sec(1.0) < 3.0 * slack
+    assert 1.9 < taken_sec(1.0) < 3.0
     refused, changed = run.simulator.set_parameters(
         [Parameter('real_time_factor', value=-1.0), Parameter('real_time_factor', value=2.0)]
     )
     assert not refused.successful
     assert changed.successful
-    assert 1.4 < taken_sec(3.0) < 3.0 * slack
+    assert 1.4 < taken_sec(3.0) < 3.0
     run.simulator.set_parameters([Parameter('real_time_factor', value=6.0)])
-    assert 0.45 < taken_sec(3.0) < 1.4 * slack
+    assert 0.45 < taken_sec(3.0) < 1.4
 
 
 def test_the_scene_of_a_fast_run_leaves_out_what_nobody_could_see(
@@ -322,14 +322,12 @@ def test_after_a_stall_it_tells_so_and_goes_on_with_whole_steps(
     )
 
 
-def test_a_pace_beyond_the_machine_leaves_it_listening(
-    bench: Callable[..., Bench], slack: float
-) -> None:
+def test_a_pace_beyond_the_machine_leaves_it_listening(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=1000.0)
     run.matched()
     spun_at = time.monotonic()
     run.executor.spin_once(timeout_sec=0.0)
-    assert time.monotonic() - spun_at < 0.3 * slack
+    assert time.monotonic() - spun_at < 0.3
     assert run.call(SetBool, 'pause', SetBool.Request(data=True)).success
     assert run.simulator.simulation.physics_warnings == 0
 
