@@ -124,7 +124,7 @@ def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
 def test_a_killed_test_run_leaves_no_browser(processes: Processes) -> None:
     run = processes.start(LAB, 'test', str(ROOT / 'test' / 'test_view.py'))
     wait_until(
-        lambda: part(run, '--remote-debugging-port') is not None,
+        lambda: part(run, '--remote-debugging-pipe') is not None,
         timeout_sec=40.0,
         what=lambda: f'a browser of the tests; they printed:\n{run.output}',
     )
