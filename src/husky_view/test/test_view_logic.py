@@ -20,7 +20,7 @@ from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
 from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
 from husky_view.picture.page import Direction
 from husky_view.replay.panel import Playback
-from husky_view.replay.run import load_run, SceneReplay
+from husky_view.replay.run import load_run, RunScenes
 from husky_view.server import AddressError, free_port
 import numpy as np
 import pytest
@@ -134,8 +134,8 @@ def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> Non
     assert run.duration_sec == 2.0
     assert run.entry_at(0.999) == 49
     world = Simulation(SimulationConfig(world=run.world, robots=run.robots)).world
-    replay = SceneReplay(run, world)
-    scene = replay.scene(10, 60, paused=True)
+    scenes = RunScenes(run, world)
+    scene = scenes.scene(10, 60, paused=True)
     assert scene.time_sec[-1] == pytest.approx(1.2)
     base = int(world.model.joint('husky/base_joint').qposadr[0])
     x, y, yaw = written.rows[60, 0, 1:4]
@@ -159,14 +159,14 @@ def test_a_replay_moves_what_was_pushed_and_a_jump_resets_it(tmp_path: Path) -> 
     recorder.close()
     run = load_run(str(tmp_path))
     assert list(run.pushed) == ['Dumpster_0'], 'what nothing touched takes room'
-    replay = SceneReplay(run, simulation.world)
+    scenes = RunScenes(run, simulation.world)
     np.testing.assert_allclose(
-        replay.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
+        scenes.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
     )
-    assert replay.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
+    assert scenes.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
     gone = replace(run, pushed={'Gone': run.pushed['Dumpster_0']})
     with pytest.raises(RecordRefused, match=r"'Gone' was pushed, but .* has no such loose body"):
-        SceneReplay(gone, simulation.world)
+        RunScenes(gone, simulation.world)
 
 
 def test_a_replay_begins_with_the_first_command(tmp_path: Path) -> None:

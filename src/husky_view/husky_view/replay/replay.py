@@ -22,7 +22,7 @@ from husky_view.editor.course import CourseRefused, path_of
 from husky_view.picture.geometry import to_world
 from husky_view.picture.picture import Picture
 from husky_view.replay.panel import Playback, ReplayPanel
-from husky_view.replay.run import load_run, Run, SceneReplay
+from husky_view.replay.run import load_run, Run, RunScenes
 from husky_view.server import (
     ActionQueue,
     address_of,
@@ -54,7 +54,7 @@ class Replay:
         self._run = run
         world = load_world(run.world, run.robots)
         self._picture = Picture(server, world)
-        self._scenes = SceneReplay(run, world)
+        self._scenes = RunScenes(run, world)
         self._playback = Playback(run.duration_sec)
         self._actions = ActionQueue()
         self._panel = ReplayPanel(
