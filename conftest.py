@@ -43,12 +43,6 @@ def pytest_sessionstart() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
 
 
-@pytest.fixture
-def slack() -> float:
-    """How many times as long as on a free machine something may take on this one."""
-    return max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
-
-
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """Keep the tests of a folder together; those in the browser are a third of theirs."""

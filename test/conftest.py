@@ -4,25 +4,22 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-import sys
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing import chromium
+from playpen_testing.browser import start_browser
+from playpen_testing.processes import Processes
+from playpen_testing.spinning import SpunNodes
+from playwright.sync_api import Browser
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
-
-from playpen_testing import chromium  # noqa: E402
-from playpen_testing.browser import Browser  # noqa: E402
-from playpen_testing.processes import Processes  # noqa: E402
-from playpen_testing.spinning import SpunNodes  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
-@pytest.fixture(scope='session')
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    """Start the one browser of all tests, at the first that wants it."""
-    with Browser(chromium.find_or_install(), tmp_path_factory.mktemp('browser')) as started:
+@pytest.fixture(scope='module')
+def browser() -> Iterator[Browser]:
+    """Start a browser; until it ends, Playwright's event loop bars any other from this thread."""
+    with start_browser(chromium.find_or_install()) as started:
         yield started
 
 

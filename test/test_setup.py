@@ -21,7 +21,7 @@ def clone(tmp_path: Path) -> Path:
     shutil.copytree(ROOT / 'requirements', folder / 'requirements')
     no_modules = shutil.ignore_patterns('src', 'test')
     shutil.copytree(ROOT / 'underlay', folder / 'underlay', ignore=no_modules, dirs_exist_ok=True)
-    child_of_lab = Path('src', 'husky_sim', 'husky_sim', 'parent_death.py')
+    child_of_lab = Path('src', 'husky_runtime', 'husky_runtime', 'parent_death.py')
     (folder / child_of_lab).parent.mkdir(parents=True)
     shutil.copy(ROOT / child_of_lab, folder / child_of_lab)
     return folder

@@ -3,22 +3,22 @@
 """The live view in a real browser: what is to be seen, and that every control acts."""
 
 from collections.abc import Iterator
-import json
+from contextlib import suppress
 import math
 import subprocess
 import sys
 
 from husky_sim.scene_topic import QOS as SCENE_QOS
-from playpen_testing.browser import Browser
-from playpen_testing.page import button, labelled_input, number
-from playpen_testing.tab import Tab
+from playpen_testing.browser import button, errors, number, wait_for
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
+from playwright.sync_api import Browser, Error, expect, Page
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray
 
 PHONE = (390, 844)
+FACTOR = "parseFloat((document.querySelector('[data-number=factor]') || {}).textContent)"
 TROUBLE = "(document.querySelector('[data-trouble]') || {textContent: ''}).textContent"
 PANEL = """(() => {
   let e = document.querySelector('.husky-page');
@@ -35,44 +35,43 @@ def lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
 
 
 @pytest.fixture(scope='module')
-def page(lab: Lab) -> Tab:
+def page(lab: Lab) -> Page:
     return lab.open()
 
 
 @pytest.mark.timeout(120)
-def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page: Tab) -> None:
-    shown = page.run(number('time'))
-    page.wait_for(f'{number("time")} !== {json.dumps(shown)}', what='time that goes on')
-    assert page.run("document.body.innerText.includes('true trail')"), 'there is no legend'
-    assert page.errors == []
+def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page: Page) -> None:
+    expect(number(page, 'time')).not_to_have_text(number(page, 'time').inner_text())
+    expect(page.locator('body')).to_contain_text('true trail', use_inner_text=True)
+    assert errors(page) == []
 
 
 @pytest.mark.timeout(120)
-def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Tab) -> None:
-    page.click(button('Pause'))
-    page.wait_for(button('Resume'), what='a page that knows of the pause')
+def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Page) -> None:
+    button(page, 'Pause').click()
+    button(page, 'Resume').wait_for()
     paused_sec = lab.time_sec
-    page.click(button('Step'))
+    button(page, 'Step').click()
     wait_until(
         lambda: abs(lab.time_sec - paused_sec - 0.02) < 1e-6,
         timeout_sec=15.0,
         what=lambda: f'one period after {paused_sec}; it is {lab.time_sec}',
     )
-    page.click(button('Resume'))
+    button(page, 'Resume').click()
     wait_until(lambda: lab.time_sec > paused_sec + 0.2, timeout_sec=15.0, what='time that goes on')
-    page.click(button('Reset'))
+    button(page, 'Reset').click()
     wait_until(lambda: lab.time_sec < paused_sec, timeout_sec=15.0, what='a new beginning')
-    page.click(button('5×'))
-    page.wait_for(f'parseFloat({number("factor")}) > 1.5', what='more than real time')
-    page.click(button('1×'))
-    page.wait_for(f'parseFloat({number("factor")}) < 1.2', what='real time')
+    button(page, '5×').click()
+    wait_for(page, f'{FACTOR} > 1.5')
+    button(page, '1×').click()
+    wait_for(page, f'{FACTOR} < 1.2')
 
 
 @pytest.mark.timeout(120)
-def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Tab) -> None:
-    page.key('keyDown', 'ArrowUp')
+def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Page) -> None:
+    page.keyboard.down('ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
-    page.key('keyUp', 'ArrowUp')
+    page.keyboard.up('ArrowUp')
     wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
     heard = lab.listener.heard[COMMANDS]
     assert heard[-1].linear.x == 0.0
@@ -88,21 +87,21 @@ def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Tab) -> None:
 
 
 @pytest.mark.timeout(120)
-def test_the_page_publishes_commands_only_while_it_drives(lab: Lab, page: Tab) -> None:
+def test_the_page_publishes_commands_only_while_it_drives(lab: Lab, page: Page) -> None:
     def publishers() -> int:
         infos = lab.listener.get_publishers_info_by_topic('/' + COMMANDS)
         return sum(info.node_name == 'husky_view' for info in infos)
 
     wait_until(lambda: publishers() == 0, timeout_sec=10.0, what='a page that does not drive')
-    page.key('keyDown', 'ArrowLeft')
+    page.keyboard.down('ArrowLeft')
     wait_until(lambda: publishers() == 1, timeout_sec=10.0, what='a page that drives')
-    page.key('keyUp', 'ArrowLeft')
+    page.keyboard.up('ArrowLeft')
     wait_until(lambda: publishers() == 0, timeout_sec=10.0, what='a page that has let go')
     wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
 
 
 @pytest.mark.timeout(120)
-def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Tab) -> None:
+def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Page) -> None:
     scenes = list[Float64MultiArray]()
     # Ended as a whole: what is destroyed while its node spins in another thread ends the spinning.
     stranger = lab.nodes.start(Node, 'stranger')
@@ -115,32 +114,33 @@ def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Tab) -> Non
         timeout_sec=10.0,
         what='a view that listens',
     )
-    shown_sec = page.run(number('time'))
+    shown_sec = number(page, 'time').inner_text()
     scene.data[1] = math.nan
 
     def told() -> bool:
         publisher.publish(scene)
-        return bool(page.run(f"{TROUBLE}.includes('a joint position is no number')"))
+        return bool(page.evaluate(f"{TROUBLE}.includes('a joint position is no number')"))
 
     wait_until(told, timeout_sec=10.0, what='a word about the nonsense')
     scene.layout.dim[1].size = 3
     publisher.publish(scene)
-    page.wait_for(f"{TROUBLE}.includes('no scene of 1 robots')", what='a word about the other')
+    expect(page.locator('[data-trouble]')).to_contain_text('no scene of 1 robots')
     lab.nodes.close(stranger)
-    page.wait_for(f'!{TROUBLE}', what='no trouble any more')
-    page.wait_for(f'{number("time")} !== {json.dumps(shown_sec)}', what='time that goes on')
-    assert page.errors == []
+    wait_for(page, f'!{TROUBLE}')
+    expect(number(page, 'time')).not_to_have_text(shown_sec)
+    assert errors(page) == []
 
 
 @pytest.mark.timeout(120)
-def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Tab) -> None:
-    page.mouse('mousePressed', *page.middle_of(button('◀')))
+def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Page) -> None:
+    button(page, '◀').hover()
+    page.mouse.down()
     wait_until(
         lambda: lab.truth.twist.twist.angular.z > 0.3, timeout_sec=10.0, what='a turn to the left'
     )
-    page.mouse('mouseReleased', *page.middle_of(button('◀')))
-    page.click(button('STOP'))
-    page.wait_for(button('Release the stop'))
+    page.mouse.up()
+    button(page, 'STOP').click()
+    button(page, 'Release the stop').wait_for()
     wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
 
     def push() -> bool:
@@ -150,30 +150,32 @@ def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Ta
     later_sec = lab.time_sec + 0.5
     wait_until(lambda: push() or lab.time_sec > later_sec, timeout_sec=15.0, what='half a second')
     assert lab.stands(), 'a stopped robot was driven'
-    page.click(button('Release the stop'))
-    page.wait_for(button('STOP'))
+    button(page, 'Release the stop').click()
+    button(page, 'STOP').wait_for()
     wait_until(push, timeout_sec=10.0, what='a robot that can be driven again')
 
 
 @pytest.mark.timeout(120)
 def test_a_page_that_is_reloaded_while_a_key_is_held_stops_the_robot_and_works(lab: Lab) -> None:
     page = lab.open()
-    page.key('keyDown', 'ArrowUp')
+    page.keyboard.down('ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
-    page.call('Page.reload')
+    page.reload(wait_until='commit')
     wait_until(lab.stands, timeout_sec=5.0, what='a robot that stands')
-    page.wait_for("document.querySelector('.husky-stop')", what='the panel of the view')
-    page.wait_for(number('time'), what='the figures')
-    assert page.errors == []
+    page.locator('.husky-stop').wait_for()
+    expect(number(page, 'time')).not_to_be_empty()
+    assert errors(page) == []
     page.close()
 
 
 @pytest.mark.timeout(120)
 def test_a_page_that_dies_while_its_pad_is_held_stops_the_robot(lab: Lab) -> None:
     page = lab.open()
-    page.mouse('mousePressed', *page.middle_of(button('▼')))
+    button(page, '▼').hover()
+    page.mouse.down()
     wait_until(lambda: lab.speed_m_s < -0.2, timeout_sec=10.0, what='a robot that moves')
-    page.crash()
+    with suppress(Error):  # it cannot even say goodbye
+        page.goto('chrome://crash')
     wait_until(lab.stands, timeout_sec=3.0, what='a robot that stands')
     page.close()
 
@@ -181,42 +183,40 @@ def test_a_page_that_dies_while_its_pad_is_held_stops_the_robot(lab: Lab) -> Non
 @pytest.mark.timeout(120)
 def test_a_phone_shows_the_scene_above_the_panel_and_can_stop_the_robot(lab: Lab) -> None:
     page = lab.open(*PHONE)
-    x, y = page.middle_of(button('STOP'))
-    assert 0 < x < PHONE[0]
-    assert 0 < y < PHONE[1]
-    left, top, width = page.run(PANEL)
+    expect(button(page, 'STOP')).to_be_in_viewport(ratio=1.0)
+    left, top, width = page.evaluate(PANEL)
     assert (left, width) == (0, PHONE[0]), 'the panel is as wide as the phone'
     assert top > 0.4 * PHONE[1], 'and leaves room for the scene'
-    page.click_at(x, y)
-    page.wait_for(button('Release the stop'))
-    page.click(button('Release the stop'))
-    page.wait_for(button('STOP'))
-    assert page.errors == []
+    button(page, 'STOP').click()
+    button(page, 'Release the stop').wait_for()
+    button(page, 'Release the stop').click()
+    button(page, 'STOP').wait_for()
+    assert errors(page) == []
     page.close()
 
 
 @pytest.mark.timeout(120)
 def test_the_page_says_that_the_simulator_is_gone_and_goes_on_with_the_next(
-    lab: Lab, page: Tab
+    lab: Lab, page: Page
 ) -> None:
     wait_until(lambda: lab.time_sec > 1.0, timeout_sec=15.0, what='a second of this run')
     lab.simulator.close()
-    page.wait_for(f"{TROUBLE}.includes('is gone')", what='a word about the simulator')
-    assert page.run(number('factor')) == '–'
+    expect(page.locator('[data-trouble]')).to_contain_text('is gone')
+    assert number(page, 'factor').inner_text() == '–'
     lab.start_simulator()
-    page.wait_for(f'!{TROUBLE}', what='no trouble any more')
-    page.wait_for(f'parseFloat({number("factor")}) > 0.5', what='time that goes on')
-    assert page.errors == []
+    wait_for(page, f'!{TROUBLE}')
+    wait_for(page, f'{FACTOR} > 0.5')
+    assert errors(page) == []
 
 
 @pytest.mark.timeout(120)
-def test_of_a_simulator_with_other_robots_the_page_is_made_anew(lab: Lab, page: Tab) -> None:
+def test_of_a_simulator_with_other_robots_the_page_is_made_anew(lab: Lab, page: Page) -> None:
     lab.simulator.close()
     lab.start_simulator('alpha 0 0 0', 'beta -3 0 0')
-    page.wait_for(labelled_input('Robot'), what='a choice of robots')
-    page.wait_for(f'parseFloat({number("factor")}) > 0.5', what='time that goes on')
-    page.wait_for(f'!{TROUBLE}', what='no trouble any more')
-    assert page.errors == []
+    page.get_by_label('Robot', exact=True).wait_for()
+    wait_for(page, f'{FACTOR} > 0.5')
+    wait_for(page, f'!{TROUBLE}')
+    assert errors(page) == []
 
 
 def test_a_simulator_without_a_viewer_loads_none_of_its_code() -> None:

@@ -10,9 +10,9 @@ from husky_view.picture import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
 from husky_view.server import close_server, open_server
 import numpy as np
 import numpy.typing as npt
-from playpen_testing.browser import Browser
-from playpen_testing.tab import Tab
+from playpen_testing.browser import drag, open_page
 from playpen_testing.waiting import wait_until
+from playwright.sync_api import Browser, Page
 import pytest
 import viser
 
@@ -27,8 +27,8 @@ CENTER, EXTENT_M = np.array([0.0, 0.0, 0.5]), 12.0
 class Scene:
     """A robot that drives along x on an empty page, and what its one tab tells of its camera."""
 
-    def __init__(self, server: viser.ViserServer, cameras: Cameras, tab: Tab) -> None:
-        self.tab = tab
+    def __init__(self, server: viser.ViserServer, cameras: Cameras, page: Page) -> None:
+        self.page = page
         self.robot = np.zeros(3)
         self.driving = False
         self._cameras = cameras
@@ -63,7 +63,8 @@ class Scene:
         if self.away_m > 1.02 * BEHIND_M:
             return True
         if time.monotonic() > self._turn_again_sec:
-            self.tab.wheel(500, 350, 240)
+            self.page.mouse.move(500, 350)
+            self.page.mouse.wheel(0, 240)
             self._turn_again_sec = time.monotonic() + 0.5
         return False
 
@@ -86,10 +87,10 @@ def scene(browser: Browser) -> Iterator[Scene]:
     server = open_server('127.0.0.1', 18780, title='cameras')
     server.gui.add_html('<b data-number="time">0</b>')
     cameras = Cameras(server, center=CENTER, extent_m=EXTENT_M)
-    tab = browser.open(f'http://localhost:{server.get_port()}')
+    page = open_page(browser, f'http://localhost:{server.get_port()}')
     wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
-    yield Scene(server, cameras, tab)
-    tab.close()
+    yield Scene(server, cameras, page)
+    page.close()
     close_server(server)
 
 
@@ -111,7 +112,7 @@ def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scen
     )
     assert scene.away_m > 1.02 * BEHIND_M, 'it went back to its own distance'
     zoomed_m = scene.away_m
-    scene.tab.drag((500, 350), (700, 350))
+    drag(scene.page, (500, 350), (700, 350))
     scene.wait(
         lambda: abs(scene.offset[1]) > 0.5 and distance(scene.at, scene.robot) < 0.6,
         'a camera that follows, seen from the side',

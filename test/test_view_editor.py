@@ -6,11 +6,10 @@ from collections.abc import Iterator, Sequence
 import math
 
 from husky_course.waypoints import load_course
-from playpen_testing.browser import Browser
-from playpen_testing.page import button, labelled_input
-from playpen_testing.tab import Tab
+from playpen_testing.browser import button, drag, errors, Place
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
+from playwright.sync_api import Browser, expect, Page
 import pytest
 
 from husky_grader import check
@@ -18,7 +17,6 @@ from husky_grader import check
 SIZE = (1000, 700)
 NAME = 'clicked'
 # In the world, which is the frame odom here: clear of every obstacle.
-Place = tuple[float, float]
 PLACES: tuple[Place, ...] = ((0.0, 0.0), (-2.0, 0.5), (-4.0, 0.0))
 
 
@@ -29,15 +27,13 @@ def lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
 
 
 @pytest.fixture(scope='module')
-def page(lab: Lab) -> Tab:
+def page(lab: Lab) -> Page:
     """Open the editor and look from above."""
     page = lab.open(*SIZE)
-    page.click(button('Top'))
-    page.click(
-        "[...document.querySelectorAll('*')].find((e) => e.textContent.trim() === 'Waypoints')"
-    )
-    page.click(labelled_input('Edit: click on the ground'))
-    page.wait_for("document.querySelector('[data-verdict]')", what='the editor')
+    button(page, 'Top').click()
+    page.get_by_text('Waypoints', exact=True).click()
+    page.get_by_label('Edit: click on the ground').check()
+    page.locator('[data-verdict]').wait_for()
     return page
 
 
@@ -61,21 +57,19 @@ def distances(ones: Sequence[Place], others: Sequence[Place]) -> float:
 
 @pytest.mark.timeout(180)
 def test_what_is_clicked_and_dragged_is_saved_and_passes_the_check(
-    lab: Lab, page: Tab, capsys: pytest.CaptureFixture[str]
+    lab: Lab, page: Page, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for count, place in enumerate(PLACES, start=1):
-        page.click_at(*on_screen(*place))
+        page.mouse.click(*on_screen(*place))
         verdict = 'two waypoints' if count == 1 else f'{count} waypoints'
-        page.wait_for(
-            f'document.querySelector("[data-verdict]").textContent.includes("{verdict}")'
-        )
-    page.type_into(labelled_input('Save as'), NAME)
-    page.click(button('Save'))
+        expect(page.locator('[data-verdict]')).to_contain_text(verdict)
+    page.locator('//label[.="Save as"]/following::input').first.fill(NAME)
+    button(page, 'Save').click()
     file = lab.folder / f'{NAME}.yaml'
     wait_until(file.is_file, timeout_sec=20.0, what=f'{file.name}')
     assert distances(saved(lab), PLACES) < 0.12
-    page.drag(on_screen(*PLACES[2]), on_screen(-4.0, -2.0))
-    page.click(button('Save'))
+    drag(page, on_screen(*PLACES[2]), on_screen(-4.0, -2.0))
+    button(page, 'Save').click()
     wait_until(
         lambda: math.dist(saved(lab)[2], (-4.0, -2.0)) < 0.25,
         timeout_sec=20.0,
@@ -83,13 +77,13 @@ def test_what_is_clicked_and_dragged_is_saved_and_passes_the_check(
     )
     assert distances(saved(lab)[:2], PLACES[:2]) < 0.12, 'others moved as well'
     assert check.main([str(file)]) == 0, capsys.readouterr().err
-    assert page.errors == []
+    assert errors(page) == []
 
 
 @pytest.mark.timeout(180)
-def test_what_is_saved_is_what_is_driven(lab: Lab, page: Tab) -> None:
-    page.click(button('5×'))
-    page.click(button('Save and drive it'))
+def test_what_is_saved_is_what_is_driven(lab: Lab, page: Page) -> None:
+    button(page, '5×').click()
+    button(page, 'Save and drive it').click()
     goal = saved(lab)[-1]
 
     def arrived() -> bool:

@@ -7,7 +7,6 @@ PLAYPEN_PICTURES=docs keeps the pictures there, for the README.
 """
 
 from collections.abc import Iterator
-import io
 import os
 from pathlib import Path
 import shutil
@@ -19,11 +18,20 @@ from husky_view.picture import palette
 from matplotlib.colors import rgb_to_hsv
 import numpy as np
 from PIL import Image
-from playpen_testing.browser import Browser
-from playpen_testing.page import button, labelled_input, number
+from playpen_testing.browser import (
+    asphalt,
+    button,
+    errors,
+    keep_still,
+    number,
+    open_page,
+    pixels_of,
+    screenshot,
+)
 from playpen_testing.processes import Processes
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
+from playwright.sync_api import Browser
 import pytest
 
 from husky_sim.config import SimulationConfig
@@ -55,8 +63,7 @@ def lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
 
 def count(png: bytes, color: palette.Rgb) -> int:
     """Return how many pixels of the scene have about this hue; light makes colours paler."""
-    pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB'))
-    hsv = rgb_to_hsv(pixels[:, : DESK[0] - 340] / 255.0)
+    hsv = rgb_to_hsv(pixels_of(png)[:, : DESK[0] - 340] / 255.0)
     hue = rgb_to_hsv(np.array(color) / 255.0)[0]
     away = np.abs((hsv[..., 0] - hue + 0.5) % 1.0 - 0.5)
     return int(((away < 0.04) & (hsv[..., 1] > 0.3)).sum())
@@ -64,8 +71,7 @@ def count(png: bytes, color: palette.Rgb) -> int:
 
 def red(png: bytes) -> int:
     """Return how many pixels are of the pure red that only a collision has."""
-    pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
-    scene = pixels[:, : DESK[0] - 340]
+    scene = pixels_of(png)[:, : DESK[0] - 340]
     return int((np.abs(scene - (220, 0, 0)).max(axis=2) < 45).sum())
 
 
@@ -81,19 +87,19 @@ def test_a_drive_shows_its_path_and_its_trails_in_the_colours_of_the_legend(
     )
     lab.pause()
     page = lab.open(*DESK, drawn=True)
-    page.wait_for(button('Resume'), timeout_sec=60.0)
-    page.run(f'{button("Follow")}.click() || true')
+    button(page, 'Resume').wait_for()
+    button(page, 'Follow').dispatch_event('click')
     shown = {'path': palette.PATH, 'true trail': palette.TRUE_TRAIL}
 
     def missing() -> list[str]:
-        png = page.screenshot(pictures / 'view_live.png')
+        png = screenshot(page)
         return [what for what, color in shown.items() if count(png, color) < 25]
 
     wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
-    page.still(pictures / 'view_live.png')
-    assert page.errors == []
-    assert int(page.run(number('left'))) < 13
-    assert abs(float(page.run(number('cross')).split()[0])) < 0.3
+    keep_still(page, pictures / 'view_live.png')
+    assert errors(page) == []
+    assert int(number(page, 'left').inner_text()) < 13
+    assert abs(float(number(page, 'cross').inner_text().split()[0])) < 0.3
     page.close()
     driver.close()
 
@@ -104,30 +110,24 @@ def test_the_editor_shows_where_a_course_passes_too_near(lab: Lab, pictures: Pat
     through = lab.folder / 'through.yaml'
     through.write_text('waypoints:\n  - [0, 0]\n  - [-3, 2]\n  - [0, 4]\n  - [4.2, -3.2]\n')
     page = lab.open(*DESK, drawn=True)
-    page.run(f'{button("Top")}.click() || true')
-    page.run(
-        "[...document.querySelectorAll('*')].find((e) => e.textContent.trim() === 'Waypoints')"
-        '.click() || true'
-    )
-    page.click(labelled_input('Open'))
-    png = page.screenshot(pictures / 'view_editor.png')
+    button(page, 'Top').dispatch_event('click')
+    page.get_by_text('Waypoints', exact=True).dispatch_event('click')
+    page.get_by_label('Open', exact=True).click()
+    png = screenshot(page)
     before = {
         'enough room': count(png, palette.CLEAR),
         'no room': count(png, palette.BLOCKED),  # hydrants are red as well
     }
-    page.click(
-        "[...document.querySelectorAll('[role=option]')]"
-        ".find((e) => e.textContent.trim() === 'through')"
-    )
-    page.wait_for('document.querySelector("[data-verdict]")', timeout_sec=60.0)
+    page.get_by_role('option', name='through', exact=True).click()
+    page.locator('[data-verdict]').wait_for()
     colors = {'enough room': palette.CLEAR, 'no room': palette.BLOCKED}
 
     def missing() -> list[str]:
-        png = page.screenshot(pictures / 'view_editor.png')
+        png = screenshot(page)
         return [what for what, color in colors.items() if count(png, color) < before[what] + 60]
 
     wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
-    page.still(pictures / 'view_editor.png')
+    keep_still(page, pictures / 'view_editor.png')
     page.close()
 
 
@@ -136,16 +136,12 @@ def test_a_phone_shows_the_playpen_above_the_controls(lab: Lab, pictures: Path) 
     lab.pause()  # `still` is only what stands
     page = lab.open(*PHONE, drawn=True)
 
-    asphalt = np.array([75, 75, 77])
-
     def is_seen() -> bool:
-        page.run(f'{button("Top")}.click() || true')
-        png = page.screenshot(pictures / 'view_phone.png')
-        pixels = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
-        return int((np.abs(pixels - asphalt).max(axis=2) < 20).sum()) > 40000
+        button(page, 'Top').dispatch_event('click')
+        return asphalt(screenshot(page)) > 40000
 
     wait_until(is_seen, timeout_sec=60.0, what='asphalt above the panel')
-    page.still(pictures / 'view_phone.png')
+    keep_still(page, pictures / 'view_phone.png')
     page.close()
 
 
@@ -164,14 +160,13 @@ def test_a_replay_shows_the_collision_in_red(
     shutil.copy(COURSE, tmp_path / 'waypoints.yaml')
     replay = processes.start('ros2', 'run', 'husky_view', 'replay', str(tmp_path))
     replay.wait_for_text('look at http://')
-    page = browser.open(replay.output.split('look at ')[1].split()[0], *DESK, drawn=True)
-    page.click(
-        "[...document.querySelectorAll('button')].find((b) => b.textContent.includes(' s '))"
-    )
+    address = replay.output.split('look at ')[1].split()[0]
+    page = open_page(browser, address, *DESK, drawn=True)
+    page.get_by_role('button', name=' s ').first.click()
     wait_until(
-        lambda: red(page.screenshot(pictures / 'view_replay.png')) > 30,
+        lambda: red(screenshot(page)) > 30,
         timeout_sec=60.0,
         what='the red mark of a collision',
     )
-    page.still(pictures / 'view_replay.png')
+    keep_still(page, pictures / 'view_replay.png')
     page.close()

@@ -24,9 +24,7 @@ def stamp_sec(clock: Clock) -> float:
 
 
 @pytest.mark.timeout(60)
-def test_a_launch_with_viewer_serves_the_page_on_the_loopback_alone(
-    processes: Processes, slack: float
-) -> None:
+def test_a_launch_with_viewer_serves_the_page_on_the_loopback_alone(processes: Processes) -> None:
     launch = processes.start(
         *('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py'),
         *('viewer:=true', 'viewer_port:=18380'),
@@ -42,13 +40,13 @@ def test_a_launch_with_viewer_serves_the_page_on_the_loopback_alone(
     begun = time.monotonic()
     launch.signal(signal.SIGINT)
     assert launch.wait(timeout_sec=10.0) == 0
-    assert time.monotonic() - begun < 4.0 * slack
+    assert time.monotonic() - begun < 4.0
     assert 'Traceback' not in launch.output
 
 
 @pytest.mark.timeout(60)
 def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_seconds(
-    processes: Processes, slack: float
+    processes: Processes,
 ) -> None:
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     with socket.socket() as taken:
@@ -62,7 +60,7 @@ def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_sec
         begun = time.monotonic()
         view.signal(signal.SIGINT)
         assert view.wait(timeout_sec=10.0) == 0
-        assert time.monotonic() - begun < 2.0 * slack
+        assert time.monotonic() - begun < 2.0
         assert 'Traceback' not in view.output
 
 
@@ -77,16 +75,17 @@ def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_sec
     ],
 )
 def test_an_interrupt_while_a_program_still_loads_ends_it_in_silence(
-    processes: Processes, program: str, library: str, number: signal.Signals, slack: float
+    processes: Processes, program: str, library: str, number: signal.Signals
 ) -> None:
-    installed = Path(get_package_prefix('husky_sim')) / 'lib' / 'husky_sim' / program
+    package = 'husky_sim' if program == 'husky_sim' else 'husky_view'
+    installed = Path(get_package_prefix(package)) / 'lib' / package / program
     process = processes.start(str(installed), 'nothing')
     maps = Path(f'/proc/{process.pid}/maps')
     wait_until(lambda: library in maps.read_text(), timeout_sec=20.0, what=f'{library} in it')
     begun = time.monotonic()
     process.signal(number)
     assert process.wait(timeout_sec=10.0) == 0, process.output
-    assert time.monotonic() - begun < 2.0 * slack
+    assert time.monotonic() - begun < 2.0
     assert process.output == ''
 
 
@@ -110,7 +109,7 @@ def test_a_view_without_a_simulator_says_what_it_waits_for(processes: Processes)
 
 @pytest.mark.timeout(60)
 def test_a_view_that_hangs_does_not_hold_up_the_physics(
-    processes: Processes, nodes: SpunNodes, slack: float
+    processes: Processes, nodes: SpunNodes
 ) -> None:
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     view = processes.start(*VIEW, 'viewer_port:=18580')
@@ -124,14 +123,14 @@ def test_a_view_that_hangs_does_not_hold_up_the_physics(
             timeout_sec=10.0,
             what='three simulated seconds',
         )
-        assert 2.5 < time.monotonic() - wall_sec < 3.5 * slack
+        assert time.monotonic() - wall_sec == pytest.approx(3.0, abs=0.5)
     finally:
         view.signal(signal.SIGCONT)
 
 
 @pytest.mark.timeout(60)
 def test_ten_tabs_that_read_nothing_do_not_hold_up_the_physics(
-    processes: Processes, nodes: SpunNodes, slack: float
+    processes: Processes, nodes: SpunNodes
 ) -> None:
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     view = processes.start(*VIEW, 'viewer_port:=18680')
@@ -146,7 +145,7 @@ def test_ten_tabs_that_read_nothing_do_not_hold_up_the_physics(
             timeout_sec=10.0,
             what='three simulated seconds',
         )
-        assert 2.5 < time.monotonic() - wall_sec < 3.5 * slack
+        assert time.monotonic() - wall_sec == pytest.approx(3.0, abs=0.5)
     finally:
         for tab in tabs:
             tab.close()

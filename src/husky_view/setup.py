@@ -15,7 +15,7 @@ setup(
             ['resource/husky_sim.view/husky_view'],
         ),
     ],
-    install_requires=['setuptools', 'mujoco', 'mjviser', 'numpy'],
+    install_requires=['setuptools', 'mujoco', 'mjviser', 'numpy', 'trimesh', 'viser'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
     maintainer_email='maintainers@playpen-lab.example',

@@ -1,110 +1,159 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A real browser without a screen: one for all tests, as its start takes a while."""
+"""The view's page in a real browser without a screen, driven by Playwright."""
 
-from functools import partial
+import base64
+from collections.abc import Iterator
+from contextlib import contextmanager
+import io
 import os
 from pathlib import Path
-import signal
-import subprocess
-from types import TracebackType
 
-from husky_runtime.parent_death import die_with_parent
+import numpy as np
+from PIL import Image
+from playwright.sync_api import Browser, expect, Locator, Page, sync_playwright
 
 from playpen_testing.chromium import Program
-from playpen_testing.devtools import DevTools
-from playpen_testing.page import number
-from playpen_testing.tab import Tab
 from playpen_testing.waiting import wait_until
 
 FLAGS = (
-    *('--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run'),
-    *('--disable-background-networking', '--disable-component-update', '--disable-sync'),
-    *('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'),
-    *('--disable-extensions', '--mute-audio', '--remote-debugging-port=0'),
+    *('--disable-gpu', '--use-angle=swiftshader', '--disable-quic'),
     # Drawing without a graphics processor may take long, but it has not hung.
     '--disable-gpu-watchdog',
 )
-START_SEC = 30.0
+# What viser's own code makes Chromium say about itself, without harm.
+HARMLESS = 'Unable to preventDefault inside passive event listener'
+
+# Without a graphics processor, drawing takes all that the machine has. Where what is tested is
+# something else, pages do everything but draw their 3D scene; and where the scene itself is looked
+# at, a few pictures a second are enough.
+_DRAW_NOTHING = """
+for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced', 'drawArraysInstanced',
+    'drawRangeElements', 'clear', 'blitFramebuffer'])
+  WebGL2RenderingContext.prototype[name] = () => {};
+"""
+_DRAW_SELDOM = """
+const soon = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 100);
+"""
+
+_IS_CANVAS_LOST = """(() => {
+  const canvas = document.querySelector('canvas');
+  const drawing = canvas && canvas.getContext("webgl2");
+  return Boolean(drawing && drawing.isContextLost());
+})()"""
+_ASPHALT = np.array([75, 75, 77])
+
+expect.set_options(timeout=30_000)
+
+Place = tuple[float, float]
 
 
-class Browser:
-    """A browser with a profile of its own; it ends with the thread that starts it."""
+@contextmanager
+def start_browser(program: Program) -> Iterator[Browser]:
+    """Start a browser; it ends with this process, however that ends."""
+    # The libraries of the ROS wheels must not get into the browser.
+    environment = {k: v for k, v in os.environ.items() if k != 'LD_LIBRARY_PATH'}
+    with (
+        sync_playwright() as playwright,
+        playwright.chromium.launch(
+            executable_path=program.path, env={**environment, **program.environment}, args=FLAGS
+        ) as browser,
+    ):
+        yield browser
 
-    def __init__(self, program: Program, profile: Path) -> None:
-        # The libraries of the ROS wheels must not get into the browser.
-        environment = {k: v for k, v in os.environ.items() if k != 'LD_LIBRARY_PATH'}
-        environment |= program.environment
-        self._tabs: list[Tab] = []
-        self._tools: DevTools | None = None
-        self._child = subprocess.Popen(
-            [program.path, *FLAGS, f'--user-data-dir={profile}', 'about:blank'],
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-            preexec_fn=partial(die_with_parent, signal.SIGKILL),
-        )
-        try:
-            self._address = self._connect(profile / 'DevToolsActivePort')
-        except BaseException:
-            self.close()
-            raise
 
-    def _connect(self, port_file: Path) -> str:
-        wait_until(
-            lambda: port_file.exists() and port_file.read_text().count('\n') > 0,
-            timeout_sec=START_SEC,
-            what='a browser that starts',
-        )
-        port, path = port_file.read_text().split()
-        self._tools = DevTools(f'ws://127.0.0.1:{port}{path}', lambda _: None)
-        return f'ws://127.0.0.1:{port}/devtools/page'
+def open_page(
+    browser: Browser, url: str, width: int = 1000, height: int = 700, *, drawn: bool = False
+) -> Page:
+    """
+    Open the view as another person would, with cookies and a memory of its own.
 
-    def open(self, url: str, width: int = 1000, height: int = 700, *, drawn: bool = False) -> Tab:
-        """Open the view in a tab; unless drawn, its 3D scene stays empty."""
-        tools = self._tools
-        assert tools is not None
-        # As if every tab were another person's: with cookies and a memory of its own.
-        person = tools.call('Target.createBrowserContext')['browserContextId']
-        target = tools.call('Target.createTarget', url='about:blank', browserContextId=person)
-        tab = Tab(
-            f'{self._address}/{target["targetId"]}',
-            width=width,
-            height=height,
-            drawn=drawn,
-            dispose=lambda: tools.call('Target.disposeBrowserContext', browserContextId=person),
-        )
-        self._tabs.append(tab)
-        tab.visit(url)
-        tab.wait_for(number('time'), what='the panel of the view')
-        if drawn:
-            tab.wait_for_picture()
-        return tab
+    :param drawn: whether its 3D scene is looked at; it stays empty otherwise.
+    """
+    page = browser.new_page(viewport={'width': width, 'height': height}, is_mobile=width < 600)
+    page.set_default_timeout(60_000 if drawn else 30_000)
+    page.add_init_script(_DRAW_SELDOM if drawn else _DRAW_NOTHING)
+    page.goto(url, wait_until='commit')
+    expect(number(page, 'time')).not_to_be_empty()
+    if drawn:
+        _wait_for_picture(page)
+    return page
 
-    def close_tabs(self) -> None:
-        """Close all tabs; may be called twice."""
-        while self._tabs:
-            self._tabs.pop().close()
 
-    def close(self) -> None:
-        """End the browser; may be called twice."""
-        if self._tools is not None:
-            self.close_tabs()
-            self._tools.close()
-            self._tools = None
-        if self._child.poll() is None:
-            os.killpg(self._child.pid, signal.SIGKILL)
-        self._child.wait()
+def button(page: Page, label: str) -> Locator:
+    return page.get_by_role('button', name=label, exact=True)
 
-    def __enter__(self) -> 'Browser':
-        return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
+def number(page: Page, key: str) -> Locator:
+    """Return a figure of the panel."""
+    return page.locator(f'[data-number={key}]')
+
+
+def wait_for(page: Page, script: str) -> None:
+    """Wait until a JavaScript expression is true."""
+    page.wait_for_function(script, polling=50)  # a page that draws has few frames to poll in
+
+
+def errors(page: Page) -> list[str]:
+    """Return what a person would see as an error in the console."""
+    said = [m.text for m in page.console_messages(filter='all') if m.type in ('error', 'assert')]
+    said += map(str, page.page_errors(filter='all'))
+    return [text for text in said if HARMLESS not in text]
+
+
+def drag(page: Page, begin: Place, end: Place) -> None:
+    """Press the mouse at one place, move to another and release it there."""
+    page.mouse.move(*begin)
+    page.mouse.down()
+    page.mouse.move(*end, steps=5)
+    page.mouse.up()
+
+
+def screenshot(page: Page) -> bytes:
+    """Take a picture at once; Playwright's own waits for frames, of which a drawn page has few."""
+    devtools = page.context.new_cdp_session(page)
+    picture = devtools.send('Page.captureScreenshot')['data']
+    devtools.detach()
+    return base64.b64decode(picture)
+
+
+def pixels_of(png: bytes) -> 'np.ndarray[tuple[int, int, int], np.dtype[np.int_]]':
+    return np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
+
+
+def asphalt(png: bytes) -> int:
+    """Return how many pixels show asphalt."""
+    return int((np.abs(pixels_of(png) - _ASPHALT).max(axis=2) < 20).sum())
+
+
+def _wait_for_picture(page: Page) -> None:
+    """
+    Wait until the asphalt is drawn.
+
+    Chromium may take the canvas away from a page that loads on a busy machine (a lost WebGL
+    context, which it does not give back in time); a person would load the page again.
+    """
+
+    def is_drawn() -> bool:
+        if page.evaluate(_IS_CANVAS_LOST):
+            page.reload(wait_until='commit')
+            expect(number(page, 'time')).not_to_be_empty()
+        size = page.viewport_size
+        assert size is not None
+        return asphalt(screenshot(page)) > 0.05 * size['width'] * size['height']
+
+    wait_until(is_drawn, timeout_sec=60.0, what=lambda: f'asphalt on the page; {errors(page)}')
+
+
+def keep_still(page: Page, path: Path) -> None:
+    """Keep a picture as soon as nothing moves any more, such as labels that come late."""
+    pictures = [screenshot(page)]
+
+    def is_still() -> bool:
+        pictures.append(screenshot(page))
+        return pictures[-1] == pictures[-2]
+
+    wait_until(is_still, timeout_sec=60.0, what='a page on which nothing moves')
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(pictures[-1])

@@ -11,14 +11,14 @@ Files = dict[Path, int]  # and their inodes: a name that is free is taken by the
 def own_files(pids: Iterable[int]) -> Files:
     """Return the files that these processes have mapped, and no other process has."""
     ours = set(pids)
-    others = _mapped_by(_all_pids() - ours)
-    return {path: inode for path, inode in _mapped_by(ours).items() if path not in others}
+    others = mapped_by(_all_pids() - ours)
+    return {path: inode for path, inode in mapped_by(ours).items() if path not in others}
 
 
 def left(files: Files) -> list[str]:
     """Return which of the files are still there, with nobody who uses them."""
     there = {path for path, inode in files.items() if _inode(path) == inode}
-    return sorted(path.name for path in there - _mapped_by(_all_pids()).keys())
+    return sorted(path.name for path in there - mapped_by(_all_pids()).keys())
 
 
 def _inode(path: Path) -> int | None:
@@ -32,7 +32,8 @@ def _all_pids() -> set[int]:
     return {int(process.name) for process in Path('/proc').glob('[0-9]*')}
 
 
-def _mapped_by(pids: Iterable[int]) -> Files:
+def mapped_by(pids: Iterable[int]) -> Files:
+    """Return the files that any of these processes has mapped."""
     files: Files = {}
     for pid in pids:
         try:

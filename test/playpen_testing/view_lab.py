@@ -9,14 +9,14 @@ from pathlib import Path
 from geometry_msgs.msg import Twist
 from husky_runtime.domains import OwnDomain
 from nav_msgs.msg import Odometry
+from playwright.sync_api import Browser, Page
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
 
-from playpen_testing.browser import Browser
+from playpen_testing.browser import open_page
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Process, Processes
 from playpen_testing.spinning import SpunNodes
-from playpen_testing.tab import Tab
 from playpen_testing.waiting import wait_until
 
 COMMANDS = 'husky_velocity_controller/cmd_vel'
@@ -93,10 +93,10 @@ class Lab:
     def stands(self) -> bool:
         return abs(self.speed_m_s) < 0.01
 
-    def open(self, *size: int, drawn: bool = False) -> Tab:
+    def open(self, *size: int, drawn: bool = False) -> Page:
         """Look at the view."""
-        page = self.browser.open(self.address, *size, drawn=drawn)
-        page.wait_for("document.querySelector('.husky-stop')", what='the pad in its place')
+        page = open_page(self.browser, self.address, *size, drawn=drawn)
+        page.locator('.husky-stop').wait_for(state='attached')
         return page
 
 
@@ -116,4 +116,5 @@ def view_lab(folder: Path, browser: Browser) -> Iterator[Lab]:
             with Processes() as processes, SpunNodes(domain.number) as nodes:
                 yield Lab(processes, nodes, environment, browser, waypoints)
         finally:
-            browser.close_tabs()
+            for context in browser.contexts:
+                context.close()

@@ -95,7 +95,7 @@ def test_a_good_workspace_gets_every_point_but_those_of_the_unfinished_drive(
 ) -> None:
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     profile = courses.parent / 'fastdds.xml'
-    monkeypatch.setenv('FASTDDS_DEFAULT_PROFILES_FILE', str(profile))
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(profile))
     report = tmp_path / 'report'
     arguments = ['--lab', str(workspace), '--report', str(report), '--real-time-factor', '4']
     assert grade(arguments) == 1

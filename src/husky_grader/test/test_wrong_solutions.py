@@ -223,7 +223,7 @@ def graph(courses: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     profile = courses.parent / 'fastdds.xml'
-    monkeypatch.setenv('FASTDDS_DEFAULT_PROFILES_FILE', str(profile))
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(profile))
 
 
 @pytest.mark.usefixtures('graph')

@@ -15,6 +15,7 @@ from husky_course.record import read_record
 from husky_course.robot import RobotStart
 from husky_sim.errors import SettingError, StartPoseError, WorldError
 from husky_sim.ros.node import SimulatorNode
+from husky_sim.ros.pacing import CATCH_UP_SEC
 from husky_sim.scene_topic import QOS as SCENE_QOS
 from husky_sim.scene_topic import read_scene
 from nav_msgs.msg import Odometry
@@ -171,22 +172,18 @@ def test_scanner_and_receiver_speak_at_their_rates(bench: Callable[..., Bench]) 
     run = bench(real_time_factor=5.0, lidar_rate_hz=10.0)
     scans: list[LaserScan] = []
     fixes: list[NavSatFix] = []
-    run.probe.create_subscription(LaserScan, 'front/scan', scans.append, 50)
-    run.probe.create_subscription(NavSatFix, 'navsat/fix', fixes.append, 50)
+    # Deep: while the simulator catches up it makes more in one turn than the probe reads in many.
+    run.probe.create_subscription(LaserScan, 'front/scan', scans.append, 1000)
+    run.probe.create_subscription(NavSatFix, 'navsat/fix', fixes.append, 1000)
     run.until(lambda: len(scans) > 5 and len(fixes) > 20, 'scans and fixes')
-    # Some may be lost on a busy machine: what came stands where the rate puts it.
-    assert periods_of(scans, 5) == {0}, '10 Hz: every fifth period'
+    steps = [stamp_sec(after) - stamp_sec(before) for before, after in pairwise(scans)]
+    assert steps == pytest.approx([0.1] * len(steps))
     assert len(scans[0].ranges) == 720
     assert scans[0].header.frame_id == 'front_laser'
     assert scans[0].angle_max == pytest.approx(2.35619)
-    assert len(periods_of(fixes, 5)) == 4, '40 Hz: four of five periods'
+    assert (stamp_sec(fixes[20]) - stamp_sec(fixes[0])) == pytest.approx(0.5, abs=0.021)
     assert fixes[0].latitude == pytest.approx(49.9)
     assert fixes[0].position_covariance[0] > 0.0
-
-
-def periods_of(messages: list[Any], cycle: int) -> set[int]:
-    """Return in which control periods of a cycle messages are made."""
-    return {round(stamp_sec(each) / CONTROL_PERIOD_SEC) % cycle for each in messages}
 
 
 def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) -> None:
@@ -195,27 +192,39 @@ def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) 
     assert run.probe.count_publishers('odometry/filtered') == 0
 
 
-def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench], slack: float) -> None:
+def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=0.5)
+    heard: list[DiagnosticArray] = []
+    run.probe.create_subscription(DiagnosticArray, '/diagnostics', heard.append, 10)
     run.matched()
 
-    def taken_sec(simulated_sec: float) -> float:
-        first, begin = stamp_sec(run.probe.odometry[-1]), time.monotonic()
+    def lost_sec() -> float:
+        """Return the wall time in which the machine held the simulator up, as it tells next."""
+        count = len(heard)
+        run.until(lambda: len(heard) > count, 'diagnostics')
+        return float(value(heard[-1].status[0], 'wall_time_lost_sec'))
+
+    def assert_pace(factor: float, simulated_sec: float) -> None:
+        before_sec = lost_sec()
+        first, begin = run.simulator.simulation.time_sec, time.monotonic()
         run.until(
-            lambda: stamp_sec(run.probe.odometry[-1]) - first > simulated_sec,
+            lambda: run.simulator.simulation.time_sec - first > simulated_sec,
             f'{simulated_sec:g} s of simulated time',
         )
-        return time.monotonic() - begin
+        late_sec = time.monotonic() - begin - simulated_sec / factor
+        # A busy machine cannot break this: what is made up for is bounded, the rest is told as
+        # lost; on a free one nothing is lost.
+        assert -CATCH_UP_SEC - CONTROL_PERIOD_SEC < late_sec < 0.9 + lost_sec() - before_sec
 
-    assert 1.9 < taken_sec(1.0) < 3.0 * slack
+    assert_pace(0.5, 1.0)
     refused, changed = run.simulator.set_parameters(
         [Parameter('real_time_factor', value=-1.0), Parameter('real_time_factor', value=2.0)]
     )
     assert not refused.successful
     assert changed.successful
-    assert 1.4 < taken_sec(3.0) < 3.0 * slack
+    assert_pace(2.0, 3.0)
     run.simulator.set_parameters([Parameter('real_time_factor', value=6.0)])
-    assert 0.45 < taken_sec(3.0) < 1.4 * slack
+    assert_pace(6.0, 6.0)
 
 
 def test_the_scene_of_a_fast_run_leaves_out_what_nobody_could_see(
@@ -323,14 +332,12 @@ def test_after_a_stall_it_tells_so_and_goes_on_with_whole_steps(
     )
 
 
-def test_a_pace_beyond_the_machine_leaves_it_listening(
-    bench: Callable[..., Bench], slack: float
-) -> None:
+def test_a_pace_beyond_the_machine_leaves_it_listening(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=1000.0)
     run.matched()
     spun_at = time.monotonic()
     run.executor.spin_once(timeout_sec=0.0)
-    assert time.monotonic() - spun_at < 0.3 * slack
+    assert time.monotonic() - spun_at < 0.3
     assert run.call(SetBool, 'pause', SetBool.Request(data=True)).success
     assert run.simulator.simulation.physics_warnings == 0
 

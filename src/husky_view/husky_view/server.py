@@ -1,14 +1,13 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The web server of the view: its address, what is clicked on its pages, and its end."""
+"""The web server of the view: its address, its end, and what is clicked on its pages."""
 
 from collections.abc import Callable
 from contextlib import redirect_stdout
 import io
-import os
 from queue import Empty, SimpleQueue
 import socket
-from threading import Thread, Timer
+from threading import Thread
 
 import viser
 
@@ -16,7 +15,6 @@ from husky_view.picture.page import add_page_script
 
 PORTS_TRIED = 100
 CLOSE_SEC = 0.5
-EXIT_SEC = 1.2
 
 
 class AddressError(Exception):
@@ -83,13 +81,6 @@ def address_of(server: viser.ViserServer) -> str:
     host = server.get_host()
     local = host in ('127.0.0.1', '0.0.0.0', '::', '::1', 'localhost')  # noqa: S104
     return f'http://{"localhost" if local else host}:{server.get_port()}'
-
-
-def exit_soon() -> None:
-    """End this process after 1.2 s at the latest, even while it builds a page."""
-    timer = Timer(EXIT_SEC, os._exit, (0,))
-    timer.daemon = True
-    timer.start()
 
 
 class ActionQueue:

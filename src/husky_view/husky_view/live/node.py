@@ -8,8 +8,10 @@ It asks the simulator for its world, so it can be started at any time, before or
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 import sys
+from threading import Timer
 import time
 from typing import Any
 
@@ -27,11 +29,12 @@ from husky_view.editor.course import waypoint_folder
 from husky_view.live.links import SimulatorQuery
 from husky_view.live.panel import warning_html
 from husky_view.live.view import LiveView
-from husky_view.server import address_of, AddressError, close_server, exit_soon, open_server
+from husky_view.server import address_of, AddressError, close_server, open_server
 
 TITLE = 'Husky playpen'
 _ASK_SEC = 0.05
 _HINT_AFTER_SEC = 3.0
+_EXIT_SEC = 1.2
 
 _PARAMETERS = {
     'simulator': ('husky_sim', 'Name of the simulator node to show.'),
@@ -121,7 +124,7 @@ def main(args: list[str] | None = None) -> int:
     """Show the simulation until interrupted."""
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     interrupted = future_of_signal()
-    interrupted.add_done_callback(lambda _: exit_soon())
+    interrupted.add_done_callback(lambda _: _exit_soon())
     try:
         node = ViewNode()
         try:
@@ -134,6 +137,13 @@ def main(args: list[str] | None = None) -> int:
         return 2
     finally:
         rclpy.try_shutdown()
+
+
+def _exit_soon() -> None:
+    """End this process after 1.2 s at the latest, even while it builds a page."""
+    timer = Timer(_EXIT_SEC, os._exit, (0,))
+    timer.daemon = True
+    timer.start()
 
 
 if __name__ == '__main__':

@@ -4,10 +4,10 @@
 
 import argparse
 from collections.abc import Sequence
+import os
 from pathlib import Path
 import signal
 import sys
-from threading import Event
 import time
 from typing import NoReturn
 
@@ -23,14 +23,7 @@ from husky_view.picture.geometry import to_world
 from husky_view.picture.picture import Picture
 from husky_view.replay.panel import Playback, ReplayPanel
 from husky_view.replay.run import load_run, Run, RunScenes
-from husky_view.server import (
-    ActionQueue,
-    address_of,
-    AddressError,
-    close_server,
-    exit_soon,
-    open_server,
-)
+from husky_view.server import ActionQueue, address_of, AddressError, close_server, open_server
 
 WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
@@ -130,8 +123,7 @@ def main(args: Sequence[str] | None = None) -> int:
         '--waypoints', help=f"the course that was to be driven (the report's {WAYPOINTS_FILE})"
     )
     options = parser.parse_args(None if args is None else list(args)[1:])
-    ended = Event()
-    _end_on_signal(ended)
+    _end_on_signal()
     try:
         run = load_run(options.record)
         server = open_server(options.host, options.port, title='Husky replay')
@@ -144,27 +136,24 @@ def main(args: Sequence[str] | None = None) -> int:
         if options.waypoints or beside.is_file():
             replay.show_course(Path(options.waypoints or beside))
         print(f'replay of {run.file}: look at {address_of(server)} (Ctrl-C ends)', flush=True)
-        _play(replay, ended)
+        _play(replay)
     except (SimulatorError, RecordRefused, CourseRefused) as error:
         print(f'replay: {error}', file=sys.stderr)
         return BAD_INPUT
     finally:
         close_server(server)
-    return 0
 
 
-def _end_on_signal(ended: Event) -> None:
-    def on_signal(*_: object) -> None:
-        ended.set()
-        exit_soon()
-
+def _end_on_signal() -> None:
+    # At once: nothing is to be saved, and a page finds its connection closed either way.
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, on_signal)
+        signal.signal(number, lambda *_: os._exit(0))
 
 
-def _play(replay: Replay, ended: Event) -> None:
+def _play(replay: Replay) -> NoReturn:
     before = time.monotonic()
-    while not ended.wait(FRAME_SEC):
+    while True:
+        time.sleep(FRAME_SEC)
         now = time.monotonic()
         replay.frame(now - before, now_sec=now)
         before = now

@@ -1,0 +1,256 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Packages say what they need, need nothing above them, and run with that alone."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from importlib.util import find_spec
+import os
+from pathlib import Path
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCE = ROOT / 'src'
+PACKAGES = sorted(path.parent.name for path in SOURCE.glob('*/package.xml'))
+
+# Who may import whom: a package stands above all that it imports.
+LAYERS = (
+    ('husky_course', 'topic_demo'),
+    ('husky_runtime',),
+    ('husky_driver', 'husky_sim'),
+    ('husky_view', 'husky_grader'),
+)
+# What rosdep (github.com/ros/rosdistro, rosdep/python.yaml) and pip call otherwise than Python.
+MODULES = {'python3-yaml': 'yaml', 'PyYAML': 'yaml'}
+TYPED = {'ros2launch', 'ros2run'}  # what people start the package by
+OPTIONAL = {'simulation_interfaces'}  # only used where it is installed; the wheels lack it
+LAUNCH_COMMANDS = re.compile(r"'ros2',\s*'(run|launch)'")
+IN_LAUNCH_FILES = re.compile(r"(?:FindPackageShare\(|package=)'(\w+)'")
+
+
+@dataclass(frozen=True)
+class Import:
+    """One import of a module of ours: what, by whom, where."""
+
+    module: str
+    by: str
+    place: str
+
+
+def sources(package: str) -> list[Path]:
+    """Return the modules and the launch files of a package."""
+    folder = SOURCE / package
+    return [*sorted((folder / package).rglob('*.py')), *sorted(folder.glob('launch/*.py'))]
+
+
+def module_name(path: Path) -> str:
+    return '.'.join(path.relative_to(SOURCE).with_suffix('').parts[1:]).removesuffix('.__init__')
+
+
+@cache
+def imports(package: str) -> tuple[Import, ...]:
+    found = []
+    for path in sources(package):
+        for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+            names = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                names = [as_module(node.module, alias.name) for alias in node.names]
+            place = f'{path.relative_to(ROOT)}:{getattr(node, "lineno", 0)}'
+            found += [Import(name, module_name(path), place) for name in names]
+    return tuple(found)
+
+
+def as_module(module: str, name: str) -> str:
+    """Return the module that `from MODULE import NAME` imports."""
+    folder = SOURCE / module.partition('.')[0] / module.replace('.', '/')
+    return f'{module}.{name}' if (folder / f'{name}.py').is_file() else module
+
+
+def declared(package: str) -> set[str]:
+    """Return what package.xml says, and what setup.py asks pip for because rosdep lacks it."""
+    root = ElementTree.parse(SOURCE / package / 'package.xml').getroot()
+    keys = {str(entry.text) for entry in root.iter('exec_depend')}
+    modules = {MODULES.get(key, key.removeprefix('python3-')) for key in keys}
+    setup = (SOURCE / package / 'setup.py').read_text(encoding='utf-8')
+    asked = re.search(r'install_requires=(\[[^\]]*\])', setup)
+    assert asked, f'{package}/setup.py: no install_requires'
+    wanted = {MODULES.get(name, name) for name in ast.literal_eval(asked[1])}
+    return modules | wanted - {'setuptools'}
+
+
+def used(package: str) -> set[str]:
+    """Return the top-level modules and ROS packages that a package uses."""
+    modules = {each.module.partition('.')[0] for each in imports(package)}
+    for path in sources(package):
+        text = path.read_text(encoding='utf-8')
+        modules |= {f'ros2{verb}' for verb in LAUNCH_COMMANDS.findall(text)}
+        modules |= set(IN_LAUNCH_FILES.findall(text)) if path.parent.name == 'launch' else set()
+    return modules - set(sys.stdlib_module_names) - OPTIONAL - {package, '__future__'}
+
+
+@pytest.mark.parametrize('package', PACKAGES)
+def test_a_package_declares_just_what_it_uses(package: str) -> None:
+    assert used(package) <= declared(package)
+    assert declared(package) - used(package) <= TYPED
+
+
+def test_no_package_imports_one_above_it() -> None:
+    layer = {package: number for number, names in enumerate(LAYERS) for package in names}
+    assert sorted(layer) == PACKAGES
+    upwards = [
+        f'{each.place}: {each.module}'
+        for package in PACKAGES
+        for each in imports(package)
+        for other in [each.module.partition('.')[0]]
+        if other in layer and other != package and layer[other] >= layer[package]
+    ]
+    assert upwards == []
+
+
+def test_others_import_only_the_front_of_a_folder() -> None:
+    inside = [
+        f'{each.place}: {each.module}'
+        for package in PACKAGES
+        for each in imports(package)
+        if each.module.partition('.')[0] in set(PACKAGES) - {package}
+        if each.module.count('.') > 1
+    ]
+    assert inside == []
+
+
+def cycle_in(edges: dict[str, set[str]]) -> list[str]:
+    """Return modules that import each other in a circle; empty if there are none."""
+    done: set[str] = set()
+
+    def visit(module: str, way: list[str]) -> list[str]:
+        if module in way:
+            return [*way[way.index(module) :], module]
+        if module in done:
+            return []
+        for other in sorted(edges.get(module, ())):
+            if found := visit(other, [*way, module]):
+                return found
+        done.add(module)
+        return []
+
+    return next((found for module in sorted(edges) if (found := visit(module, []))), [])
+
+
+@pytest.mark.parametrize('depth', [2, 9], ids=['folders', 'modules'])
+@pytest.mark.parametrize('package', PACKAGES)
+def test_no_import_runs_in_a_circle(package: str, depth: int) -> None:
+    edges: dict[str, set[str]] = {}
+    for each in imports(package):
+        ours, theirs = ('.'.join(name.split('.')[:depth]) for name in (each.by, each.module))
+        if theirs.startswith(f'{package}.') and ours != theirs:
+            edges.setdefault(ours, set()).add(theirs)
+    assert cycle_in(edges) == []
+
+
+def test_a_circle_is_found() -> None:
+    assert cycle_in({'a': {'b'}, 'b': {'c'}, 'c': {'b'}}) == ['b', 'c', 'b']
+
+
+@pytest.fixture(scope='module')
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build every package into a folder of its own."""
+    folder = tmp_path_factory.mktemp('built')
+    bases = ['--build-base', str(folder / 'build'), '--install-base', str(folder / 'install')]
+    colcon = ['colcon', '--log-base', str(folder / 'log'), 'build', '--base-paths', str(SOURCE)]
+    done = subprocess.run([*colcon, *bases], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder / 'install'
+
+
+@pytest.fixture
+def only_declared(built: Path, tmp_path: Path) -> dict[str, Path]:
+    """Link what each package declares, and what that needs, into a folder: all that it gets."""
+    folders = {}
+    for package in PACKAGES:
+        folders[package] = tmp_path / package
+        folders[package].mkdir()
+        for name in closure(package):
+            for path in places_of(name, built):
+                (folders[package] / path.name).symlink_to(path)
+    return folders
+
+
+def closure(package: str) -> set[str]:
+    """Return a package, and all modules that it and those need, as they declare it."""
+    found: set[str] = set()
+    left = {package}
+    while left:
+        name = left.pop()
+        found.add(name)
+        left |= (declared(name) if name in PACKAGES else needed_by(name)) - found
+    return found
+
+
+@cache
+def needed_by(name: str) -> frozenset[str]:
+    """Return the modules of the distributions that those of a module require."""
+    needed: set[str] = set()
+    for distribution in metadata.packages_distributions().get(name, ()):
+        for line in metadata.requires(distribution) or ():
+            if 'extra ==' not in line or 'fastrtps' in line:
+                required = re.split(r'[^\w.-]', line, maxsplit=1)[0]
+                needed |= modules_of(required.lower().replace('_', '-'))
+    return frozenset(needed)
+
+
+@cache
+def modules_of(required: str) -> frozenset[str]:
+    return frozenset(
+        module
+        for module, names in metadata.packages_distributions().items()
+        if required in (name.lower().replace('_', '-') for name in names)
+    )
+
+
+def places_of(name: str, built: Path) -> list[Path]:
+    """Return the files and folders to link for a module; none for a ROS package without one."""
+    if name in PACKAGES:
+        return sorted(built.glob(f'{name}/lib/python3*/site-packages/{name}'))
+    spec = find_spec(name)
+    if spec is None or spec.origin is None:
+        return [Path(place) for place in spec.submodule_search_locations or ()] if spec else []
+    return [Path(spec.origin).parent if spec.submodule_search_locations else Path(spec.origin)]
+
+
+def run_alone(folder: Path, program: str) -> subprocess.CompletedProcess[str]:
+    """Run a program with nothing to import but the standard library and what lies in a folder."""
+    environment = {**os.environ, 'PYTHONPATH': str(folder), 'PYTHONNOUSERSITE': '1'}
+    command = [sys.executable, '-S', '-c', program]
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60.0)
+
+
+@pytest.mark.timeout(180)
+@pytest.mark.parametrize('package', PACKAGES)
+def test_a_package_imports_with_what_it_declares(
+    package: str, only_declared: dict[str, Path]
+) -> None:
+    modules = [module_name(path) for path in sources(package) if path.parent.name != 'launch']
+    program = ''.join(f'import {module}\n' for module in modules)
+    done = run_alone(only_declared[package], program)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.timeout(180)
+def test_the_driver_runs_without_mujoco(only_declared: dict[str, Path]) -> None:
+    folder = only_declared['husky_driver']
+    assert not (folder / 'mujoco').exists()
+    program = 'import sys\nfrom husky_driver.follow_path import main\n'
+    program += 'sys.exit(main(["follow_path", "--waypoints", "none.yaml"]))'
+    done = run_alone(folder, program)
+    assert (done.returncode, done.stderr) == (2, 'none.yaml: line 1, column 1: no such file\n')
