@@ -78,20 +78,8 @@ class LiveView:
             )
             for place, robot in enumerate(world.robots)
         ]
-        self._panel = Panel(
-            server,
-            self._actions,
-            Controls(
-                pause=self._control.pause,
-                step=self._control.step,
-                reset=self._control.reset,
-                set_factor=self._control.set_factor,
-                stop=self._on_stop,
-                choose_robot=self._on_choose_robot,
-                choose_camera=self._picture.choose_camera,
-            ),
-            robots=[robot.name for robot in world.robots],
-        )
+        robots = [robot.name for robot in world.robots]
+        self._panel = Panel(server, self._actions, self._controls(), robots=robots)
         self._editor = Editor(
             server,
             self._actions,
@@ -103,6 +91,17 @@ class LiveView:
         )
         self._closing = ExitStack()
         self._create_entities()
+
+    def _controls(self) -> Controls:
+        return Controls(
+            pause=self._control.pause,
+            step=self._control.step,
+            reset=self._control.reset,
+            set_factor=self._control.set_factor,
+            stop=self._on_stop,
+            choose_robot=self._on_choose_robot,
+            choose_camera=self._picture.choose_camera,
+        )
 
     def _create_entities(self) -> None:
         node, steady = self._node, Clock(clock_type=ClockType.STEADY_TIME)
