@@ -77,7 +77,8 @@ def test_a_taken_port_gives_the_next_and_ctrl_c_ends_in_2_s(
 def test_an_interrupt_while_a_program_loads_ends_it_silently(
     processes: Processes, program: str, library: str, number: signal.Signals
 ) -> None:
-    installed = Path(get_package_prefix('husky_sim')) / 'lib' / 'husky_sim' / program
+    package = 'husky_sim' if program == 'husky_sim' else 'husky_view'
+    installed = Path(get_package_prefix(package)) / 'lib' / package / program
     process = processes.start(str(installed), 'nothing')
     maps = Path(f'/proc/{process.pid}/maps')
     wait_until(lambda: library in maps.read_text(), timeout_sec=20.0, what=f'{library} in it')

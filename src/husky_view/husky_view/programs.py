@@ -22,7 +22,7 @@ def view() -> int:
     """Show a running simulator."""
 
     def load() -> Callable[[], int]:
-        from husky_view.live.live import main
+        from husky_view.live.node import main
 
         return main
 

@@ -1,14 +1,17 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The web server of the view: which address it gets, and how its page looks."""
+"""The web server of the view: its address, its end, and what is clicked on its pages."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from collections.abc import Callable
+from contextlib import redirect_stdout
 import io
+from queue import Empty, SimpleQueue
 import socket
 from threading import Thread
 
 import viser
+
+from husky_view.picture.page import add_page_script
 
 PORTS_TRIED = 100
 CLOSE_SEC = 0.5
@@ -55,32 +58,50 @@ def open_server(host: str, port: int, *, title: str) -> viser.ViserServer:
     :raises AddressError: if the address cannot be had.
     """
     port = free_port(host, port)
-    with _silence():
+    with redirect_stdout(io.StringIO()):  # viser prints a banner
         server = viser.ViserServer(host=host, port=port, label=title, verbose=False)
     server.gui.configure_theme(control_width='medium', show_logo=False, show_share_button=False)
     server.gui.set_panel_label(title)
     server.scene.set_up_direction('+z')
+    add_page_script(server)
     return server
 
 
 def close_server(server: viser.ViserServer) -> None:
     """Close every page; may be called twice."""
-    # viser waits for every page to say goodbye, up to 6 s; one that hangs must not delay us.
+    # viser waits up to 6 s for every page to close its connection, also for one that hangs.
     closing = Thread(target=server.stop, daemon=True)
-    with _silence():
+    with redirect_stdout(io.StringIO()):
         closing.start()
         closing.join(CLOSE_SEC)
 
 
-@contextmanager
-def _silence() -> Iterator[None]:
-    """Keep viser's own banner out of the terminal: one line of ours tells the address."""
-    with redirect_stdout(io.StringIO()):
-        yield
-
-
 def address_of(server: viser.ViserServer) -> str:
-    """Return what a person types into the browser."""
+    """Return the URL of the page."""
     host = server.get_host()
     local = host in ('127.0.0.1', '0.0.0.0', '::', '::1', 'localhost')  # noqa: S104
     return f'http://{"localhost" if local else host}:{server.get_port()}'
+
+
+class ActionQueue:
+    """
+    Actions from the server's threads, run by the thread that owns everything else.
+
+    viser calls the callbacks of clicks on threads of its own.
+    """
+
+    def __init__(self) -> None:
+        self._queue: SimpleQueue[Callable[[], object]] = SimpleQueue()
+
+    def put(self, action: Callable[[], object]) -> None:
+        """Add an action; from any thread."""
+        self._queue.put(action)
+
+    def run(self) -> None:
+        """Run what was added since the last call."""
+        while True:
+            try:
+                action = self._queue.get_nowait()
+            except Empty:
+                return
+            action()

@@ -14,12 +14,13 @@ from husky_sim.recording import loose_bodies, MOVED, RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
 from husky_view.editor import course
-from husky_view.editor.draft import Draft
-from husky_view.live.pace import Pace
-from husky_view.picture.pad import Direction, HELD_SEC, Pad, STOPS
-from husky_view.picture.planar import distance_to_line, on_ground, to_odom, to_world
-from husky_view.replay.playback import Playback
-from husky_view.replay.run import load_run, Poser
+from husky_view.editor.course import EditableCourse
+from husky_view.live.checks import RealTimeFactor
+from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
+from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
+from husky_view.picture.page import Direction
+from husky_view.replay.panel import Playback
+from husky_view.replay.run import load_run, RunScenes
 from husky_view.server import AddressError, free_port
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from husky_sim.config import SimulationConfig
 START = RobotStart(x=1.0, y=2.0, yaw=math.pi / 2)
 
 
-def test_the_odometry_frame_begins_where_the_robot_starts_and_faces_as_it_does() -> None:
+def test_the_frame_odom_has_the_pose_of_the_robots_start() -> None:
     points = np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 3.0]])
     world = to_world(START, points)
     np.testing.assert_allclose(world, [[1.0, 2.0], [1.0, 4.0], [-2.0, 2.0]], atol=1e-12)
@@ -53,42 +54,42 @@ def test_a_ray_meets_the_ground_only_below_itself() -> None:
     assert on_ground((1.0, 2.0, 0.5), (0.0, 0.0, -1.0), 1.0) is None
 
 
-def test_the_pad_adds_what_is_held_up_and_stops_when_it_is_released() -> None:
-    pad = Pad(speed_m_s=0.4, yaw_rate_rad_s=0.9)
-    assert pad.command(now_sec=0.0) is None
-    pad.hold(1, Direction.FORWARD, now_sec=0.0)
-    pad.hold(1, Direction.LEFT, now_sec=0.0)
-    assert pad.command(now_sec=0.1) == (0.4, 0.9)
-    pad.release(1, Direction.LEFT)
-    assert pad.command(now_sec=0.1) == (0.4, 0.0)
-    pad.release(1, Direction.FORWARD)
-    assert [pad.command(now_sec=0.2) for _ in range(STOPS + 1)] == [(0.0, 0.0)] * STOPS + [None]
+def test_held_buttons_add_up_and_their_release_stops_the_robot() -> None:
+    teleop = Teleop(speed_m_s=0.4, yaw_rate_rad_s=0.9)
+    assert teleop.command(now_sec=0.0) is None
+    teleop.hold(1, Direction.FORWARD, now_sec=0.0)
+    teleop.hold(1, Direction.LEFT, now_sec=0.0)
+    assert teleop.command(now_sec=0.1) == (0.4, 0.9)
+    teleop.release(1, Direction.LEFT)
+    assert teleop.command(now_sec=0.1) == (0.4, 0.0)
+    teleop.release(1, Direction.FORWARD)
+    assert [teleop.command(now_sec=0.2) for _ in range(STOPS + 1)] == [(0.0, 0.0)] * STOPS + [None]
 
 
-def test_a_tab_that_falls_silent_or_goes_stops_the_robot_but_not_another_tabs() -> None:
-    pad = Pad(speed_m_s=0.4)
-    pad.hold(1, Direction.FORWARD, now_sec=0.0)
-    assert pad.command(now_sec=HELD_SEC) == (0.4, 0.0)
-    assert pad.command(now_sec=HELD_SEC + 0.01) == (0.0, 0.0)
-    pad.hold(1, Direction.FORWARD, now_sec=1.0)
-    pad.hold(2, Direction.FORWARD, now_sec=1.0)
-    pad.release_tab(1)
-    assert pad.command(now_sec=1.1) == (0.4, 0.0)
-    pad.release_tab(2)
-    assert pad.command(now_sec=1.1) == (0.0, 0.0)
+def test_a_silent_or_closed_tab_releases_only_its_own_buttons() -> None:
+    teleop = Teleop(speed_m_s=0.4)
+    teleop.hold(1, Direction.FORWARD, now_sec=0.0)
+    assert teleop.command(now_sec=HOLD_TIMEOUT_SEC) == (0.4, 0.0)
+    assert teleop.command(now_sec=HOLD_TIMEOUT_SEC + 0.01) == (0.0, 0.0)
+    teleop.hold(1, Direction.FORWARD, now_sec=1.0)
+    teleop.hold(2, Direction.FORWARD, now_sec=1.0)
+    teleop.release_tab(1)
+    assert teleop.command(now_sec=1.1) == (0.4, 0.0)
+    teleop.release_tab(2)
+    assert teleop.command(now_sec=1.1) == (0.0, 0.0)
 
 
-def test_the_pace_is_measured_over_the_last_second_and_begins_anew_after_a_reset() -> None:
-    pace = Pace()
-    assert pace.factor is None
+def test_the_factor_is_of_the_last_second_and_of_one_run() -> None:
+    factor = RealTimeFactor()
+    assert factor.value is None
     for step in range(40):
-        pace.add(wall_sec=step * 0.1, time_sec=step * (0.2 if step > 20 else 0.1))
-    assert pace.factor == pytest.approx(2.0)
-    pace.add(wall_sec=4.0, time_sec=0.0)
-    assert pace.factor is None
+        factor.add(wall_sec=step * 0.1, time_sec=step * (0.2 if step > 20 else 0.1))
+    assert factor.value == pytest.approx(2.0)
+    factor.add(wall_sec=4.0, time_sec=0.0)
+    assert factor.value is None
 
 
-def test_a_playback_plays_stands_at_its_end_and_begins_again() -> None:
+def test_a_playback_stops_at_its_end_and_begins_again() -> None:
     playback = Playback(10.0)
     assert playback.step(1.0), 'the first frame draws everything'
     playback.factor = 4.0
@@ -103,7 +104,7 @@ def test_a_playback_plays_stands_at_its_end_and_begins_again() -> None:
     assert playback.step(1.0)
 
 
-def test_a_taken_port_is_passed_over_and_a_foreign_host_is_refused() -> None:
+def test_a_taken_port_is_skipped_and_a_foreign_host_refused() -> None:
     with socket.socket() as taken:
         taken.bind(('127.0.0.1', 0))
         taken.listen()
@@ -133,8 +134,8 @@ def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> Non
     assert run.duration_sec == 2.0
     assert run.entry_at(0.999) == 49
     world = Simulation(SimulationConfig(world=run.world, robots=run.robots)).world
-    poser = Poser(run, world)
-    scene = poser.scene(10, 60, paused=True)
+    scenes = RunScenes(run, world)
+    scene = scenes.scene(10, 60, paused=True)
     assert scene.time_sec[-1] == pytest.approx(1.2)
     base = int(world.model.joint('husky/base_joint').qposadr[0])
     x, y, yaw = written.rows[60, 0, 1:4]
@@ -142,7 +143,7 @@ def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> Non
     assert 2.0 * math.atan2(scene.qpos[base + 6], scene.qpos[base + 3]) == pytest.approx(yaw)
 
 
-def test_a_replay_moves_what_was_pushed_and_a_jump_puts_it_back(tmp_path: Path) -> None:
+def test_a_replay_moves_what_was_pushed_and_a_jump_resets_it(tmp_path: Path) -> None:
     start = RobotStart(x=-2.35, y=-2.6, yaw=-math.pi / 2)
     world = str(default_worlds() / 'playpen.xml')
     simulation = Simulation(SimulationConfig(world=world, robots=(start,)))
@@ -158,17 +159,17 @@ def test_a_replay_moves_what_was_pushed_and_a_jump_puts_it_back(tmp_path: Path) 
     recorder.close()
     run = load_run(str(tmp_path))
     assert list(run.pushed) == ['Dumpster_0'], 'what nothing touched takes room'
-    poser = Poser(run, simulation.world)
+    scenes = RunScenes(run, simulation.world)
     np.testing.assert_allclose(
-        poser.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
+        scenes.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
     )
-    assert poser.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
+    assert scenes.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
     gone = replace(run, pushed={'Gone': run.pushed['Dumpster_0']})
     with pytest.raises(RecordRefused, match=r"'Gone' was pushed, but .* has no such loose body"):
-        Poser(gone, simulation.world)
+        RunScenes(gone, simulation.world)
 
 
-def test_a_replay_begins_with_the_first_command_as_the_report_does(tmp_path: Path) -> None:
+def test_a_replay_begins_with_the_first_command(tmp_path: Path) -> None:
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'empty.xml')))
     with RunRecorder(simulation, tmp_path / 'run.record') as recorder:
         for period in range(100):
@@ -181,40 +182,40 @@ def test_a_replay_begins_with_the_first_command_as_the_report_does(tmp_path: Pat
     assert run.duration_sec == pytest.approx(1.2)
 
 
-def test_a_record_that_is_not_there_is_refused_with_what_to_give() -> None:
+def test_a_missing_record_is_refused_with_what_to_give() -> None:
     with pytest.raises(RecordRefused, match='give the record of a run'):
         load_run('/nowhere')
 
 
-def test_a_draft_takes_back_one_change_after_the_other_and_a_drag_at_once() -> None:
-    draft = Draft()
-    draft.add(0.0, 0.0)
-    draft.add(1.0, 0.0)
-    before = draft.content
-    draft.begin_move(1)
+def test_undo_reverts_one_change_and_a_drag_as_a_whole() -> None:
+    edited = EditableCourse()
+    edited.add(0.0, 0.0)
+    edited.add(1.0, 0.0)
+    before = edited.state
+    edited.begin_move(1)
     for x in (1.2, 1.4, 1.6):
-        draft.move(1, x, 0.0)
-    assert draft.content.points[1].x == 1.6
-    draft.undo()
-    assert draft.content == before
-    draft.undo()
-    assert len(draft.content.points) == 1
-    assert draft.nearest(0.2, 0.1) == 0
-    assert draft.nearest(0.5, 0.0) is None
+        edited.move(1, x, 0.0)
+    assert edited.state.points[1].x == 1.6
+    edited.undo()
+    assert edited.state == before
+    edited.undo()
+    assert len(edited.state.points) == 1
+    assert edited.nearest(0.2, 0.1) == 0
+    assert edited.nearest(0.5, 0.0) is None
 
 
-def test_a_saved_draft_is_the_course_that_the_driver_reads(tmp_path: Path) -> None:
+def test_a_saved_course_is_what_the_driver_reads(tmp_path: Path) -> None:
     from husky_course.waypoints import load_course
 
-    draft = Draft()
+    edited = EditableCourse()
     for x, y in ((0.0, 0.0), (1.234, -0.004), (2.5, 1.0)):
-        draft.add(x, y)
-    draft.set(speed_m_s=0.7, loop=True)
-    file = course.save(draft, tmp_path, 'mine')
+        edited.add(x, y)
+    edited.set(speed_m_s=0.7, loop=True)
+    file = course.save(edited.state, tmp_path, 'mine')
     read = load_course(file)
     assert [(p.x_m, p.y_m) for p in read.waypoints] == [(0.0, 0.0), (1.23, 0.0), (2.5, 1.0)]
     assert (read.speed_m_s, read.loop) == (0.7, True)
-    assert course.load(file) == draft.content
+    assert course.load(file) == edited.state
 
 
 def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> None:
@@ -223,28 +224,28 @@ def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> N
         'corners: sharp\ntolerance: 0.4\nwaypoints:\n  - [0, 0]\n'
         '  - {x: 2, y: 0, speed: 0.3, yaw: 1.5, dwell: 2}\n  - {x: 0, y: 0.5, reverse: true}\n'
     )
-    draft = Draft()
-    draft.load(course.load(file))
-    assert course.load(course.save(draft, tmp_path, 'again')) == draft.content
-    assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in draft.text()
+    edited = EditableCourse()
+    edited.load(course.load(file))
+    assert course.load(course.save(edited.state, tmp_path, 'again')) == edited.state
+    assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in edited.state.text()
 
 
 @pytest.mark.parametrize('name', ['', '../evil', 'a/b', '.hidden', 'x' * 70, 'ä'])
-def test_a_name_that_leads_out_of_the_folder_is_not_saved(tmp_path: Path, name: str) -> None:
-    draft = Draft()
-    draft.add(0.0, 0.0)
-    draft.add(1.0, 0.0)
+def test_a_name_outside_of_the_folder_is_not_saved(tmp_path: Path, name: str) -> None:
+    edited = EditableCourse()
+    edited.add(0.0, 0.0)
+    edited.add(1.0, 0.0)
     with pytest.raises(course.CourseRefused, match='letters, digits'):
-        course.save(draft, tmp_path, name)
+        course.save(edited.state, tmp_path, name)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_preview_is_red_where_the_path_goes_through_the_barrier() -> None:
+def test_the_preview_has_no_clearance_inside_the_barrier() -> None:
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
-    draft = Draft()
-    draft.add(0.0, 0.0)
-    draft.add(5.0, 0.0)
-    found = course.preview(draft, RobotStart(), simulation.world.obstacles)
+    edited = EditableCourse()
+    edited.add(0.0, 0.0)
+    edited.add(5.0, 0.0)
+    found = course.preview(edited.state, RobotStart(), simulation.world.obstacles)
     assert found.clearance_m[0] > 0.5
     assert found.clearance_m.min() == 0.0
     assert json.dumps(found.line[-1].tolist()) == '[5.0, 0.0]'

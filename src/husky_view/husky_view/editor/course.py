@@ -1,15 +1,15 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Waypoint files as the driver understands them.
+A course while it is edited, and the waypoint files that it is read from and saved as.
 
-Nothing here decides what a waypoint file means: husky_course does, for the driver too.
+What a waypoint file means is decided by husky_course alone, as for the driver.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
 import re
@@ -21,38 +21,154 @@ from husky_course.waypoints import Course, parse_course, Waypoint
 import numpy as np
 import numpy.typing as npt
 
-from husky_view.editor.draft import Content, Draft, Point
-from husky_view.picture.planar import to_world
+from husky_view.picture.geometry import to_world
 
 Array = npt.NDArray[np.float64]
+
+UNDO_STEPS = 100
+NEAR_M = 0.3
+"""A click nearer than this to a waypoint means that waypoint."""
 
 NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9_-]{0,60}')
 EVERY = 5  # of the driver's samples, 2 cm apart
 
 
 class CourseRefused(Exception):
-    """A draft that is no course, or a file that cannot be read or written."""
+    """An edited course that is invalid, or a file that cannot be read or written."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """
+    A waypoint in the frame odom; x and y in whole centimetres, as they are written.
+
+    :param more: other fields of the file, as name and text: kept as they are.
+    """
+
+    x: float
+    y: float
+    more: tuple[tuple[str, str], ...] = ()
+
+    def __str__(self) -> str:
+        if not self.more:
+            return f'[{self.x:.2f}, {self.y:.2f}]'
+        more = ''.join(f', {name}: {text}' for name, text in self.more)
+        return f'{{x: {self.x:.2f}, y: {self.y:.2f}{more}}}'
+
+
+@dataclass(frozen=True)
+class CourseState:
+    """An edited course at one moment."""
+
+    points: tuple[Point, ...] = ()
+    speed_m_s: float = 0.5
+    tolerance_m: float = 0.25
+    loop: bool = False
+    corners: str = 'smooth'
+
+    def text(self) -> str:
+        """Return the waypoint file."""
+        corners = '' if self.corners == 'smooth' else f'corners: {self.corners}\n'
+        return (
+            '# Made with the editor of the view.\n'
+            'frame: odom         # metres, x forward and y left of where the Husky starts\n'
+            f'speed: {self.speed_m_s:<12g} # m/s along the path, up to 1.0\n'
+            f'tolerance: {self.tolerance_m:<8g} # m, how near counts as reached\n'
+            f'loop: {"true " if self.loop else "false"}         '
+            '# true: come back to the first waypoint\n'
+            f'{corners}waypoints:\n' + ''.join(f'  - {point}\n' for point in self.points)
+        )
+
+
+@dataclass
+class EditableCourse:
+    """A course with a selected waypoint, whose changes can be undone."""
+
+    state: CourseState = field(default_factory=CourseState)
+    selected: int | None = None
+    _past: list[CourseState] = field(default_factory=list)
+
+    def _change(self, state: CourseState, *, select: int | None) -> None:
+        self._past = [*self._past[1 - UNDO_STEPS :], self.state]
+        self.state = state
+        self.selected = select
+
+    def add(self, x: float, y: float) -> None:
+        """Append a waypoint and select it."""
+        points = (*self.state.points, Point(_rounded(x), _rounded(y)))
+        self._change(replace(self.state, points=points), select=len(points) - 1)
+
+    def begin_move(self, number: int) -> None:
+        """Begin a drag, which is undone as a whole."""
+        self._change(self.state, select=number)
+
+    def move(self, number: int, x: float, y: float) -> None:
+        """Move a waypoint."""
+        points = list(self.state.points)
+        points[number] = replace(points[number], x=_rounded(x), y=_rounded(y))
+        self.state = replace(self.state, points=tuple(points))
+
+    def delete_selected(self) -> None:
+        """Remove the selected waypoint, or else the last one."""
+        points = list(self.state.points)
+        if points:
+            del points[self.selected if self.selected is not None else -1]
+            self._change(replace(self.state, points=tuple(points)), select=None)
+
+    def clear(self) -> None:
+        """Remove all waypoints."""
+        self._change(replace(self.state, points=()), select=None)
+
+    def set(self, *, speed_m_s: float, loop: bool) -> None:
+        """Change what holds for the whole course."""
+        state = replace(self.state, speed_m_s=speed_m_s, loop=loop)
+        self._change(state, select=self.selected)
+
+    def load(self, state: CourseState) -> None:
+        """Replace the whole course."""
+        self._change(state, select=None)
+
+    def undo(self) -> None:
+        """Undo the last change."""
+        if self._past:
+            self.state = self._past.pop()
+            self.selected = None
+
+    def nearest(self, x: float, y: float) -> int | None:
+        """Return the waypoint that a click means, if any."""
+        distances = [math.hypot(p.x - x, p.y - y) for p in self.state.points]
+        if not distances or min(distances) > NEAR_M:
+            return None
+        return distances.index(min(distances))
+
+
+def _rounded(length_m: float) -> float:
+    return round(length_m, 2) + 0.0  # no -0.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Preview:
-    """The path that the driver would take, and how near it passes, in the frame world."""
+    """The path that the driver would take, and its clearances, in the frame world."""
 
     line: Array  # (n, 2)
     clearance_m: Array  # (n,)
 
 
-def preview(draft: Draft, start: RobotStart, obstacles: Sequence[Outline]) -> Preview:
+def preview(state: CourseState, start: RobotStart, obstacles: Sequence[Outline]) -> Preview:
     """
-    Ask the driver for its path through a draft.
+    Plan the driver's path through a course.
 
-    :raises CourseRefused: if the driver would not take it.
+    :raises CourseRefused: if the driver would refuse it.
     """
-    route = plan_route(_parsed(draft.text(), 'the draft'))
-    poses = np.concatenate([_poses(leg) for leg in route.legs])
+    poses = _path(_parsed(state.text(), 'the draft'))
     poses[:, :2] = to_world(start, poses[:, :2])
     poses[:, 2] += start.yaw
     return Preview(line=poses[:, :2], clearance_m=clearances(poses, obstacles))
+
+
+def _path(course: Course) -> Array:
+    """Return the poses (n, 3) of the driver's path."""
+    return np.concatenate([_poses(leg) for leg in plan_route(course).legs])
 
 
 def _poses(leg: Leg) -> Array:
@@ -69,17 +185,21 @@ def _parsed(text: str, name: str) -> Course:
         raise CourseRefused(str(error)) from error
 
 
-def load(file: Path) -> Content:
+def _read(file: Path) -> Course:
+    try:
+        return _parsed(file.read_text(encoding='utf-8'), file.name)
+    except OSError as error:
+        raise CourseRefused(f'{file}: {error.strerror}') from error
+
+
+def load(file: Path) -> CourseState:
     """
     Read a waypoint file to edit it.
 
-    :raises CourseRefused: if the driver would not take it.
+    :raises CourseRefused: if the driver would refuse it.
     """
-    try:
-        course = _parsed(file.read_text(encoding='utf-8'), file.name)
-    except OSError as error:
-        raise CourseRefused(f'{file}: {error.strerror}') from error
-    return Content(
+    course = _read(file)
+    return CourseState(
         points=tuple(_point(waypoint) for waypoint in course.waypoints),
         speed_m_s=course.speed_m_s,
         tolerance_m=course.tolerance_m,
@@ -107,27 +227,22 @@ def path_of(file: Path) -> tuple[Array, Array]:
     """
     Return the driver's path through a waypoint file and its waypoints (n, 2), in the frame odom.
 
-    :raises CourseRefused: if the driver would not take it.
+    :raises CourseRefused: if the driver would refuse it.
     """
-    try:
-        text = file.read_text(encoding='utf-8')
-    except OSError as error:
-        raise CourseRefused(f'{file}: {error.strerror}') from error
-    course = _parsed(text, file.name)
-    route = plan_route(course)
-    line = np.concatenate([_poses(leg) for leg in route.legs])[:, :2]
-    return line, np.array([(waypoint.x_m, waypoint.y_m) for waypoint in course.waypoints])
+    course = _read(file)
+    waypoints = np.array([(waypoint.x_m, waypoint.y_m) for waypoint in course.waypoints])
+    return _path(course)[:, :2], waypoints
 
 
-def save(draft: Draft, folder: Path, name: str) -> Path:
+def save(state: CourseState, folder: Path, name: str) -> Path:
     """
-    Write a draft as NAME.yaml, whole or not at all.
+    Write a course as NAME.yaml, whole or not at all.
 
-    :raises CourseRefused: if the driver would not take it, or the name or the folder cannot be.
+    :raises CourseRefused: if the driver would refuse it, or the name or the folder is invalid.
     """
     if not NAME.fullmatch(name):
         raise CourseRefused(f'name {name!r}: letters, digits, _ and - are allowed, 1 to 61')
-    text = draft.text()
+    text = state.text()
     _parsed(text, f'{name}.yaml')
     file = folder / f'{name}.yaml'
     part = folder / f'.{name}.yaml.part'

@@ -1,21 +1,36 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Marks on the ground: the given path, its waypoints, the look-ahead point, lidar hits."""
+"""What is drawn into the scene: trails, paths, waypoints, points, lidar hits and collisions."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable
+import math
+from typing import Any, NamedTuple
 
+from husky_course.record import Collision
 import numpy as np
 import numpy.typing as npt
 import trimesh
 import viser
 
 from husky_view.picture import palette
-from husky_view.picture.trail import segments, THICKNESS_PX
+from husky_view.picture.palette import Rgb
 
 Array = npt.NDArray[np.float64]
+Colors = Rgb | npt.NDArray[np.uint8]
 
-DISC_RADIUS_M = 0.12
+THICKNESS_PX = 3.0
+TRAIL_STEP_M = 0.05
+"""Points of a trail nearer than this to the one before are left out."""
+
+PIECE_POINTS, MOST_PIECES = 100, 200
+FLASH_SEC = 2.5
+"""Of wall time."""
+
+MOST_COLLISIONS = 50
+PIN_M = 1.2
+"""Height of a collision's pin: lower, walls and the robot would hide it."""
+
+_FLASH_SCALE = 4.0
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -24,114 +39,222 @@ def lifted(points: Array, height_m: float) -> Array:
     return np.column_stack([points, np.full(len(points), height_m)])
 
 
-class PathMark:
-    """The path that a robot is to follow."""
+def _segments(points: Array) -> npt.NDArray[np.float32]:
+    return np.stack([points[:-1], points[1:]], axis=1).astype(np.float32)
 
-    def __init__(self, server: viser.ViserServer, name: str) -> None:
+
+def add_line(
+    server: viser.ViserServer,
+    name: str,
+    points: Array,
+    colors: Colors,
+    *,
+    thickness_px: float = THICKNESS_PX,
+) -> viser.LineSegmentsHandle:
+    """
+    Draw a polyline (n, 3) in place of the one of this name.
+
+    :param colors: one for all, or shape (n - 1, 2, 3): of both ends of each segment.
+    """
+    return server.scene.add_line_segments(
+        name, _segments(points), colors, thickness=thickness_px, thickness_units='screen'
+    )
+
+
+class Trail:
+    """
+    A line that grows.
+
+    The page gets a line whole whenever it changes. So a trail is cut into pieces: only the last
+    one, which is short, is sent again. The oldest are removed.
+    """
+
+    def __init__(self, server: viser.ViserServer, name: str, color: Rgb) -> None:
         self._server = server
         self._name = name
-        self._line: Any = None
+        self._color = color
+        self._pieces: list[viser.LineSegmentsHandle] = []
+        self._points: list[tuple[float, float, float]] = []  # of the last piece
+        self._drawn = 0  # points of the last piece
+        self._made = 0
 
-    def show(self, points: Array) -> None:
-        """Draw a line through points (n, 3); fewer than two clear it."""
-        if self._line is not None:
-            self._line.remove()
-            self._line = None
-        if len(points) >= 2:
-            self._line = self._server.scene.add_line_segments(
-                self._name,
-                segments(points),
-                palette.PATH,
-                thickness=THICKNESS_PX,
-                thickness_units='screen',
-            )
+    def extend(self, points: Array) -> None:
+        """Add points (n, 3), in order; `draw` shows them."""
+        for x, y, z in points.tolist():
+            if not self._points or math.dist(self._points[-1], (x, y, z)) >= TRAIL_STEP_M:
+                self._points.append((x, y, z))
+                if len(self._points) > PIECE_POINTS:
+                    self.draw()
+                    self._points = self._points[-1:]
+                    self._drawn = 0
 
-
-class WaypointMarks:
-    """Numbered discs; those reached change their colour."""
-
-    def __init__(self, server: viser.ViserServer, name: str) -> None:
-        self._server = server
-        self._name = name
-        self._nodes: list[Any] = []
-        self._discs: Any = None
-        self._count = 0
-
-    def show(self, points: Array, *, reached: int = 0) -> None:
-        """Put a disc at each of the points (n, 3)."""
-        self.clear()
-        self._count = len(points)
-        if not self._count:
+    def draw(self) -> None:
+        """Send what is new."""
+        if len(self._points) < 2 or len(self._points) == self._drawn:
             return
-        disc = trimesh.creation.cylinder(radius=DISC_RADIUS_M, height=0.01, sections=24)
-        self._discs = self._server.scene.add_batched_meshes_simple(
+        points = np.array(self._points)
+        if self._drawn >= 2:
+            self._pieces[-1].points = _segments(points)
+        else:
+            if len(self._pieces) == MOST_PIECES:
+                self._pieces.pop(0).remove()
+            self._made += 1
+            name = f'{self._name}/{self._made}'
+            self._pieces.append(add_line(self._server, name, points, self._color))
+        self._drawn = len(self._points)
+
+    def clear(self) -> None:
+        """Remove the whole line."""
+        for piece in self._pieces:
+            piece.remove()
+        self._pieces.clear()
+        self._points.clear()
+        self._drawn = 0
+
+
+class NumberedDiscs:
+    """
+    Numbered discs, some of them highlighted.
+
+    :param on_drag: called on a thread of the server with the event of a drag.
+    """
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        name: str,
+        *,
+        radius_m: float,
+        height_m: float,
+        color: Rgb,
+        highlight: Rgb,
+        on_drag: Callable[[Any], None] | None = None,
+    ) -> None:
+        self._scene = server.scene
+        self._name = name
+        self._shape = trimesh.creation.cylinder(radius=radius_m, height=height_m, sections=24)
+        self._color, self._highlight = color, highlight
+        self._on_drag = on_drag
+        self._discs: list[Any] = []  # one handle for all of them, or none
+        self._labels: list[Any] = []
+
+    def show(self, points: Array, *, highlighted: slice = slice(0)) -> None:
+        """Put a disc at each of the points (n, 3)."""
+        if len(points) != len(self._labels):
+            for node in (*self._labels, *self._discs):
+                node.remove()
+            self._labels = [self._add_label(number + 1) for number in range(len(points))]
+            self._discs = [self._add_discs(points)] if len(points) else []
+        for discs in self._discs:
+            discs.batched_positions = points.astype(np.float32)
+        for label, point in zip(self._labels, points, strict=True):
+            label.position = point
+        self.highlight(highlighted)
+
+    def highlight(self, which: slice) -> None:
+        """Highlight these discs and no others."""
+        for discs in self._discs:
+            discs.batched_colors = self._colors(which)
+
+    def _colors(self, highlighted: slice) -> npt.NDArray[np.uint8]:
+        colors = np.tile(np.array(self._color, dtype=np.uint8), (len(self._labels), 1))
+        colors[highlighted] = self._highlight
+        return colors
+
+    def _add_label(self, number: int) -> Any:
+        return self._scene.add_label(
+            f'{self._name}/{number}',
+            str(number),
+            anchor='center-center',
+            font_screen_scale=0.7,
+        )
+
+    def _add_discs(self, points: Array) -> Any:
+        discs = self._scene.add_batched_meshes_simple(
             f'{self._name}/discs',
-            disc.vertices,
-            disc.faces,
-            batched_wxyzs=np.tile(_UPRIGHT, (self._count, 1)),
+            self._shape.vertices,
+            self._shape.faces,
+            batched_wxyzs=np.tile(_UPRIGHT, (len(points), 1)),
             batched_positions=points,
-            batched_colors=self._colors(reached),
+            batched_colors=self._colors(slice(0)),
             lod='off',
             cast_shadow=False,
         )
-        self._nodes = [self._discs] + [
-            self._server.scene.add_label(
-                f'{self._name}/{number}',
-                str(number + 1),
-                position=(float(x), float(y), float(z)),
-                anchor='center-center',
-                font_screen_scale=0.7,
-            )
-            for number, (x, y, z) in enumerate(points)
-        ]
+        if self._on_drag is not None:
+            on_drag = self._on_drag
 
-    def set_reached(self, reached: int) -> None:
-        """Colour the first so many discs as reached."""
-        if self._discs is not None:
-            self._discs.batched_colors = self._colors(reached)
+            @discs.on_drag
+            async def _(event: Any) -> None:  # a coroutine: drags come in order
+                on_drag(event)
 
-    def _colors(self, reached: int) -> npt.NDArray[np.uint8]:
-        colors = np.tile(np.array(palette.WAYPOINT, dtype=np.uint8), (self._count, 1))
-        colors[:reached] = palette.REACHED
-        return colors
+        return discs
+
+
+class _Flash(NamedTuple):
+    begun_sec: float
+    ball: Any
+    label: Any
+    obstacle: str
+
+
+class CollisionMarks:
+    """Collisions: a red flash at the place, and then a pin with the obstacle's name."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self._server = server
+        self._nodes: list[Any] = []
+        self._flashing: list[_Flash] = []
+        self.count = 0
+
+    def add(self, collision: Collision, *, now_sec: float) -> None:
+        """Flash at a collision; now is of a steady wall clock. Only the first 50 are drawn."""
+        self.count += 1
+        if self.count > MOST_COLLISIONS:
+            return
+        name = f'/collisions/{self.count}'
+        scene, (x, y, z) = self._server.scene, collision.position
+        pole = scene.add_cylinder(
+            f'{name}/pole',
+            radius=0.02,
+            height=PIN_M,
+            color=palette.COLLISION,
+            position=(x, y, z + PIN_M / 2.0),
+            cast_shadow=False,
+        )
+        ball = scene.add_icosphere(
+            f'{name}/ball',
+            radius=0.08,
+            color=palette.COLLISION,
+            position=(x, y, z + PIN_M),
+            scale=_FLASH_SCALE,
+            cast_shadow=False,
+        )
+        label = scene.add_label(
+            f'{name}/label',
+            f'⚠ {collision}',
+            position=(x, y, z + PIN_M + 0.4),
+            anchor='bottom-center',
+        )
+        self._nodes += [pole, ball, label]
+        self._flashing.append(_Flash(now_sec, ball, label, collision.obstacle))
+
+    def update(self, now_sec: float) -> None:
+        """Animate the flashes; call it with every frame."""
+        for flash in list(self._flashing):
+            age = (now_sec - flash.begun_sec) / FLASH_SEC
+            if age >= 1.0:
+                flash.ball.scale = 1.0
+                flash.label.text = f'⚠ {flash.obstacle}'
+                flash.label.font_screen_scale = 0.7
+                self._flashing.remove(flash)
+            else:
+                pulse = 1.0 if int(age * 10) % 2 == 0 else 0.5
+                flash.ball.scale = 1.0 + (_FLASH_SCALE - 1.0) * (1.0 - age) * pulse
 
     def clear(self) -> None:
-        """Take all of them away."""
+        """Remove all of them."""
         for node in self._nodes:
             node.remove()
         self._nodes.clear()
-        self._discs = None
-
-
-class PointMark:
-    """A ball at one place, hidden until it is put somewhere."""
-
-    def __init__(self, server: viser.ViserServer, name: str, color: palette.Rgb) -> None:
-        self._ball = server.scene.add_icosphere(
-            name, radius=0.09, color=color, visible=False, cast_shadow=False
-        )
-
-    def show(self, position: Sequence[float] | None) -> None:
-        """Put it there; None hides it."""
-        if position is not None:
-            self._ball.position = np.asarray(position)
-        self._ball.visible = position is not None
-
-
-class LidarMark:
-    """The places that the beams of a lidar hit."""
-
-    def __init__(self, server: viser.ViserServer, name: str) -> None:
-        self._cloud = server.scene.add_point_cloud(
-            name,
-            points=np.zeros((1, 3), dtype=np.float32),
-            colors=palette.LIDAR,
-            point_size=0.04,
-            visible=False,
-        )
-
-    def show(self, points: Array) -> None:
-        """Show hits (n, 3) in the world; none hide the cloud."""
-        self._cloud.visible = len(points) > 0
-        if len(points):
-            self._cloud.points = points.astype(np.float32)
+        self._flashing.clear()
+        self.count = 0

@@ -1,30 +1,38 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the page needs beyond viser's own elements: keys that drive, a pad, and room on a phone.
+What the page has beyond viser's own elements: keys that drive, a pad, room on a phone, figures.
 
-viser has no element for keys that are held, so a script presses the buttons of the pad on their
-behalf. viser puts an element's HTML into the page as it is but does not run scripts in it; an
-image that cannot be loaded does run its `onerror`.
+viser has no element for keys that are held, so a script presses the buttons of the pad instead.
 """
 
-from html import escape
+from collections.abc import Sequence
+from enum import Enum
 import json
 
-from husky_view.picture.pad import Direction
+import viser
+from viser._messages import RunJavascriptMessage
 
-_KEYS = {
-    'ArrowUp': Direction.FORWARD,
-    'ArrowLeft': Direction.LEFT,
-    'ArrowRight': Direction.RIGHT,
-    'ArrowDown': Direction.BACK,
-}
-_AREAS = {
-    Direction.FORWARD: 'up',
-    Direction.LEFT: 'left',
-    Direction.RIGHT: 'right',
-    Direction.BACK: 'down',
-}
+from husky_view.picture.palette import css, LEGEND
+
+STOP, RELEASE = 'STOP', 'Release the stop'
+
+
+class Direction(Enum):
+    """A button that drives: its sign, its key, its place on the pad, and where it drives to."""
+
+    FORWARD = ('▲', 'ArrowUp', 'up', 1.0, 0.0)
+    LEFT = ('◀', 'ArrowLeft', 'left', 0.0, 1.0)
+    RIGHT = ('▶', 'ArrowRight', 'right', 0.0, -1.0)
+    BACK = ('▼', 'ArrowDown', 'down', -1.0, 0.0)
+
+    def __init__(self, sign: str, key: str, area: str, forward: float, left: float) -> None:
+        self.sign = sign
+        self.key = key
+        self.area = area
+        self.forward = forward
+        self.left = left
+
 
 _STYLE = """
 .husky-pad { display: grid !important; gap: 0.3em; padding: 0 0.6em 0.4em;
@@ -33,7 +41,7 @@ _STYLE = """
 .husky-pad button { height: 2.6em !important; touch-action: none; user-select: none;
   -webkit-user-select: none; }
 @media (max-width: 576px) {
-  .husky-legend { display: none; }
+  .husky-page > * { display: none !important; }
   [style*="width: 20em"]:has(.husky-page) { width: 100% !important; }
   [style*="position: fixed"]:has(.husky-page) { max-height: 52% !important; }
 }
@@ -41,78 +49,109 @@ _STYLE = """
 """
 
 _SCRIPT = """
-if (!window.huskyPad) {
-  const keys = KEYS, areas = AREAS;
-  const button = (sign) => [...document.querySelectorAll('button')]
-    .find((b) => b.textContent.trim() === sign);
-  const send = (sign, type) => {
-    const b = button(sign);
-    if (b) b.dispatchEvent(new PointerEvent(type,
-      {bubbles: true, cancelable: true, button: 0, pointerId: 1, pointerType: 'mouse'}));
-  };
-  const held = new Set();
-  const release = (key) => {
-    if (!held.delete(key)) return;
-    send(keys[key], 'pointerup');
-    send(keys[key], 'click');
-  };
-  const typing = (e) => e.target.closest &&
-    e.target.closest('input, textarea, select, [role=slider], [role=tab], [contenteditable]');
-  window.addEventListener('keydown', (e) => {
-    if (!(e.key in keys) || e.ctrlKey || e.altKey || e.metaKey || typing(e)) return;
-    if (!button(keys[e.key])) return;
-    e.preventDefault(); e.stopImmediatePropagation();
-    if (!held.has(e.key)) { held.add(e.key); send(keys[e.key], 'pointerdown'); }
-  }, true);
-  window.addEventListener('keyup', (e) => {
-    if (held.has(e.key)) { e.preventDefault(); e.stopImmediatePropagation(); release(e.key); }
-  }, true);
-  const releaseAll = () => [...held].forEach(release);
-  window.addEventListener('blur', releaseAll);
-  window.addEventListener('pagehide', releaseAll);
-  document.addEventListener('visibilitychange', releaseAll);
-  const makeRoom = () => {
-    const canvas = [...document.querySelectorAll('canvas')].find((c) => c.clientWidth > 100);
-    let panel = document.querySelector('.husky-page');
-    while (panel && getComputedStyle(panel).position !== 'fixed') panel = panel.parentElement;
-    if (!canvas || !panel) return;
-    const over = window.matchMedia('(max-width: 576px)').matches;
-    const height = over ? `${Math.round(panel.getBoundingClientRect().top)}px` : '100%';
-    const box = canvas.parentElement.parentElement;
-    if (box.style.height !== height) box.style.height = height;
-  };
-  const arrange = () => {
-    makeRoom();
-    for (const sign in areas) {
-      const b = button(sign);
-      if (!b || !b.parentElement) continue;
-      if (b.parentElement.style.gridArea) continue;
-      b.parentElement.style.gridArea = areas[sign];
-      b.parentElement.parentElement.classList.add('husky-pad');
-    }
-    const stop = [...document.querySelectorAll('button')]
-      .find((b) => STOPS.includes(b.textContent.trim()));
-    if (stop) stop.classList.add('husky-stop');
-    // To be without a graphics processor is nothing to warn of here; and it hides the scene.
-    for (const note of document.querySelectorAll('.mantine-Notification-root'))
-      if (note.textContent.startsWith('Software WebGL')) note.querySelector('button').click();
-  };
-  arrange();
-  window.huskyPad = setInterval(arrange, 100);
-}
+if (window.huskyPage) return;  // it runs again when a tab has lost its connection
+const keys = KEYS, areas = AREAS;
+const style = document.createElement('style');
+style.textContent = STYLE;
+document.head.append(style);
+const buttons = () => [...document.querySelectorAll('button')];
+const button = (sign) => buttons().find((b) => b.textContent.trim() === sign);
+const send = (sign, type) => {
+  const b = button(sign);
+  if (b) b.dispatchEvent(new PointerEvent(type,
+    {bubbles: true, cancelable: true, button: 0, pointerId: 1, pointerType: 'mouse'}));
+};
+const held = new Set();
+const release = (key) => {
+  if (!held.delete(key)) return;
+  send(keys[key], 'pointerup');
+  send(keys[key], 'click');
+};
+const typing = (e) => e.target.closest &&
+  e.target.closest('input, textarea, select, [role=slider], [role=tab], [contenteditable]');
+const consume = (e) => { e.preventDefault(); e.stopImmediatePropagation(); };
+window.addEventListener('keydown', (e) => {
+  if (!(e.key in keys) || e.ctrlKey || e.altKey || e.metaKey || typing(e)) return;
+  if (!button(keys[e.key])) return;
+  consume(e);
+  if (!held.has(e.key)) { held.add(e.key); send(keys[e.key], 'pointerdown'); }
+}, true);
+window.addEventListener('keyup', (e) => {
+  if (held.has(e.key)) { consume(e); release(e.key); }
+}, true);
+const releaseAll = () => [...held].forEach(release);
+window.addEventListener('blur', releaseAll);
+window.addEventListener('pagehide', releaseAll);
+document.addEventListener('visibilitychange', releaseAll);
+const makeRoom = () => {
+  const canvas = [...document.querySelectorAll('canvas')].find((c) => c.clientWidth > 100);
+  let panel = document.querySelector('.husky-page');
+  while (panel && getComputedStyle(panel).position !== 'fixed') panel = panel.parentElement;
+  if (!canvas || !panel) return;
+  const over = window.matchMedia('(max-width: 576px)').matches;
+  const height = over ? `${Math.round(panel.getBoundingClientRect().top)}px` : '100%';
+  const box = canvas.parentElement.parentElement;
+  if (box.style.height !== height) box.style.height = height;
+};
+const arrange = () => {
+  makeRoom();
+  for (const sign in areas) {
+    const cell = button(sign)?.parentElement;
+    if (!cell || cell.style.gridArea) continue;
+    cell.style.gridArea = areas[sign];
+    cell.parentElement.classList.add('husky-pad');
+  }
+  const stop = buttons().find((b) => STOPS.includes(b.textContent.trim()));
+  if (stop) stop.classList.add('husky-stop');
+  // The scene is made for software rendering; the notification would hide a part of it.
+  for (const note of document.querySelectorAll('.mantine-Notification-root'))
+    if (note.textContent.startsWith('Software WebGL')) note.querySelector('button').click();
+};
+arrange();
+window.huskyPage = setInterval(arrange, 100);
 """
 
-STOP, GO = 'STOP', 'Release the stop'
 
-
-def page_html() -> str:
-    """Return an element without looks that makes the page what it has to be."""
+def add_page_script(server: viser.ViserServer) -> None:
+    """Run the script of the page in every tab, also in those that open later."""
     script = (
-        _SCRIPT.replace('KEYS', json.dumps({key: d.sign for key, d in _KEYS.items()}))
-        .replace('AREAS', json.dumps({d.sign: area for d, area in _AREAS.items()}))
-        .replace('STOPS', json.dumps([STOP, GO]))
+        _SCRIPT.replace('KEYS', json.dumps({d.key: d.sign for d in Direction}))
+        .replace('AREAS', json.dumps({d.sign: d.area for d in Direction}))
+        .replace('STOPS', json.dumps([STOP, RELEASE]))
+        .replace('STYLE', json.dumps(_STYLE))
+    )
+    # viser loads Plotly by this message and has no public method for it. The server keeps the
+    # message for new tabs; the elements' HTML cannot do it, for viser runs no scripts in it.
+    server.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
+
+
+def legend_html() -> str:
+    """Return the legend: a coloured bar and a word for each. The script finds the panel by it."""
+    rows = ''.join(
+        '<span style="display:inline-flex;align-items:center;gap:.4em;margin-right:.9em">'
+        f'<i style="width:1.4em;height:.35em;border-radius:.2em;background:{css(color)};'
+        'outline:1px solid #0003"></i>'
+        f'{name}</span>'
+        for color, name in LEGEND
+    )
+    style = 'padding:0 1em .6em;font-size:.8em;line-height:1.5'
+    return f'<div class="husky-page"><div style="{style}">{rows}</div></div>'
+
+
+def figures_html(cells: Sequence[tuple[str, str, str]], *, red: str = '') -> str:
+    """
+    Return figures as a small table.
+
+    :param cells: label, value and key of each.
+    :param red: key of the one that is drawn in red.
+    """
+    rows = ''.join(
+        '<div style="min-width:5.6em"><div style="opacity:.65;font-size:.78em">'
+        f'{label}</div><b data-number="{key}" style="font-variant-numeric:tabular-nums'
+        f'{";color:#e33" if key == red else ""}">{value}</b></div>'
+        for label, value, key in cells
     )
     return (
-        f'<style>{_STYLE}</style><span class="husky-page"></span>'
-        f'<img src="data:," alt="" style="display:none" onerror="{escape(script, quote=True)}">'
+        '<div style="display:grid;grid-template-columns:1fr 1fr 1fr;gap:.35em .6em;'
+        f'padding:.2em 1em .6em">{rows}</div>'
     )

@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The colours of the view, and the legend that explains them."""
+"""The colours of the view, and what they mean."""
 
 Rgb = tuple[int, int, int]
 
-# Told apart by people of every colour vision, on dark asphalt (after Okabe and Ito, 2008).
+# Safe for colour-blind people, on dark asphalt (after Okabe and Ito, 2008).
 PATH: Rgb = (86, 180, 233)
 TRUE_TRAIL: Rgb = (240, 228, 66)
 ODOMETRY_TRAIL: Rgb = (230, 120, 200)
@@ -32,18 +32,5 @@ LEGEND: tuple[tuple[Rgb, str], ...] = (
 
 
 def css(color: Rgb) -> str:
-    """Write a colour as a style sheet wants it."""
+    """Return a colour as a CSS value."""
     return f'rgb({color[0]},{color[1]},{color[2]})'
-
-
-def legend_html() -> str:
-    """Return the legend: a coloured bar and a word for each."""
-    rows = ''.join(
-        '<span style="display:inline-flex;align-items:center;gap:.4em;margin-right:.9em">'
-        f'<i style="width:1.4em;height:.35em;border-radius:.2em;background:{css(color)};'
-        'outline:1px solid #0003"></i>'
-        f'{name}</span>'
-        for color, name in LEGEND
-    )
-    style = 'padding:0 1em .6em;font-size:.8em;line-height:1.5'
-    return f'<div class="husky-legend" style="{style}">{rows}</div>'

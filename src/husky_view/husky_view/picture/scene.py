@@ -16,15 +16,17 @@ GROUND_LINES = (160, 158, 152)
 
 SKY = (235, 242, 255)
 SKY_ABOVE, SKY_BELOW = (150, 190, 230), (245, 248, 252)
-# Name, from where it shines, how bright. Two, or what faces away from the sun would look flat.
+# Name, position, intensity. With one light alone, sides in its shadow would look flat.
 SUNS = (('sun', (-6.0, -9.0, 14.0), 2.2), ('second_sun', (9.0, 4.0, 6.0), 0.7))
 
 ABOVE_GROUND_M = 0.02
-"""Lines are drawn so far above the ground, or they would flicker in it."""
+"""Height of lines: at the height of the ground they would flicker."""
+
+_BASE_HEIGHT_M = 0.12836  # of base_link above the ground: husky.xml
 
 
 class PlaypenScene:
-    """A world on the page, in the poses it was last shown in."""
+    """A world on the page."""
 
     def __init__(self, server: viser.ViserServer, world: World) -> None:
         self.world = world
@@ -38,37 +40,34 @@ class PlaypenScene:
         self._lasers = [world.model.site(f'{robot.name}/front_laser').id for robot in world.robots]
         self._bases = [world.model.body(f'{robot.name}/base_link').id for robot in world.robots]
         self.ground_m = float(self._data.xpos[self._bases[0]][2]) - _BASE_HEIGHT_M
-        self._show()
+        self._scene.update_from_mjdata(self._data)
 
     def show(self, qpos: Array) -> None:
-        """Put everything where the joints say."""
+        """Draw the world at these joint positions."""
         self._data.qpos[:] = qpos
         mujoco.mj_kinematics(self.world.model, self._data)
-        self._show()
-
-    def _show(self) -> None:
         self._scene.update_from_mjdata(self._data)
 
     def position(self, robot: int) -> Array:
-        """Return where a robot's base_link is, in the world."""
+        """Return the position of a robot's base_link in the world."""
         position: Array = self._data.xpos[self._bases[robot]].copy()
         return position
 
     def beam_ends(self, robot: int, ranges: Array, angles: Array) -> Array:
-        """Return where beams end (n, 3): angles in radians to the left, ranges in metres."""
+        """Return the ends of beams (n, 3) in the world; angles in radians to the left."""
         laser = self._lasers[robot]
-        turn = self._data.site_xmat[laser].reshape(3, 3)
+        rotation = self._data.site_xmat[laser].reshape(3, 3)
         beams = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * angles])
-        ends: Array = beams @ turn.T + self._data.site_xpos[laser]
+        ends: Array = beams @ rotation.T + self._data.site_xpos[laser]
         return ends
 
 
 def _light(server: viser.ViserServer) -> None:
     """
-    Light the scene as a bright day does.
+    Light the scene without shadows and reflections.
 
-    Without a graphics processor, mjviser's reflections of surroundings and viser's shadows take
-    seconds a frame; with lights that only shine it is 20 frames a second.
+    Without a graphics processor, mjviser's environment map and viser's shadows take seconds a
+    frame; plain lights give 20 frames a second.
     """
     scene = server.scene
     scene.configure_environment_map(None)
@@ -84,7 +83,7 @@ def _light(server: viser.ViserServer) -> None:
 
 
 def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
-    """Make endless planes look like ground: mjviser draws them as white paper with squares."""
+    """Give planes the colour of ground: mjviser draws them white with a grid."""
     for geom in range(model.ngeom):
         if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE:
             continue
@@ -97,7 +96,7 @@ def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
 
 
 def _color_textured(model: mujoco.MjModel) -> None:
-    """Give a material with a texture its mean colour: on boxes the page shows no textures."""
+    """Give a material with a texture its mean colour: mjviser draws no textures on boxes."""
     role = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
     for material in range(model.nmat):
         texture = int(model.mat_texid[material, role])
@@ -107,6 +106,3 @@ def _color_textured(model: mujoco.MjModel) -> None:
         size = int(model.tex_width[texture]) * int(model.tex_height[texture]) * 3
         pixels = model.tex_data[first : first + size].reshape(-1, 3)
         model.mat_rgba[material, :3] *= pixels.mean(axis=0) / 255.0
-
-
-_BASE_HEIGHT_M = 0.12836  # of base_link above the ground: husky.xml

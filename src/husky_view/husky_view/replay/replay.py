@@ -9,7 +9,7 @@ from pathlib import Path
 import signal
 import sys
 import time
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from husky_course.record import RecordRefused
 from husky_sim.errors import SimulatorError
@@ -19,17 +19,18 @@ import numpy as np
 import viser
 
 from husky_view.editor.course import CourseRefused, path_of
+from husky_view.picture.geometry import to_world
 from husky_view.picture.picture import Picture
-from husky_view.picture.planar import to_world
-from husky_view.replay.playback import Playback
-from husky_view.replay.replay_panel import ReplayPanel, SLIDER_HZ
-from husky_view.replay.run import load_run, Poser, Run
-from husky_view.server import address_of, AddressError, close_server, open_server
-from husky_view.work import Work
+from husky_view.replay.panel import Playback, ReplayPanel
+from husky_view.replay.run import load_run, Run, RunScenes
+from husky_view.server import ActionQueue, address_of, AddressError, close_server, open_server
 
 WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
+PANEL_HZ = 10.0
 BAD_INPUT = 2
+
+_ODOM_X, _SPEED = TRACK.index('odom_x'), TRACK.index('speed_m_s')
 
 
 class Replay:
@@ -46,14 +47,13 @@ class Replay:
         self._run = run
         world = load_world(run.world, run.robots)
         self._picture = Picture(server, world)
-        self._poser = Poser(run, world)
-        self.playback = Playback(run.duration_sec)
-        self._work = Work()
+        self._scenes = RunScenes(run, world)
+        self._playback = Playback(run.duration_sec)
+        self._actions = ActionQueue()
         self._panel = ReplayPanel(
-            server, self._work, self.playback, run.collisions, self._on_choose_camera
+            server, self._actions, self._playback, run.collisions, self._picture.choose_camera
         )
-        self._shown = 0  # the entry shown last
-        self._told = 0  # collisions shown
+        self._entry = 0  # the one drawn last
         self._panel_due_sec = 0.0
 
     def show_course(self, file: Path) -> None:
@@ -67,55 +67,42 @@ class Replay:
         self._picture.robots[0].set_waypoints(waypoints)
 
     def frame(self, wall_sec: float, *, now_sec: float) -> None:
-        """Let so much wall time pass; now is of a steady clock."""
-        self._work.do()
-        playback, run = self.playback, self._run
+        """Advance by a wall time; now is of a steady clock."""
+        self._actions.run()
+        playback = self._playback
         jumped = playback.step(wall_sec)
-        entry = run.entry_at(playback.time_sec)
+        entry = self._run.entry_at(playback.time_sec)
         if jumped:
             self._picture.clear()
-            self._picture.time_sec = 0.0
-            self._shown = self._told = 0
-        if jumped or entry != self._shown:
+            self._entry = 0
+        if jumped or entry != self._entry:
             self._picture.show(
-                self._poser.scene(min(self._shown, entry), entry, paused=not playback.playing)
+                self._scenes.scene(min(self._entry, entry), entry, paused=not playback.playing)
             )
-            self._shown = entry
+            self._entry = entry
         self._show_collisions(now_sec)
         self._picture.draw(now_sec)
         if jumped or now_sec >= self._panel_due_sec:
-            self._panel_due_sec = now_sec + 1.0 / SLIDER_HZ
+            self._panel_due_sec = now_sec + 1.0 / PANEL_HZ
             self._show_figures(entry)
         self._server.flush()
 
     def _show_collisions(self, now_sec: float) -> None:
-        collisions = self._run.collisions
-        while (
-            self._told < len(collisions)
-            and collisions[self._told].time_sec <= self.playback.time_sec + 1e-6
-        ):
-            self._picture.collide(collisions[self._told], now_sec=now_sec)
-            self._told += 1
+        marks = self._picture.collisions
+        for collision in self._run.collisions[marks.count :]:
+            if collision.time_sec > self._playback.time_sec + 1e-6:
+                break
+            marks.add(collision, now_sec=now_sec)
 
     def _show_figures(self, entry: int) -> None:
-        robot = self._run.track[entry, self._picture.followed]
-        odom = TRACK.index('odom_x')
-        start = self._run.robots[self._picture.followed]
-        believed = to_world(start, robot[None, odom : odom + 2])[0]
+        place = self._picture.followed
+        robot = self._run.track[entry, place]
+        start = self._run.robots[place]
+        odometry = to_world(start, robot[None, _ODOM_X : _ODOM_X + 2])[0]
         self._panel.show(
-            speed_m_s=float(robot[TRACK.index('speed_m_s')]),
-            drift_m=float(np.hypot(*(believed - robot[:2]))),
-            collisions=self._told,
-        )
-
-    def _on_choose_camera(self, client: Any, preset: str) -> None:
-        followed = self._picture.followed
-        self._picture.cameras.choose(
-            client,
-            preset,
-            robot=self._picture.scene.position(followed),
-            yaw=self._picture.robots[followed].yaw,
-            now_sec=time.monotonic(),
+            speed_m_s=float(robot[_SPEED]),
+            drift_m=float(np.hypot(*(odometry - robot[:2]))),
+            collisions=self._picture.collisions.count,
         )
 
 

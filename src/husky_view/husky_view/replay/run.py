@@ -82,7 +82,7 @@ def _wheel_turns(table: Array) -> Array:
     return np.asarray(np.cumsum(rates * steps[:, None], axis=0))
 
 
-class Poser:
+class RunScenes:
     """
     Makes the scenes of a run.
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Poses in the plane: from a robot's odometry frame into the world and back."""
+"""Geometry of the plane: the frames odom and world, the ground, and distances."""
 
 from collections.abc import Sequence
 import math
@@ -13,23 +13,24 @@ Array = npt.NDArray[np.float64]
 
 
 def to_world(start: RobotStart, points: Array) -> Array:
-    """Bring points (n, 2) from the frame odom of a robot that started there into the world."""
-    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
-    turn = np.array([[cos, sin], [-sin, cos]])
-    return points @ turn + np.array([start.x, start.y])
+    """Transform points (n, 2) from the frame odom of a robot with this start into the world."""
+    return points @ _rotation(start.yaw).T + np.array([start.x, start.y])
 
 
 def to_odom(start: RobotStart, points: Array) -> Array:
-    """Bring points (n, 2) of the world into the frame odom of a robot that started there."""
-    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
-    turn = np.array([[cos, -sin], [sin, cos]])
-    return (points - np.array([start.x, start.y])) @ turn
+    """Transform points (n, 2) of the world into the frame odom of a robot with this start."""
+    return (points - np.array([start.x, start.y])) @ _rotation(start.yaw)
+
+
+def _rotation(yaw: float) -> Array:
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return np.array([[cos, -sin], [sin, cos]])
 
 
 def on_ground(
     origin: Sequence[float] | Array, direction: Sequence[float] | Array, height_m: float
 ) -> Array | None:
-    """Return where (x, y) a ray meets a level ground; None if it does not."""
+    """Return the (x, y) where a ray meets level ground; None if it does not."""
     if direction[2] >= -1e-6 or origin[2] <= height_m:
         return None
     along = (height_m - origin[2]) / direction[2]

@@ -1,0 +1,223 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page of one running simulation."""
+
+from contextlib import ExitStack
+import math
+from pathlib import Path
+import time
+
+from husky_sim.errors import SimulatorError
+from husky_sim.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
+from husky_sim.world import load_world, World
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.task import Future
+from std_msgs.msg import Float64MultiArray
+import viser
+
+from husky_view.editor.editor import Editor
+from husky_view.live.checks import RealTimeFactor, SceneCheck, SimulatorMonitor, State
+from husky_view.live.driver_process import DRIVER, DriverProcess
+from husky_view.live.links import RobotLink, SimulatorControl, SimulatorQuery
+from husky_view.live.panel import Controls, Figures, Panel
+from husky_view.picture.picture import Picture
+from husky_view.server import ActionQueue
+
+FIGURES_HZ = 5.0
+_LOOK_FOR_FILES_SEC = 2.0
+
+_WARNINGS = {
+    State.HERE: '',
+    State.GONE: 'The simulator is gone, or it hangs. This page goes on as soon as it is back.',
+    State.ANOTHER_WORLD: 'Another world is simulated now than the one in {world}. If this stays, '
+    'start the simulator again.',
+    State.TWO: 'Two simulators run at the same time: end one of them. The first is shown.',
+}
+
+_INVALID = 'Not drawn, for it cannot be true: {what}.'
+_INVALID_SEC = 3.0
+
+
+class LiveView:
+    """
+    Shows one simulation and controls it.
+
+    :param query: of the simulator; asked again when scenes of another world come.
+    :param folder: where the editor keeps waypoint files.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        server: viser.ViserServer,
+        query: SimulatorQuery,
+        world: World,
+        folder: Path,
+    ) -> None:
+        self.next_world: Future[World] = Future()  # done when another world is to be shown
+        self._node = node
+        self._server = server
+        self._query = query
+        self._world = world
+        self._monitor = SimulatorMonitor(world_key(world), now_sec=time.monotonic())
+        self._check = SceneCheck(world)
+        self._factor = RealTimeFactor()
+        self._scene: Scene | None = None  # the newest
+        self._invalid, self._invalid_sec = '', -math.inf
+        self._driven = 0  # place of the robot that is driven
+        self._figures_due_sec = 0.0
+        self._actions = ActionQueue()
+        self._driver = DriverProcess()
+        self._picture = Picture(server, world)
+        self._control = SimulatorControl(node, query.name, self._on_refused)
+        many = len(world.robots) > 1
+        self._links = [
+            RobotLink(
+                node, self._picture, place, f'{robot.name}/' if many else '', self._on_invalid
+            )
+            for place, robot in enumerate(world.robots)
+        ]
+        robots = [robot.name for robot in world.robots]
+        self._panel = Panel(server, self._actions, self._controls(), robots=robots)
+        self._editor = Editor(
+            server,
+            self._actions,
+            world,
+            folder=folder,
+            ground_m=self._picture.scene.ground_m,
+            drive=self._on_drive_file,
+            notify=self._panel.notify,
+        )
+        self._closing = ExitStack()
+        self._create_entities()
+
+    def _controls(self) -> Controls:
+        return Controls(
+            pause=self._control.pause,
+            step=self._control.step,
+            reset=self._control.reset,
+            set_factor=self._control.set_factor,
+            stop=self._on_stop,
+            choose_robot=self._on_choose_robot,
+            choose_camera=self._picture.choose_camera,
+        )
+
+    def _create_entities(self) -> None:
+        node, steady = self._node, Clock(clock_type=ClockType.STEADY_TIME)
+        for close in (self._editor.close, self._control.close, self._driver.end):
+            self._closing.callback(close)
+        for link in self._links:
+            self._closing.callback(link.close)
+        scenes = node.create_subscription(
+            Float64MultiArray, f'{self._query.name}/scene', self._on_scene, QOS
+        )
+        self._closing.callback(node.destroy_subscription, scenes)
+        for period_sec, callback in (
+            (1.0 / RATE_HZ, self._on_frame),
+            (_LOOK_FOR_FILES_SEC, self._editor.look_for_files),
+        ):
+            timer = node.create_timer(period_sec, callback, clock=steady)
+            self._closing.callback(node.destroy_timer, timer)
+
+    def close(self) -> None:
+        """Stop showing it, and end the driver that was started here; may be called twice."""
+        self._closing.close()
+
+    def _on_scene(self, msg: Float64MultiArray) -> None:
+        now = time.monotonic()
+        if not self._monitor.accept(*origin_of(msg), now_sec=now):
+            return
+        try:
+            scene = read_scene(msg, robots=len(self._links))
+        except ValueError as error:
+            self._on_invalid(f'~/scene: {error}')
+            return
+        if reason := self._check.error_in(scene):
+            self._on_invalid(f'~/scene: {reason}')
+            return
+        self._factor.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
+        self._scene = scene
+        self._picture.show(scene)
+
+    def _on_invalid(self, what: str) -> None:
+        """Report what is not drawn: on the page for a while, in the log once."""
+        if what != self._invalid:
+            self._node.get_logger().warning(_INVALID.format(what=what))
+        self._invalid, self._invalid_sec = what, time.monotonic()
+
+    def _warning(self, state: State, now_sec: float) -> str:
+        if state is State.HERE and now_sec - self._invalid_sec < _INVALID_SEC:
+            return _INVALID.format(what=self._invalid)
+        return _WARNINGS[state].format(world=self._world.path)
+
+    def _on_frame(self) -> None:
+        now = time.monotonic()
+        self._actions.run()
+        command = self._panel.teleop.command(now_sec=now)
+        if command is not None:
+            self._links[self._driven].drive(*command, now_sec=now)
+        for link in self._links:
+            link.draw(now)
+        self._picture.draw(now)
+        if now >= self._figures_due_sec:
+            self._figures_due_sec = now + 1.0 / FIGURES_HZ
+            state = self._monitor.state(now_sec=now)
+            self._panel.show_warning(self._warning(state, now))
+            if self._scene is not None:
+                self._panel.show(self._figures(self._scene, state))
+            if state is State.ANOTHER_WORLD:
+                self._look_for_another_world()
+        self._server.flush()
+
+    def _look_for_another_world(self) -> None:
+        answer = self._query.poll()
+        if answer is None or self.next_world.done():
+            return
+        try:
+            world = load_world(*answer)
+        except SimulatorError as error:
+            self._on_refused('Not shown', str(error))
+            return
+        if world_key(world) != self._monitor.world:
+            self._node.get_logger().info(f'another simulation runs now: {world.path}')
+            self.next_world.set_result(world)
+
+    def _figures(self, scene: Scene, state: State) -> Figures:
+        robot = self._picture.robots[self._driven]
+        unknown = scene.paused or state is State.GONE
+        return Figures(
+            time_sec=float(scene.time_sec[-1]),
+            real_time_factor=None if unknown else self._factor.value,
+            paused=scene.paused,
+            speed_m_s=robot.speed_m_s,
+            cross_track_m=robot.cross_track_m,
+            waypoints_left=self._links[self._driven].waypoints_left,
+            collisions=self._picture.collisions.count,
+        )
+
+    def _on_stop(self, stopped: bool) -> None:
+        for link in self._links:
+            link.stop(stopped)
+        self._panel.teleop.release_all()
+        self._panel.show_stopped(stopped)
+
+    def _on_choose_robot(self, place: int) -> None:
+        self._driven = self._picture.followed = place
+        self._editor.choose_robot(place)
+
+    def _on_refused(self, what: str, reason: str) -> None:
+        self._node.get_logger().warning(f'{what}: {reason}')
+        self._panel.notify(what, reason, True)
+
+    def _on_drive_file(self, file: Path) -> None:
+        """Drive a saved file from the start."""
+        robot = self._world.robots[self._driven].name
+        parts = [self._node.get_namespace().strip('/'), robot if len(self._links) > 1 else '']
+        namespace = '/'.join(part for part in parts if part)
+        driving = (DRIVER, f'/{namespace}') in self._node.get_node_names_and_namespaces()
+        if driving and not self._driver.is_running:
+            self._on_refused('Not driven', f'{DRIVER} drives this robot already: end it first')
+            return
+        self._driver.end()
+        self._control.reset(then=lambda: self._driver.start(file, namespace))

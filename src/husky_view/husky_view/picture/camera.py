@@ -1,0 +1,164 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The camera of each tab: free, following a robot, or looking down on the playpen."""
+
+import contextlib
+import math
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+Array = npt.NDArray[np.float64]
+
+FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
+PRESETS = (FREE, FOLLOW, TOP)
+
+BACK_M, UP_M = 3.8, 2.4
+"""Offset of a following camera from the robot, in the beginning."""
+
+TIME_CONSTANT_SEC = 0.15
+"""Of the low-pass filter by which a following camera approaches the robot."""
+
+USER_PAUSE_SEC = 0.3
+"""A following camera stands so long after a person turned or zoomed it."""
+
+REPORT_TIMEOUT_SEC = 0.2
+"""The next pose is sent when the page has reported the last one, or after this time: a pose sent
+earlier would override unseen what a person does meanwhile."""
+
+JUMP_M = 5.0
+"""A robot further away than this was reset, or a replay jumped: the camera jumps with it."""
+
+_FIRST_REPORT_SEC = 1.0  # by then a page has reported the camera that it was given
+_SAME = 0.002  # of the distance
+_STILL_M = 0.0005
+
+
+class ChaseCamera:
+    """
+    A camera that follows a robot and keeps the view that a person chose.
+
+    The page reports its camera with a delay. A report that differs from what was sent is taken as
+    a person's input; the camera then stands for a moment. Times are of a steady wall clock.
+
+    :param offset: from the robot to the camera.
+    """
+
+    def __init__(self, robot: Array, offset: Array, *, now_sec: float) -> None:
+        self.at = robot.copy()
+        self.offset = offset
+        self._begun_sec = self._before_sec = now_sec
+        self._paused_until_sec = -math.inf
+        self._confirmed = False  # the page has reported the first pose
+        self._reported: Array | None = None
+        self._sent_sec = -math.inf
+        self._sent = offset  # before a person changed it
+        self._overridden = False
+
+    def report(self, offset: Array) -> None:
+        """Take what the page reports of its camera; from any thread."""
+        self._reported = offset
+
+    def step(self, robot: Array, *, now_sec: float) -> bool:
+        """Advance; returns whether the camera is to be moved, to look at `at` from `offset`."""
+        self._read_report(now_sec)
+        if now_sec - self._sent_sec < REPORT_TIMEOUT_SEC:
+            return False
+        elapsed_sec, self._before_sec = now_sec - self._before_sec, now_sec
+        if now_sec < self._paused_until_sec:
+            return False
+        lag = robot - self.at
+        distance_m = float(np.linalg.norm(lag))
+        if distance_m < _STILL_M:
+            overridden, self._overridden = self._overridden, False
+            return overridden or not self._confirmed
+        self._overridden = False
+        self._sent_sec = now_sec
+        gain = 1.0 - math.exp(-elapsed_sec / TIME_CONSTANT_SEC)
+        self.at = robot.copy() if distance_m > JUMP_M else self.at + gain * lag
+        return True
+
+    def _read_report(self, now_sec: float) -> None:
+        offset, self._reported = self._reported, None
+        self._confirmed = self._confirmed or now_sec - self._begun_sec > _FIRST_REPORT_SEC
+        if offset is None or not np.any(offset):
+            return
+        self._sent_sec = -math.inf
+        if _same(offset, self.offset):
+            self._confirmed = True
+            self._sent = self.offset
+        elif now_sec < self._paused_until_sec and _same(offset, self._sent):
+            # A pose that was still on its way has overridden the person's input.
+            self._overridden = True
+        elif self._confirmed:  # else the report is older than the first pose
+            self.offset = offset
+            self._paused_until_sec = now_sec + USER_PAUSE_SEC
+
+
+def _same(one: Array, other: Array) -> bool:
+    return bool(np.linalg.norm(one - other) <= _SAME * np.linalg.norm(other))
+
+
+class Cameras:
+    """The cameras of all tabs."""
+
+    def __init__(self, server: viser.ViserServer, *, center: Array, extent_m: float) -> None:
+        self._server = server
+        self._center = center
+        self._extent_m = extent_m
+        self._following: dict[int, ChaseCamera] = {}  # by client
+        server.initial_camera.position = center + extent_m * np.array([-0.85, -0.75, 0.75])
+        server.initial_camera.look_at = center
+        server.initial_camera.fov = math.radians(50.0)
+
+        @server.on_client_connect
+        async def _(client: viser.ClientHandle) -> None:
+            client.camera.on_update(self._on_camera)
+
+        @server.on_client_disconnect
+        async def _(client: viser.ClientHandle) -> None:
+            self._following.pop(client.client_id, None)
+
+    async def _on_camera(self, camera: viser.CameraHandle) -> None:
+        following = self._following.get(camera.client.client_id)
+        if following is not None:
+            following.report(camera.position - camera.look_at)
+
+    def choose(
+        self,
+        client: viser.ClientHandle,
+        preset: str,
+        *,
+        robot: Array,
+        yaw: float,
+        now_sec: float,
+    ) -> None:
+        """Bring the camera of a tab to a preset; robot is the position of the one to follow."""
+        self._following.pop(client.client_id, None)
+        if preset == FOLLOW:
+            behind = np.array([-BACK_M * math.cos(yaw), -BACK_M * math.sin(yaw), UP_M])
+            self._look(client, robot + behind, robot)
+            self._following[client.client_id] = ChaseCamera(robot, behind, now_sec=now_sec)
+        elif preset == TOP:
+            # 1.15: the whole playpen, on wide and on narrow screens
+            narrow = max(1.0, client.camera.image_height / max(client.camera.image_width, 1))
+            height = 1.15 * self._extent_m * narrow / math.tan(client.camera.fov / 2.0)
+            # Not exactly from above: the direction up would be undefined.
+            above = np.array([0.0, -0.01 * height, height])
+            self._look(client, self._center + above, self._center)
+
+    def _look(self, client: viser.ClientHandle, position: Array, at: Array) -> None:
+        # viser refuses a camera that looks straight up or down.
+        with contextlib.suppress(ValueError), client.atomic():
+            client.camera.position = position
+            client.camera.look_at = at
+        client.flush()
+
+    def follow(self, robot: Array, *, now_sec: float) -> None:
+        """Move the cameras that follow to where the robot is now; call it every frame."""
+        clients = self._server.get_clients() if self._following else {}
+        for client_id, camera in list(self._following.items()):
+            client = clients.get(client_id)
+            if client is not None and camera.step(robot, now_sec=now_sec):
+                self._look(client, camera.at + camera.offset, camera.at)
