@@ -74,7 +74,7 @@ def imported_packages(folder: Path) -> set[str]:
         'yaml': 'python3-yaml',
         'matplotlib': 'python3-matplotlib',
     }
-    ours = {*PACKAGES, *(path.name for path in (ROOT / 'underlay' / 'src').iterdir())}
+    ours = {*PACKAGES, *(path.parent.name for path in ROOT.glob('underlay/*/package.xml'))}
     found = set()
     for path in folder.rglob('*.py'):
         for line in path.read_text().splitlines():

@@ -116,7 +116,7 @@ def test_a_timer_can_be_cancelled() -> None:
     assert timer.is_canceled
 
 
-def test_own_events_reach_own_handlers_until_these_are_taken_away() -> None:
+def test_own_events_reach_own_handlers_until_unregistered() -> None:
     class Ring(Event):
         name = 'Ring'
 

@@ -43,7 +43,7 @@ def test_a_process_is_reported_with_its_name_pid_and_end(
     assert f'[INFO] [echo-1]: process has finished cleanly [pid {pid}]' in launched.lines
 
 
-def test_a_process_that_dies_is_reported_and_launch_still_succeeds(
+def test_launch_succeeds_and_reports_a_process_that_dies(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:
     launched = run_launch(python_launch_file("ExecuteProcess(cmd=['sh', '-c', 'exit 3']),"))
@@ -283,7 +283,7 @@ def test_launch_prefix_is_filtered_by_name(
 
 
 @pytest.mark.parametrize('value', ['soon', '-1', 'nan', 'inf'])
-def test_a_time_out_that_is_no_time_is_refused_before_anything_starts(
+def test_a_timeout_that_is_no_number_starts_nothing(
     value: str, python_launch_file: LaunchFile, run_launch: Run
 ) -> None:
     path = python_launch_file("ExecuteProcess(cmd=['sleep', '30']),")
