@@ -8,13 +8,10 @@ entry_points.txt of the folders on sys.path (packaging.python.org, "Entry points
 
 from __future__ import annotations
 
-import ast
 import functools
 import importlib
 from importlib.machinery import PathFinder
-import inspect
 import os
-from pathlib import Path
 import sys
 from typing import Any
 
@@ -44,10 +41,15 @@ def load(target: str) -> Any:
 
 def docstring(target: str) -> str:
     """Return the docstring of 'module:Class' from its source; import it only where that fails."""
+    import ast  # only help needs it
+    import inspect
+
     module, _, name = target.partition(':')
     source = _source(module)
     if source is not None:
-        for node in ast.parse(source.read_bytes()).body:
+        with open(source, 'rb') as file:  # noqa: PTH123 -- pathlib takes its time
+            tree = ast.parse(file.read())
+        for node in tree.body:
             if isinstance(node, ast.ClassDef) and node.name == name:
                 text = ast.get_docstring(node)
                 if text:
@@ -55,7 +57,7 @@ def docstring(target: str) -> str:
     return inspect.getdoc(load(target)) or ''
 
 
-def _source(module: str) -> Path | None:
+def _source(module: str) -> str | None:
     """Find the file of a module without importing its packages."""
     path = None
     parts = module.split('.')
@@ -64,7 +66,7 @@ def _source(module: str) -> Path | None:
         if spec is None:
             return None
         path = spec.submodule_search_locations
-    return Path(spec.origin) if spec and spec.origin and spec.origin.endswith('.py') else None
+    return spec.origin if spec and spec.origin and spec.origin.endswith('.py') else None
 
 
 @functools.cache
@@ -72,7 +74,7 @@ def _texts() -> tuple[str, ...]:
     texts = []
     for folder in sys.path:
         try:
-            names = os.listdir(folder or '.')  # noqa: PTH208 -- pathlib takes its time
+            names = os.listdir(folder or '.')  # noqa: PTH208 -- as above
         except OSError:
             continue
         for name in sorted(names):

@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 import re
 
-from ros2_diagnosis import nearest
+from ros2_diagnosis import nearest, PackageError
 
 LAUNCH_SUFFIXES = (
     '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
@@ -17,10 +17,6 @@ LAUNCH_SUFFIXES = (
 
 _INDEX = 'share/ament_index/resource_index/packages'
 _PACKAGE_NAME = re.compile(r'<name>\s*([^<\s]+)\s*</name>')
-
-
-class PackageError(LookupError):
-    """Raised where a package, or an executable of one, is not there; says why and what to do."""
 
 
 def prefixes() -> list[Path]:

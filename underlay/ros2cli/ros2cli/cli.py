@@ -14,7 +14,7 @@ import sys
 import threading
 
 from interrupt_while_loading import leave
-from ros2_diagnosis.packages import PackageError
+from ros2_diagnosis import PackageError
 
 from ros2cli.command import add_subparsers_on_demand, CommandExtension, CommandLineParser
 from ros2cli.errors import CommandError

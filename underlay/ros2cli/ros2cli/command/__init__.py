@@ -5,12 +5,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import sys
 from typing import Any
 
 from entry_point_index import docstring, entry_points, load
-from ros2_diagnosis import nearest
 
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION, satisfies_version
 from ros2cli.verb import VerbExtension
@@ -66,9 +65,21 @@ class CommandWithVerbs(CommandExtension):
 
 
 class CommandLineParser(argparse.ArgumentParser):
-    """A parser that knows the words of the command line that are left for it."""
+    """A parser that knows the words that are left for it, and reads its help when it is shown."""
 
     words: Sequence[str] = ()
+    target = ''  # of the extension whose docstring is the description
+    below: Mapping[str, str] = {}  # the extensions that may be typed next, by name
+
+    def format_help(self) -> str:
+        if self.target:
+            self.description = _help(self.target)
+        if self._subparsers is not None:
+            width = max(map(len, self.below), default=0)
+            self._subparsers.description = '\n'.join(
+                f'{name:<{width}}  {_first_line(target)}' for name, target in self.below.items()
+            )
+        return super().format_help()
 
 
 def add_subparsers_on_demand(
@@ -89,24 +100,24 @@ def add_subparsers_on_demand(
     known = dict(sorted(entry_points(group_name).items()))
     if chosen is not None and chosen not in known:
         _refuse(parser, cli_name, group_name, chosen, list(known))
-    shown = [name for name in known if name not in (hide_extensions or ())]
-    width = max(map(len, shown), default=0)
     kind = 'command' if dest == '_command' else 'verb'
+    if isinstance(parser, CommandLineParser):
+        hidden = hide_extensions or ()
+        parser.below = {name: known[name] for name in known if name not in hidden}
     subparsers = parser.add_subparsers(
         title='Commands',
-        description='\n'.join(f'{name:<{width}}  {_first_line(known[name])}' for name in shown),
+        description='',  # see format_help
         metavar=f'Call `{cli_name} <{kind}> -h` for more detailed usage.',
         required=required,
     )
     for name in known:
         subparser = subparsers.add_parser(
-            name,
-            description=_help(known[name]) if name == chosen else None,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
+            name, formatter_class=argparse.RawDescriptionHelpFormatter
         )
         if name == chosen:
             if isinstance(subparser, CommandLineParser):
                 subparser.words = words[words.index(name) + 1 :]
+                subparser.target = known[name]
             extension = load(known[name])()
             subparser.set_defaults(**{dest: extension, f'{dest}_parser': subparser})
             extension.add_arguments(subparser, f'{cli_name} {name}')
@@ -118,6 +129,8 @@ def _refuse(
 ) -> None:
     if chosen in _LEFT_OUT.get(group, ()):
         parser.exit(2, f'{cli_name} {chosen} is part of a full ROS 2 and left out here\n')
+    from ros2_diagnosis import nearest
+
     kind = 'command' if group == 'ros2cli.command' else 'verb'
     parser.error(f"'{chosen}' is no {kind} of {cli_name}{nearest.hint(chosen, known)}")
 
