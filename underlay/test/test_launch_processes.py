@@ -291,17 +291,3 @@ def test_a_timeout_that_is_no_number_starts_nothing(
     assert launched.returncode == 1
     assert f"sigterm_timeout is '{value}': it is a time in seconds" in launched.output
     assert 'process started' not in launched.output
-
-
-def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_launch: Run) -> None:
-    launched = run_launch(
-        python_launch_file(
-            """
-            CAT,
-            RegisterEventHandler(OnProcessStart(target_action=CAT, on_start=lambda event, _: [
-                EmitEvent(event=ProcessStdin(text=b'typed\\n', **CAT.process_details))])),
-            """,
-            before="CAT = ExecuteProcess(cmd=['head', '-n1'], output='screen')",
-        )
-    )
-    assert '[head-1] typed' in launched.lines

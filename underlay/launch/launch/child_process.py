@@ -21,7 +21,7 @@ _OnOutput = Callable[[int, bytes], None]
 
 
 class _Pty(asyncio.Protocol):
-    """Reads the terminal that a child believes to write to."""
+    """Reads the pseudo-terminal that a child writes to."""
 
     def __init__(self, child: ChildProcess, fd: int) -> None:
         self._child = child

@@ -64,7 +64,7 @@ class LifecycleEvents:
         )
 
     def _is_reachable(self) -> bool:
-        """Wait a little for the node: its service, and who tells of its transitions."""
+        """Wait a little for the node: its service, and the publisher of its transitions."""
         if not self._client.wait_for_service(timeout_sec=_POLL_SEC):
             return False
         if get_ros_node(self._context).count_publishers(self._subscription.topic_name) > 0:

@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def read_graph(args: argparse.Namespace | None = None, *, quiet: bool = False) -> graph.Graph:
-    """Read the graph of the domain; unless `quiet`, with a line on stderr where it says little."""
+    """Read the graph of the domain; unless `quiet`, hints on stderr where it is empty."""
     settings = settings_from_environment()
     if settings.discovery_range == 'OFF':
         if not quiet:

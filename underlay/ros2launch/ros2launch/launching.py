@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Launch files through the launch package: its service, and what it knows of their arguments."""
+"""Launch files through the launch package: its service and the declared arguments."""
 
 from __future__ import annotations
 

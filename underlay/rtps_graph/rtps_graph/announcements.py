@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the observer tells of itself: a participant with one reader, that of the graph topic."""
+"""What the observer announces: a participant with one reader, that of the graph topic."""
 
 from __future__ import annotations
 

@@ -124,7 +124,7 @@ def _user() -> str:
 
 
 def _email(name: str) -> str:
-    """Return the e-mail address that git knows, or a placeholder that tools accept."""
+    """Return the e-mail address configured in git, or a placeholder that tools accept."""
     if shutil.which('git'):
         asked = subprocess.run(['git', 'config', 'user.email'], capture_output=True, text=True)
         if '@' in asked.stdout and '.' in asked.stdout.rpartition('@')[2]:

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Base of what a process tells."""
+"""Base of the events of a running process."""
 
 from __future__ import annotations
 
