@@ -18,6 +18,8 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
+pytestmark = pytest.mark.timeout(300)  # the first builds every package
+
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / 'src'
 PACKAGES = sorted(path.parent.name for path in SOURCE.glob('*/package.xml'))
@@ -235,7 +237,6 @@ def run_alone(folder: Path, program: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60.0)
 
 
-@pytest.mark.timeout(180)
 @pytest.mark.parametrize('package', PACKAGES)
 def test_a_package_imports_with_what_it_declares(
     package: str, only_declared: dict[str, Path]
@@ -246,7 +247,6 @@ def test_a_package_imports_with_what_it_declares(
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.timeout(180)
 def test_the_driver_runs_without_mujoco(only_declared: dict[str, Path]) -> None:
     folder = only_declared['husky_driver']
     assert not (folder / 'mujoco').exists()

@@ -25,7 +25,7 @@ import weakref
 DOMAINS = range(30, 102)
 
 _VARIABLE = 'ROS_DOMAIN_ID'
-_PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.3, 9.6.1.1: PB, DG
+_PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.2, 9.6.1.1: PB, DG
 _MOST_PARTICIPANTS = 20  # of a domain that are looked for
 _WAITING = 4096  # connections that nobody accepts: each asks who holds the lock
 

@@ -21,7 +21,7 @@ from husky_runtime.parent_death import die_with_parent
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _BAD_INPUT = 2
 _AGAIN_SEC = 0.01
-_LAST_DOMAIN = 232  # above it the ports do not suffice: RTPS 2.5, 9.6.2.3
+_LAST_DOMAIN = 232  # above it the ports do not suffice: RTPS 2.2, 9.6.1.3
 _CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
 
 Load = Callable[[], Callable[[], int]]

@@ -22,7 +22,7 @@ GONE = 'a node that is gone already'
 
 _UNKNOWN = '_NODE_NAME_UNKNOWN_'  # rmw_dds_common, until that message is there
 _PARTICIPANT = 12
-"""Bytes of an endpoint's GUID that name its participant (OMG DDSI-RTPS 2.3, 9.3.1)."""
+"""Bytes of an endpoint's GUID that name its participant (OMG DDSI-RTPS 2.2, 9.3.1)."""
 
 
 @dataclass(frozen=True)
