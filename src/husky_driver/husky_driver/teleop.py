@@ -18,7 +18,7 @@ from typing import Any
 from geometry_msgs.msg import Twist
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.executor import make_executor
-from husky_runtime.start import signals_held_back
+from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -119,7 +119,7 @@ def main(args: Sequence[str] | None = None) -> int:
         print('teleop: needs a terminal to read keys from; run it in one', file=sys.stderr)
         return BAD_INPUT
     try:
-        with signals_held_back():
+        with SignalsHeldBack():
             rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
             node = Teleop(sys.stdin.fileno())
     except KeyboardInterrupt:

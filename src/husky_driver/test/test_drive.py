@@ -34,7 +34,7 @@ def test_the_course_is_followed_within_two_centimetres_at_88_percent_of_the_spee
 ) -> None:
     course = load_course(courses / 'central_barrier.yaml')
     run = drive_to_end(drive_of(course), make_plant(**husky))
-    curve, i, worst = run.drive.legs[0].curve, 0, 0.0
+    curve, i, worst = run.drive.route.legs[0].curve, 0, 0.0
     for odometry in run.track:
         i, _, offset = curve.project(i, odometry.x_m, odometry.y_m)
         worst = max(worst, abs(offset))
@@ -238,9 +238,9 @@ def test_nonsense_stops_the_robot_at_once_and_ends_the_drive(
     while (command := drive.step(plant.now._replace(**changes))) is not None:
         commands.append(command)
         plant.advance(command)
-        drive.feel(plant.now.time_sec, math.nan)
+        drive.add_acceleration(plant.now.time_sec, math.nan)
         assert len(commands) < 100
-    assert said in drive.failure == drive.nonsense
+    assert said in drive.failure == drive.implausible
     assert set(commands) == {(0.0, 0.0)}
     assert plant.now.is_standing
     assert drive.odometry is believed

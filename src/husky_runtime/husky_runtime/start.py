@@ -7,6 +7,8 @@ It takes Python a second to import what they need. Until then nothing is open, s
 interrupt the process just goes, where Python would print from amid which import it was torn.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import os
@@ -14,7 +16,7 @@ from pathlib import Path
 import signal
 import sys
 from types import FrameType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from husky_runtime.parent_death import die_with_parent
 
@@ -51,7 +53,7 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
             leave(number, frame)
         signal.default_int_handler(number, frame)
 
-    def interrupt_again(lost: 'sys.UnraisableHookArgs') -> None:
+    def interrupt_again(lost: sys.UnraisableHookArgs) -> None:
         # In a callback of the garbage collector, say, an interrupt is printed and forgotten.
         if lost.exc_type is KeyboardInterrupt:
             signal.signal(signal.SIGALRM, interrupt)
@@ -117,20 +119,34 @@ def run_node(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
     return run(load, interrupted=interrupted, catches=catches)
 
 
-@contextmanager
-def signals_held_back() -> Iterator[None]:
-    """Let SIGINT and SIGTERM wait until a node is made: rclpy would lose the exception."""
-    came: list[int] = []
-    before = {
-        number: signal.signal(number, lambda number, _: came.append(number)) for number in _SIGNALS
-    }
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
+class SignalsHeldBack:
+    """Lets SIGINT and SIGTERM wait until a node is made: rclpy would lose the exception."""
+
+    def __init__(self) -> None:
+        self._pending: list[int] = []
+        self._handlers: dict[int, Any] = {}
+
+    def __enter__(self) -> SignalsHeldBack:
+        self._handlers = {number: signal.signal(number, self._on_signal) for number in _SIGNALS}
+        return self
+
+    def _on_signal(self, number: int, _: FrameType | None) -> None:
+        self._pending.append(number)
+
+    def __exit__(self, *_: object) -> None:
+        for number, handler in self._handlers.items():
             signal.signal(number, handler)
-        if came:
-            signal.raise_signal(came[0])
+        if self._pending:
+            signal.raise_signal(self._pending.pop(0))
+
+    @contextmanager
+    def let_through(self) -> Iterator[None]:
+        """Handle signals as before, for a part that takes long and does not use rclpy."""
+        self.__exit__()
+        try:
+            yield
+        finally:
+            self.__enter__()
 
 
 def run_moved(package: str) -> NoReturn:

@@ -10,7 +10,8 @@ import subprocess
 import sys
 import time
 
-from husky_runtime.children import adopt_orphans, descendants_ended, Process
+from husky_runtime.children import ChildProcess
+from husky_runtime.descendants import adopt_orphans, descendants_ended
 from husky_runtime.domains import OwnDomain
 from husky_runtime.shared_memory import clean_shared_memory
 import psutil
@@ -38,15 +39,15 @@ time.sleep(600)
 """
 PARENT = """
 import os, sys
-from husky_runtime.children import Process
-child = Process([sys.executable, '-c', 'import time; time.sleep(600)'], os.environ)
+from husky_runtime.children import ChildProcess
+child = ChildProcess([sys.executable, '-c', 'import time; time.sleep(600)'], os.environ)
 print(child.pid, flush=True)
 sys.stdin.read()
 """
 DEAF_CHILD = f"""
 import os, signal, sys
-from husky_runtime.children import Process
-child = Process([sys.executable, '-c', {DEAF!r}], os.environ, parent_death=signal.SIGKILL)
+from husky_runtime.children import ChildProcess
+child = ChildProcess([sys.executable, '-c', {DEAF!r}], os.environ, parent_death=signal.SIGKILL)
 print(child.pid, flush=True)
 sys.stdin.read()
 """
@@ -66,9 +67,9 @@ def wait_for(fact: Callable[[], object], what: str) -> None:
         time.sleep(0.01)
 
 
-def start(text: str, log: Path) -> Process:
+def start(text: str, log: Path) -> ChildProcess:
     with log.open('w') as stream:
-        process = Process([sys.executable, '-c', text], os.environ, stream)
+        process = ChildProcess([sys.executable, '-c', text], os.environ, stream)
     wait_for(lambda: log.read_text().endswith('\n'), 'the first line of the child')
     return process
 
@@ -129,7 +130,7 @@ def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
     with descendants_ended():
         with log.open('w') as stream:
             command = ['env', '-i', sys.executable, '-c', DAEMON]
-            child = Process(command, os.environ, stream)
+            child = ChildProcess(command, os.environ, stream)
         wait_for(lambda: log.read_text().endswith('\n'), 'the daemon')
         daemon = int(log.read_text())
         child.end()

@@ -50,13 +50,13 @@ class SimulatedRobot:
         self.odometry.reset()
         self._imu.reset()
         self.sensors.reset()
-        self.timeout_bites = False
+        self.command_timed_out = False
         self._measure()
         self.filtered.reset(self.imu.yaw)
 
     def act(self, time_sec: float) -> None:
         """Turn the last command into wheel speeds for the coming period."""
-        self.timeout_bites = self.controller.update(
+        self.command_timed_out = self.controller.update(
             time_sec=time_sec, period_sec=CONTROL_PERIOD_SEC
         )
         self.husky.drive(*self.controller.wheel_speeds_rad_s())

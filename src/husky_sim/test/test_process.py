@@ -62,3 +62,19 @@ def test_a_signal_ends_it_soon_and_the_record_is_whole(
     assert record.complete
     assert len(record.obstacles) == 34
     assert record.min_clearance_m(0) == pytest.approx(0.73, abs=0.02)
+
+
+def test_a_second_simulator_is_refused_by_name(domain_id: int) -> None:
+    command = [sys.executable, '-m', 'husky_sim.ros.node']
+    first = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert first.stdout is not None
+    try:
+        assert 'real time' in first.stdout.readline()
+        second = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
+    finally:
+        first.send_signal(signal.SIGINT)
+        first.communicate(timeout=10.0)
+    assert second.returncode == 2
+    (line,) = second.stderr.splitlines()
+    assert f'another simulator runs in ROS domain {domain_id}: process {first.pid} ' in line
+    assert 'export ROS_DOMAIN_ID=' in line

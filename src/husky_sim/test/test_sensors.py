@@ -5,6 +5,8 @@
 from collections.abc import Callable
 import math
 from pathlib import Path
+import sys
+from types import ModuleType
 
 from builtin_interfaces.msg import Time
 from husky_course.robot import RobotStart
@@ -202,15 +204,19 @@ def test_the_camera_sees_things_where_they_are_or_says_in_one_line_why_not(
         assert columns.mean() == pytest.approx(column, abs=6.0), name
 
 
-def test_where_nothing_can_be_drawn_the_camera_says_so_in_one_line(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def refuse(name: str) -> None:
-        raise ImportError(f'no {name}:\nlibEGL.so is missing')
+class Missing(ModuleType):
+    """A module that cannot be imported from."""
 
-    monkeypatch.setattr('husky_sim.sensors.camera.import_module', refuse)
+    def __getattr__(self, _: str) -> None:
+        raise ImportError(f'no {self.__name__}:\nlibEGL.so is missing')
+
+
+def test_without_egl_and_osmesa_the_camera_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ('mujoco.egl', 'mujoco.osmesa'):
+        monkeypatch.setitem(sys.modules, name, Missing(name))
     simulation = simulate()
     with pytest.raises(SettingError, match='set camera_rate_hz to 0') as refused:
         Camera('husky', simulation.model, simulation.data)
     assert '\n' not in str(refused.value)
-    assert 'libEGL.so is missing' in str(refused.value)
+    for name in ('mujoco.egl', 'mujoco.osmesa'):
+        assert f'{name}: no {name}: libEGL.so is missing' in str(refused.value)

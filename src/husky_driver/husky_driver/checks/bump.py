@@ -50,8 +50,8 @@ class Bump:
         self._window: deque[_Sample] = deque()
         self._free_sec = 0.0
 
-    def feel(self, time_sec: float, acceleration_m_s2: float) -> None:
-        """Take a sample of the IMU."""
+    def add_acceleration(self, time_sec: float, acceleration_m_s2: float) -> None:
+        """Add a sample of the IMU."""
         if math.isfinite(time_sec) and math.isfinite(acceleration_m_s2):
             self._felt.append((time_sec, acceleration_m_s2))
 

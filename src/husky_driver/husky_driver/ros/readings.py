@@ -11,7 +11,7 @@ from nav_msgs.msg import Odometry as OdometryMsg
 from sensor_msgs.msg import Imu, LaserScan
 
 from husky_driver.checks.bump import forward_acceleration
-from husky_driver.checks.lookout import Scan
+from husky_driver.checks.path_scan import Scan
 from husky_driver.checks.plausibility import no_numbers, no_rotation
 from husky_driver.motion import Odometry, yaw_of
 

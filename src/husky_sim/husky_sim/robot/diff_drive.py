@@ -64,7 +64,7 @@ class VelocityController:
         late = time_sec - self._asked_at_sec > config.command_timeout_sec + 1e-9
         speed = 0.0 if late else self.asked_speed_m_s
         yaw_rate = 0.0 if late else self.asked_yaw_rate_rad_s
-        bites = late and not self.timed_out and self.moving
+        begins = late and not self.timed_out and self.moving
         self.timed_out = late
         self.speed_m_s = approached(
             self.speed_m_s,
@@ -76,7 +76,7 @@ class VelocityController:
             limited(yaw_rate, config.yaw_rate_limit_rad_s),
             config.yaw_acceleration_limit_rad_s2 * period_sec,
         )
-        return bites
+        return begins
 
     @property
     def moving(self) -> bool:

@@ -13,6 +13,7 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Bool
 
@@ -39,8 +40,8 @@ class RobotTopics:
 
     :param namespace: before every topic; empty for the only robot, ending in / for one of many.
     :param on_command: called after every command was taken.
-    :param on_commander: called when one who publishes commands comes or goes, with how many did
-        so at the same time.
+    :param on_commander: called with the topic of the commands when a publisher of it comes or
+        goes, and with how many there were at the same time.
     :param form: in which packed messages are published.
     """
 
@@ -53,7 +54,7 @@ class RobotTopics:
         on_command: Callable[[], None],
         form: Form,
         *,
-        on_commander: Callable[[int], None],
+        on_commander: Callable[[str, int], None],
     ) -> None:
         self.robot = robot
         self.commanded = False
@@ -92,13 +93,15 @@ class RobotTopics:
         self._transforms = TransformTopics(
             node, namespace, localization=self.filtered_publisher is not None
         )
-        self.command_subscription = node.create_subscription(
+        self.command_subscription: Subscription = node.create_subscription(
             Twist,
             f'{controller}/cmd_vel',
             self._on_cmd_vel,
             QOS,
             event_callbacks=SubscriptionEventCallbacks(
-                matched=lambda event: on_commander(most_at_once(event))
+                matched=lambda event: on_commander(
+                    self.command_subscription.topic_name, most_at_once(event)
+                )
             ),
         )
         # As the Husky's twist_mux has it: while true, no command reaches the wheels.

@@ -6,7 +6,6 @@ The camera on the top plate, drawn off the screen with EGL or OSMesa.
 Everything of OpenGL belongs to the thread that draws first.
 """
 
-from importlib import import_module
 import math
 from typing import Any
 
@@ -18,12 +17,11 @@ from husky_sim.errors import SettingError
 
 WIDTH, HEIGHT = 640, 480
 FRAME = 'camera'
-_PLATFORMS = ('mujoco.egl', 'mujoco.osmesa')
 _SEEN_GROUPS = (0, 1, 2)  # group 3 holds the collision shapes of the robots
 
 
 class Camera:
-    """Draws what one robot sees."""
+    """Draws the view from one robot."""
 
     def __init__(self, name: str, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """
@@ -86,12 +84,27 @@ class Camera:
 
 def _new_context() -> Any:
     problems = []
-    for platform in _PLATFORMS:
+    for platform, make in (('mujoco.egl', _egl_context), ('mujoco.osmesa', _osmesa_context)):
         try:
-            return import_module(platform).GLContext(WIDTH, HEIGHT)
-        except Exception as error:  # whatever a driver, or its absence, comes up with
+            return make()
+        except Exception as error:  # drivers, or their absence, raise many types
             problems.append(f'{platform}: {" ".join(str(error).split())}')
     raise SettingError(
         f'camera_rate_hz: no picture can be drawn here ({"; ".join(problems)}); install EGL '
         '(libegl1 and libgl1-mesa-dri) or set camera_rate_hz to 0'
     )
+
+
+# To import one of these loads its library, and fails where there is none.
+
+
+def _egl_context() -> Any:
+    from mujoco.egl import GLContext
+
+    return GLContext(WIDTH, HEIGHT)
+
+
+def _osmesa_context() -> Any:
+    from mujoco.osmesa import GLContext
+
+    return GLContext(WIDTH, HEIGHT)
