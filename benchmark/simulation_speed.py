@@ -77,7 +77,7 @@ def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str,
     command = [str(clone / 'lab'), 'exec', 'python3', str(script), f'--robots={row.robots}']
     command += [f'--parameters={json.dumps(row.parameters)}', f'--seconds={seconds}', *options]
     if not row.reads:
-        command.append('--nobody-reads')
+        command.append('--without-readers')
     # In a group of its own: Ctrl-C reaches only us, and we end all of it.
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
     try:
@@ -138,7 +138,8 @@ class SolvedFilter(PlanarFilter):
 
     def _gain(self, seen: Array) -> Array:
         variances = (WHEEL_SPEED_VARIANCE, WHEEL_SPEED_VARIANCE, self._rate_variance)
-        return np.linalg.solve(seen[:, VX : RATE + 1] + np.diag(variances), seen)
+        covariance = seen[:, VX : RATE + 1] + np.diag(variances)
+        return np.asarray(np.linalg.solve(covariance, seen), dtype=np.float64)
 
 
 def print_filters(rounds: int = 15, periods: int = 500) -> None:

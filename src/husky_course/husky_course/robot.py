@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import math
 import re
 
+from husky_course.frames import Pose
+
 ROBOT_LENGTH_M = 0.9874  # of the A200's collision box, bumpers included
 ROBOT_WIDTH_M = 0.6851
 
@@ -22,6 +24,11 @@ class RobotStart:
     x: float = 0.0
     y: float = 0.0
     yaw: float = 0.0
+
+    @property
+    def pose(self) -> Pose:
+        """Return x, y and yaw."""
+        return self.x, self.y, self.yaw
 
     @classmethod
     def parse(cls, line: str) -> RobotStart:

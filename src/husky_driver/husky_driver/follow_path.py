@@ -27,7 +27,7 @@ from husky_driver.ros.settings import Settings
 
 
 class _Refused(Exception):
-    """The node cannot start; the message is what a person is told."""
+    """The node cannot start; the message is printed as it is."""
 
 
 def main(args: Sequence[str] | None = None) -> int:
@@ -54,7 +54,7 @@ def _make_node(argv: list[str], file: str | None) -> FollowPath:
             return FollowPath(partial(_choose_drive, signals, file))
     except _Refused:
         raise
-    except Exception as error:  # rcl raises many types for what a person can mistype
+    except Exception as error:  # rcl raises many types for wrong arguments
         raise _Refused(f'follow_path: {" ".join(str(error).split())}') from None
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What goes in and out of a drive: odometry and velocity commands."""
+"""Odometry, which a drive takes, and velocity commands, which it returns."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Odometry(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What the velocity controller is asked for."""
+    """A command for the velocity controller."""
 
     speed_m_s: float
     yaw_rate_rad_s: float

@@ -15,7 +15,7 @@ SPEED_MARGIN_M_S = 0.1
 
 
 class ObstacleStop:
-    """Tells when the robot has to stand; the times are those of scans and of odometry."""
+    """Decides when the robot has to stand; times are the stamps of scans and odometry."""
 
     def __init__(self) -> None:
         self._restart(-math.inf)
@@ -28,21 +28,21 @@ class ObstacleStop:
         self._state = 'free'
 
     def add_scan(self, scan: Scan, drive: Drive) -> None:
-        """Look along the rest of the path, unless the robot drives backwards or not yet."""
+        """Search the path ahead, unless the robot drives backwards or has not begun."""
         now, tracker = drive.odometry, drive.tracker
         if now is not None and scan.time_sec > now.time_sec + SCAN_TIMEOUT_SEC:
-            return  # from before a reset: with its stamp a missing scan would go unnoticed
+            return  # from before a reset: its stamp would hide that scans are missing
         self._scanned_sec = scan.time_sec
         self._sighting = None
         if now is not None and tracker is not None and not tracker.reverse:
-            # A robot that stands looks further than one that drives; else it would creep on.
+            # A standing robot uses the speed it would drive at; else it would creep on.
             start_m_s = drive.course.speed_m_s + SPEED_MARGIN_M_S if self.holds else 0.0
             speed_m_s = max(drive.speed_m_s, start_m_s)
             pose = (now.x_m, now.y_m, now.yaw_rad)
             self._sighting = look_along(scan, pose, tracker.curve, tracker.s, speed_m_s)
 
     def update(self, now_sec: float) -> str:
-        """Decide anew, for each odometry; return a line for the log when the state changes."""
+        """Decide again, for each odometry; return a line for the log when the state changes."""
         if math.isinf(self._begun_sec) or now_sec < self._now_sec:  # first odometry, or a reset
             self._restart(now_sec)
         self._now_sec = now_sec
@@ -56,7 +56,7 @@ class ObstacleStop:
 
     @property
     def complaint(self) -> str:
-        """Why it is no use to wait any longer; empty while it is."""
+        """Why the drive must end, after GIVE_UP_SEC without a free path; else empty."""
         if self._now_sec - self._free_sec < GIVE_UP_SEC:
             return ''
         return f'stood for {GIVE_UP_SEC:g} s: {self._describe()}'

@@ -17,7 +17,7 @@ def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:
         Settings(start=(0.0, 1.0))
 
 
-def test_an_unknown_parameter_is_refused_with_the_nearest_right_spelling() -> None:
+def test_an_unknown_parameter_is_refused_with_a_suggestion() -> None:
     refuse_unknown(['waypoints', 'use_sim_time', 'qos_overrides./x.depth'], Settings)
     with pytest.raises(ValueError, match='wayponts does not exist; did you mean waypoints'):
         refuse_unknown(['wayponts'], Settings)

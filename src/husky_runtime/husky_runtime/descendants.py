@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a process has started, and what that has started: found, adopted and ended.
+Find, adopt and end the descendants of this process.
 
-On Linux a process whose parent has ended is given to the next ancestor that asked for such
-(`adopt_orphans`). A mark in the environment tells whose it was.
+On Linux a process whose parent has ended gets as parent the next ancestor that is a subreaper
+(`adopt_orphans`). A mark in the environment names the child that it came from.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Children, and everything that they have started: nothing of it stays."""
+"""Children are ended with everything that they have started."""
 
 from collections.abc import Callable
 import os
@@ -30,11 +30,11 @@ if os.fork() == 0:
 os.wait()
 time.sleep(600)
 """
-DEAF = """
+IGNORING = """
 import signal, time
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, signal.SIG_IGN)
-print('deaf', flush=True)
+print('ready', flush=True)
 time.sleep(600)
 """
 PARENT = """
@@ -44,10 +44,10 @@ child = ChildProcess([sys.executable, '-c', 'import time; time.sleep(600)'], os.
 print(child.pid, flush=True)
 sys.stdin.read()
 """
-DEAF_CHILD = f"""
+IGNORING_CHILD = f"""
 import os, signal, sys
 from husky_runtime.children import ChildProcess
-child = ChildProcess([sys.executable, '-c', {DEAF!r}], os.environ, parent_death=signal.SIGKILL)
+child = ChildProcess([sys.executable, '-c', {IGNORING!r}], os.environ, parent_death=signal.SIGKILL)
 print(child.pid, flush=True)
 sys.stdin.read()
 """
@@ -89,8 +89,8 @@ def test_a_daemon_ends_with_the_child_that_made_it(tmp_path: Path) -> None:
     assert not is_running(daemon)
 
 
-def test_a_child_that_hears_no_signal_ends_in_2_s(tmp_path: Path, slack: float) -> None:
-    process = start(DEAF, tmp_path / 'log')
+def test_a_child_that_ignores_signals_ends_in_2_s(tmp_path: Path, slack: float) -> None:
+    process = start(IGNORING, tmp_path / 'log')
     begun = time.monotonic()
     process.end()
     assert process.exit_code == -signal.SIGKILL
@@ -109,20 +109,20 @@ def test_a_child_ends_with_its_killed_parent() -> None:
     wait_for(lambda: not is_running(child), 'the end of the child')
 
 
-def test_a_deaf_child_ends_with_its_killed_parent() -> None:
+def test_a_child_that_ignores_signals_ends_with_its_parent() -> None:
     parent = subprocess.Popen(
-        [sys.executable, '-c', DEAF_CHILD],
+        [sys.executable, '-c', IGNORING_CHILD],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
     )
     assert parent.stdout is not None
     told = {parent.stdout.readline().strip(), parent.stdout.readline().strip()}
-    (child,) = map(int, told - {'deaf'})
+    (child,) = map(int, told - {'ready'})
     assert is_running(child)
     parent.kill()
     parent.communicate()
-    wait_for(lambda: not is_running(child), 'the end of the deaf child')
+    wait_for(lambda: not is_running(child), 'the end of the child')
 
 
 def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ with OwnDomain() as domain:
 
 @pytest.fixture
 def holder() -> Iterator['subprocess.Popen[str]']:
-    """Start a process that has a domain of its own, and says which."""
+    """Start a process that takes a domain and prints its number."""
     process = subprocess.Popen(
         [sys.executable, '-c', HOLD], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
@@ -61,12 +61,12 @@ def test_a_domain_is_taken_until_its_process_is_killed(
         assert domain.number == number
 
 
-def test_a_domain_with_a_stranger_in_it_is_left_alone(
+def test_a_domain_with_another_participant_is_not_taken(
     domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     context = Context()
     rclpy.init(context=context, domain_id=domain)
-    node = rclpy.create_node('stranger', context=context)
+    node = rclpy.create_node('other', context=context)
     monkeypatch.setattr(domains, 'DOMAINS', (domain,))
     monkeypatch.setattr(domains, 'Lock', lambda name: Lock(f'{name}_of_test'))
     with pytest.raises(DomainError, match='left over'):

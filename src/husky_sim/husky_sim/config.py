@@ -18,7 +18,7 @@ CONTROL_PERIOD_SEC = 0.02
 
 @dataclass(frozen=True, kw_only=True)
 class DriveConfig:
-    """What the velocity controller knows of the robot, and what it allows."""
+    """The kinematic model and the limits of the velocity controller."""
 
     wheel_separation_m: float = setting(
         0.5708 * 1.875, 'Track of the kinematic model: 1.875 times the geometric one.', 0.1, 5.0

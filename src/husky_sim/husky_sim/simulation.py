@@ -3,7 +3,7 @@
 """
 The simulation: physics and controllers, advanced by whole control periods.
 
-It knows neither ROS nor the wall clock, so a run is a function of the world file, the settings
+It uses neither ROS nor the wall clock, so a run is a function of the world file, the settings
 and the commands, bit for bit.
 """
 
@@ -134,7 +134,7 @@ class Simulation:
         timestep_sec = self.model.opt.timestep
         for step in range(1, self.world.steps_per_period + 1):
             mujoco.mj_step(self.model, self.data)
-            self._detector.look(begin_sec + step * timestep_sec)
+            self._detector.update(begin_sec + step * timestep_sec)
         self.periods += 1
         for robot in self.robots:
             robot.observe(self.periods)

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator as a process: how it ends, and what it says then."""
+"""The simulator as a process: its exit status and its output."""
 
 from pathlib import Path
 import signal
@@ -20,7 +20,7 @@ def run_process(*arguments: str, module: str = 'husky_sim.ros.node') -> 'subproc
     )
 
 
-def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int) -> None:
+def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     del domain_id
     process = run_process('-p', 'world:=nowhere.xml')
     _, said = process.communicate(timeout=20.0)

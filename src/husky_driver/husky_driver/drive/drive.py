@@ -41,7 +41,7 @@ class Drive:
         self.limits = limits or DriveLimits()
         self.finished = False
         self.failure = ''  # why it gave up, if it did
-        self.implausible = ''  # what it was told that cannot be true, if it was
+        self.implausible = ''  # why a message cannot be true, if one could not
         self.held = False  # true: stands where it is, and goes on when false again
         self._now: Odometry | None = None
         self._gave_up_sec: float | None = None
@@ -156,7 +156,7 @@ class Drive:
         return f'{complaint}; it is at {place}, {remaining_m:.2f} m of path are left'
 
     def add_acceleration(self, time_sec: float, acceleration_m_s2: float) -> None:
-        """Take a forward acceleration of the IMU; without any, a wall ahead is not noticed."""
+        """Add a forward acceleration of the IMU; without any, a wall ahead is not detected."""
         if self._now is not None and not self.failure:
             self._watchdog.bump.add_acceleration(time_sec, acceleration_m_s2)
 
@@ -166,7 +166,7 @@ class Drive:
         self.give_up(what)
 
     def _stop_untrusted(self) -> Command | None:
-        """Stop a robot whose odometry does not tell whether it stands yet."""
+        """Stop a robot without using its odometry, for a fixed number of commands."""
         self._untrusted_stops += 1
         self.finished = self._untrusted_stops > UNTRUSTED_STOPS
         return None if self.finished else STOP

@@ -58,7 +58,7 @@ class RouteFollower:
             self.tracker.locate(odometry.x_m, odometry.y_m, odometry.yaw_rad)
         return STOP
 
-    # Each generator yields one command a period; when it continues, self._now is the newest
+    # Each generator yields one command a period. When it resumes, self._now is the newest
     # odometry.
 
     def _drive(self) -> Generator[Command, None, None]:
@@ -120,18 +120,18 @@ class RouteFollower:
         self.is_dwelling = False
 
     def _count_reached(self) -> None:
-        """Count the next waypoint when it is within the tolerance; pass one left behind."""
+        """Count the next waypoint within the tolerance; skip one that was missed."""
         stops, tolerance = self.route.course.stops, self.route.course.tolerance_m
         while self._next < len(stops):
             goal = stops[self._next]
             away = math.hypot(goal.x_m - self._now.x_m, goal.y_m - self._now.y_m)
             if away <= tolerance:
                 self.reached += 1
-            elif not self._left_behind(self._next, tolerance):
+            elif not self._is_missed(self._next, tolerance):
                 return
             self._next += 1
 
-    def _left_behind(self, number: int, tolerance_m: float) -> bool:
+    def _is_missed(self, number: int, tolerance_m: float) -> bool:
         if self.tracker is None:
             return False
         leg = self.route.legs[self._leg_index]

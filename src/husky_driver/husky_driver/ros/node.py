@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The node: it answers every odometry message with one command, which a `Drive` decides."""
+"""The node: it answers every odometry message with one command of a `Drive`."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from husky_driver.ros.settings import ODOMETRY_TOPICS, refuse, Settings
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
-DELIVERY_SEC = 1.0  # how long the first command may take to whom it was sent
+DELIVERY_SEC = 1.0  # how long the first command may take to arrive
 # How long to wait for the robot to stand when the drive is broken off; it takes 0.33 s.
 STOP_WITHIN_SEC = 1.0
 
@@ -78,7 +78,7 @@ class FollowPath(Node):
         self._drive = choose_drive(self.settings, self.get_logger().warning)
         self._display = DriveDisplay(self, self._drive)
         self._progress = make_progress(self.settings.progress, self.get_logger().info)
-        self._pending: OdometryMsg | None = None  # to be answered when somebody listens
+        self._pending: OdometryMsg | None = None  # to be answered when a subscriber takes commands
         self._last_stamp = NO_STAMP
         self._has_listener = False  # a subscriber takes the commands
         self._exit_code: int | None = None  # to leave with once the robot stands
@@ -99,7 +99,7 @@ class FollowPath(Node):
     def _subscribe(self) -> Subscription:
         """Return the subscription to the odometry that is followed."""
         if self.settings.odometry != 'filtered':
-            # A simulator in lockstep waits until somebody reads this one.
+            # A simulator in lockstep waits for a subscriber of this topic.
             self.create_subscription(
                 OdometryMsg, ODOMETRY_TOPICS['filtered'], lambda _: None, 10, raw=True
             )
@@ -128,7 +128,7 @@ class FollowPath(Node):
         if not self._has_listener:
             self._has_listener = self._commands.get_subscription_count() > 0
             if not self._has_listener:
-                self._pending = msg  # answered as soon as somebody listens
+                self._pending = msg
                 return
         first = self._last_stamp == NO_STAMP
         self._pending = None
@@ -143,7 +143,7 @@ class FollowPath(Node):
             self._stop_for_implausible(self.settings.odometry_topic)
         elif command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
-            if first:  # DDS may know a listener before the listener knows us
+            if first:  # the publisher may have matched before the subscription has
                 self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
         elif self._exit_code is not None:
             self._finish(self._exit_code)

@@ -24,7 +24,7 @@ class Run(Protocol):
         """Return the simulated time."""
 
     def pause(self, paused: bool) -> None:
-        """Hold time up, or let it go on."""
+        """Stop time, or continue."""
 
     def step(self) -> None:
         """Advance by one control period."""

@@ -45,17 +45,17 @@ REPEAT_SEC = 0.5
 
 HANGING_SEC = 60.0
 """
-A driver that does not answer one message for so long, in a run with a limit, hangs.
+Without an answer to one message for so long, a run with a limit ends: the driver hangs.
 
-Counted in looks of this node, which come later on a busy machine, as the driver's answer does.
+Counted in polls of this node, which come later on a busy machine, as the answer does.
 """
 
 _LOCKSTEP_POLL_SEC = 0.01
 _SHORTEST_TICK_SEC = 0.001
 
-# How long to go on before the executor may look for commands and services. As fast as possible: to
-# come back to it costs as much as half a control period. Behind the wall clock: long enough to
-# catch up where a control period takes most of its time.
+# How long to simulate before the executor handles commands and services. As fast as possible: a
+# return to the executor costs as much as half a control period. Behind the wall clock: long enough
+# to catch up where a control period takes most of its time.
 _TURN_SEC = 0.002
 _CATCH_UP_TURN_SEC = 0.02
 
@@ -84,7 +84,7 @@ class SimulatorNode(Node):
         self._paused = False
         self._driven = False  # lockstep: the first odometry message is out
         self._answered = False  # lockstep: and was answered
-        self._looks = 0  # lockstep: for the answer to the last message, in vain
+        self._polls = 0  # lockstep: since the last message, without an answer
         self._sent_at_sec = 0.0
         self._topics = SimulationTopics(
             self,
@@ -166,11 +166,11 @@ class SimulatorNode(Node):
             self._advance_if_answered()
 
     def _continue_lockstep(self) -> None:
-        """Begin, repeat the first message, or take up a command that came too early."""
+        """Begin, repeat the first message, or use a command that came too early."""
         if self._answered:
             self._advance_if_answered()
-            self._looks += 1
-            if self._run.limit_sec and self._looks * self._tick_sec() > HANGING_SEC:
+            self._polls += 1
+            if self._run.limit_sec and self._polls * self._tick_sec() > HANGING_SEC:
                 self._end(f'no command for {HANGING_SEC:g} s: the driver hangs')
             return
         now = time.monotonic()
@@ -196,7 +196,7 @@ class SimulatorNode(Node):
         if self._record is not None:
             self._record.append()
         self._topics.publish()
-        self._looks = 0
+        self._polls = 0
         if 0.0 < self._run.limit_sec <= self._simulation.time_sec:
             self._end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._scene.append()
@@ -209,7 +209,7 @@ class SimulatorNode(Node):
             self.over.set_result(None)
 
     def _on_commander(self, topic: str, count: int) -> None:
-        self._interference.look_at_commands(topic, count)
+        self._interference.check_commands(topic, count)
 
     def _on_interference(self, found: Interference) -> None:
         self.get_logger().error(str(found))
@@ -217,7 +217,7 @@ class SimulatorNode(Node):
             self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
 
     def _on_diagnose(self) -> None:
-        status = self._watch.look(
+        status = self._watch.status(
             self._pacer,
             self._run.real_time_factor,
             waits=self._paused or self._run.lockstep,
@@ -241,7 +241,7 @@ class SimulatorNode(Node):
         return self._simulation.time_sec
 
     def pause(self, paused: bool) -> None:
-        """Hold time up, or let it go on."""
+        """Stop time, or continue."""
         self._paused = paused
         self._pacer.restart()
 
@@ -262,9 +262,9 @@ class SimulatorNode(Node):
         self.get_logger().info('everything is back at its start')
 
     def destroy_node(self) -> None:
-        """End the record, then let go of everything; may be called twice."""
+        """End the record, then release everything; may be called twice."""
         if self._record is not None:
-            self._interference.look(at_the_end=True)
+            self._interference.check(at_the_end=True)
             self._record.close()
             self._record = None
         self._topics.close()
@@ -279,7 +279,7 @@ def main(args: list[str] | None = None) -> int:
     node: SimulatorNode | None = None
     try:
         node = SimulatorNode()
-        gc.freeze()  # what is there now stays: no long search through it in the middle of a run
+        gc.freeze()  # no long garbage collection of what is there now during a run
         node.over.add_done_callback(lambda _: interrupted.done() or interrupted.set_result(None))
         spin(node, until=interrupted)
     except (SimulatorError, DomainError) as error:

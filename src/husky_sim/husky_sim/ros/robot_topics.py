@@ -25,11 +25,11 @@ from husky_sim.ros.sensor_topics import SensorTopics
 from husky_sim.ros.transforms import TransformTopics
 from husky_sim.simulation import SimulatedRobot, Simulation
 
-# Reliable and volatile: a reader that is slow for a moment loses nothing.
+# Reliable and volatile: a subscription that is slow for a moment loses nothing.
 QOS = QoSProfile(depth=10)
 
-LOOK_SEC = 0.005
-"""How often to look who reads, by the wall clock: each look costs as much as a message."""
+COUNT_SEC = 0.005
+"""Wall time between two counts of subscriptions: a count costs as much as a message."""
 
 _COMMAND_TYPE = 'geometry_msgs/msg/Twist'
 
@@ -84,8 +84,8 @@ class RobotTopics:
             for message, publisher in ((self._filtered, self.filtered_publisher), *self._rest)
             if publisher is not None and isinstance(message, messages.OdometryMessage)
         ]
-        self._read = self._rest  # those of them that somebody reads
-        self._look_again_sec = 0.0
+        self._read = self._rest  # those of them that have subscriptions
+        self._count_again_sec = 0.0
         self._collision_publisher = node.create_publisher(
             DiagnosticStatus, f'{namespace}collisions', QOS
         )
@@ -132,10 +132,10 @@ class RobotTopics:
 
     def warn_of_other_types(self, node: Node) -> None:
         """
-        Say so, once, when somebody commands with another message type.
+        Log an error, once, for a publisher of commands with another message type.
 
-        DDS does not connect the two, so without a word nothing would move. Most often it is a
-        TwistStamped, which Jazzy's own controllers take.
+        DDS does not connect the two, so the robot would not move. Most often it is a TwistStamped,
+        which Jazzy's own controllers take.
         """
         topic = self.command_subscription.topic_name
         for publisher in node.get_publishers_info_by_topic(topic):
@@ -148,16 +148,16 @@ class RobotTopics:
                 )
 
     def publish_filtered(self, stamp: Stamp) -> None:
-        """Publish what a driver steers by: first of all, so that it works while we go on."""
+        """Publish the odometry for the driver: first, so that the driver works meanwhile."""
         if self.filtered_publisher is not None:
             self._filtered.pack(stamp, self.robot)
             self.filtered_publisher.publish(self._form(self._filtered))
 
     def publish_rest(self, stamp: Stamp) -> None:
-        """Publish everything else of a control period that somebody reads."""
+        """Publish everything else of a control period that has subscriptions."""
         now_sec = time.monotonic()
-        if now_sec >= self._look_again_sec:
-            self._look_again_sec = now_sec + LOOK_SEC
+        if now_sec >= self._count_again_sec:
+            self._count_again_sec = now_sec + COUNT_SEC
             self._read = [each for each in self._rest if each[1].get_subscription_count()]
         for message, publisher in self._read:
             message.pack(stamp, self.robot)
@@ -170,14 +170,14 @@ class RobotTopics:
         self._collision_publisher.publish(messages.new_collision(touch))
 
     def has_driver(self) -> bool:
-        """Tell whether somebody reads the odometry and somebody writes commands."""
+        """Return whether the odometry has a subscription and the commands have a publisher."""
         return (
             self.filtered_publisher.get_subscription_count() > 0
             and self.command_subscription.get_publisher_count() > 0
         )
 
     def close(self) -> None:
-        """Let go of what the node does not own; may be called twice."""
+        """Release what the node does not own; may be called twice."""
         self._sensors.close()
 
 

@@ -63,7 +63,7 @@ class SimulationTopics:
 
     @property
     def has_drivers(self) -> bool:
-        """Whether every robot has one who reads its odometry and one who commands it."""
+        """Whether every robot's odometry has a subscription, and its commands a publisher."""
         return all(topics.has_driver() for topics in self._robots)
 
     @property
@@ -77,7 +77,7 @@ class SimulationTopics:
             topics.commanded = False
 
     def publish(self) -> None:
-        """Publish a control period, first what a driver steers by."""
+        """Publish a control period, first the odometry for the driver."""
         stamp = divmod(self._simulation.time_ns, 1_000_000_000)
         for topics in self._robots:
             topics.publish_filtered(stamp)
@@ -89,7 +89,7 @@ class SimulationTopics:
             self._by_name[touch.robot].publish_collision(touch)
 
     def warn_of_timeouts(self) -> None:
-        """Say which robots have just begun to stop for want of a command."""
+        """Log which robots have just begun to stop because no command came."""
         for robot in self._simulation.robots:
             if robot.command_timed_out:
                 timeout_sec = robot.controller.config.command_timeout_sec
@@ -99,11 +99,11 @@ class SimulationTopics:
                 )
 
     def warn_of_other_types(self) -> None:
-        """Say which publishers of commands have another message type, each once."""
+        """Log which publishers of commands have another message type, each once."""
         for topics in self._robots:
             topics.warn_of_other_types(self._node)
 
     def close(self) -> None:
-        """Let go of what the node does not own; may be called twice."""
+        """Release what the node does not own; may be called twice."""
         for topics in self._robots:
             topics.close()

@@ -3,7 +3,7 @@
 """
 The camera on the top plate, drawn off the screen with EGL or OSMesa.
 
-Everything of OpenGL belongs to the thread that draws first.
+All calls of OpenGL must come from the thread that draws first.
 """
 
 import math
@@ -75,7 +75,7 @@ class Camera:
         return context, scene, options, renderer
 
     def close(self) -> None:
-        """Let go of the drawing surface; may be called twice."""
+        """Release the drawing surface; may be called twice."""
         if self._drawing is not None:
             self._drawing[3].free()
             self._drawing[0].free()

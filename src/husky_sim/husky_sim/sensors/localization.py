@@ -13,10 +13,10 @@ minute) and a gyroscope that drifts (0.3 rad a minute).
 
 import math
 
+from husky_course.frames import wrapped
 import numpy as np
 import numpy.typing as npt
 
-from husky_sim.robot.diff_drive import wrapped
 from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
 
 Array = npt.NDArray[np.float64]
