@@ -79,11 +79,8 @@ def setting(
     changeable: bool = False,
 ) -> Any:
     """Declare a field of a dataclass that is also a ROS parameter; low < high is its range."""
-    metadata = {
-        **{'description': description, 'low': low, 'high': high},
-        **{'choices': tuple(choices), 'changeable': changeable},
-    }
-    return field(default=default, metadata=metadata)
+    metadata = {'description': description, 'low': low, 'high': high, 'changeable': changeable}
+    return field(default=default, metadata={**metadata, 'choices': tuple(choices)})
 
 
 def settings_of(kind: Any) -> list[Setting]:

@@ -9,28 +9,22 @@ from std_srvs.srv import Empty, SetBool, Trigger
 
 
 class Run(Protocol):
-    """What services control; see also `simulation_services`."""
+    """What services control; `at_start`: no time has passed since the start or a reset."""
 
     @property
-    def paused(self) -> bool:
-        """Whether time stands still."""
+    def paused(self) -> bool: ...
 
     @property
-    def at_start(self) -> bool:
-        """Whether no time has passed since the start or the last reset."""
+    def at_start(self) -> bool: ...
 
     @property
-    def time_sec(self) -> float:
-        """Return the simulated time."""
+    def time_sec(self) -> float: ...
 
-    def pause(self, paused: bool) -> None:
-        """Stop time, or continue."""
+    def pause(self, paused: bool) -> None: ...
 
-    def step(self) -> None:
-        """Advance by one control period."""
+    def step(self) -> None: ...
 
-    def reset(self) -> None:
-        """Put everything back as it was at the start."""
+    def reset(self) -> None: ...
 
 
 class ControlServices:

@@ -84,27 +84,16 @@ class Camera:
 
 def _new_context() -> Any:
     problems = []
-    for platform, make in (('mujoco.egl', _egl_context), ('mujoco.osmesa', _osmesa_context)):
-        try:
-            return make()
+    for platform in ('mujoco.egl', 'mujoco.osmesa'):
+        try:  # to import one of these loads its library, and fails where there is none
+            if platform == 'mujoco.egl':
+                from mujoco.egl import GLContext
+            else:
+                from mujoco.osmesa import GLContext
+            return GLContext(WIDTH, HEIGHT)
         except Exception as error:  # drivers, or their absence, raise many types
             problems.append(f'{platform}: {" ".join(str(error).split())}')
     raise SettingError(
         f'camera_rate_hz: no picture can be drawn here ({"; ".join(problems)}); install EGL '
         '(libegl1 and libgl1-mesa-dri) or set camera_rate_hz to 0'
     )
-
-
-# To import one of these loads its library, and fails where there is none.
-
-
-def _egl_context() -> Any:
-    from mujoco.egl import GLContext
-
-    return GLContext(WIDTH, HEIGHT)
-
-
-def _osmesa_context() -> Any:
-    from mujoco.osmesa import GLContext
-
-    return GLContext(WIDTH, HEIGHT)
