@@ -13,20 +13,21 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
+from hashlib import sha256
 import os
 import subprocess
 import sys
 
-DIGITS = 64
-PROGRAM = """
-from hashlib import sha256
-from husky_sim.messages import packed_messages
-from husky_sim.messages import prove
+from husky_sim.messages import packed_messages, prove
 
-for message in packed_messages():
-    prove(message)
-print(sha256(b''.join(map(bytes, packed_messages()))).hexdigest())
-"""
+DIGITS = 64
+
+
+def digest() -> str:
+    """Return the digest of all bytes that this process packs."""
+    for message in packed_messages():
+        prove(message)
+    return sha256(b''.join(map(bytes, packed_messages()))).hexdigest()
 
 
 def pack(byte: int) -> str:
@@ -34,7 +35,7 @@ def pack(byte: int) -> str:
     # glibc fills memory with this byte's complement before it hands it out.
     environment = {**os.environ, 'MALLOC_PERTURB_': str(byte)}
     done = subprocess.run(
-        [sys.executable, '-c', PROGRAM], env=environment, capture_output=True, text=True
+        [sys.executable, __file__, '--here'], env=environment, capture_output=True, text=True
     )
     return (done.stdout if done.returncode == 0 else done.stderr).strip()
 
@@ -43,7 +44,12 @@ def main() -> int:
     """Print what the processes had."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[1])
     parser.add_argument('--processes', type=int, default=200)
-    count = parser.parse_args().processes
+    parser.add_argument('--here', action='store_true', help='pack once, in this process')
+    given = parser.parse_args()
+    if given.here:
+        print(digest())
+        return 0
+    count = given.processes
     had = Counter(pack(number % 255 + 1) for number in range(count))
     for what, times in had.most_common():
         print(f'{times} of {count}: {what}')

@@ -20,7 +20,7 @@ import sys
 import tempfile
 import time
 
-from husky_runtime.children import adopt_orphans
+from husky_runtime.descendants import adopt_orphans
 from husky_runtime.domains import in_own_domain
 from husky_runtime.shared_memory import clean_shared_memory, unused_files
 import psutil

@@ -9,7 +9,10 @@ of its own (speed_row.py). With another clone given, its rows are measured in tu
 by the CPU time of the simulator's process, which a busy machine changes less. Exit status 1 if a
 ratio by CPU time is below 0.95.
 
-Run it with:  ./lab exec python benchmark/simulation_speed.py [--seconds 5]
+With --filter it prints what the inverse of the filter behind odometry/filtered costs, by
+cofactors as it is and by numpy.linalg.solve, and what of it is left in the simulated speed.
+
+Run it with:  ./lab exec python benchmark/simulation_speed.py [--seconds 5 | --filter]
               ./lab exec python benchmark/simulation_speed.py --beside ../other_clone [--pairs 9]
 """
 
@@ -18,6 +21,7 @@ from __future__ import annotations
 import argparse
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 import json
 import os
 from pathlib import Path
@@ -25,9 +29,16 @@ import signal
 from statistics import median
 import subprocess
 import sys
+import time
 from typing import Any
 
 from husky_runtime.domains import in_own_domain
+from husky_sim.sensors import Array, PlanarFilter, RATE, VX, WHEEL_SPEED_VARIANCE
+from husky_sim.simulation import Simulation
+from husky_sim.world import default_worlds
+import numpy as np
+
+from husky_sim.config import CONTROL_PERIOD_SEC, SimulationConfig
 
 ROOT = Path(__file__).resolve().parent.parent
 LEAST_RATIO = 0.95
@@ -66,7 +77,7 @@ def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str,
     command = [str(clone / 'lab'), 'exec', 'python3', str(script), f'--robots={row.robots}']
     command += [f'--parameters={json.dumps(row.parameters)}', f'--seconds={seconds}', *options]
     if not row.reads:
-        command.append('--nobody-reads')
+        command.append('--without-readers')
     # In a group of its own: Ctrl-C reaches only us, and we end all of it.
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
     try:
@@ -122,15 +133,56 @@ def title(row: Row) -> str:
     return f'{row.name:<24} {row.robots:>6}'
 
 
+class SolvedFilter(PlanarFilter):
+    """The filter with LAPACK in the place of cofactors."""
+
+    def _gain(self, seen: Array) -> Array:
+        variances = (WHEEL_SPEED_VARIANCE, WHEEL_SPEED_VARIANCE, self._rate_variance)
+        covariance = seen[:, VX : RATE + 1] + np.diag(variances)
+        return np.asarray(np.linalg.solve(covariance, seen), dtype=np.float64)
+
+
+def print_filters(rounds: int = 15, periods: int = 500) -> None:
+    """Measure the CPU time of both filters in turn: alone, and in a whole simulation."""
+    world = str(default_worlds() / 'playpen.xml')
+    simulation = Simulation(SimulationConfig(world=world))
+    (robot,) = simulation.robots
+    took: dict[str, dict[type[PlanarFilter], list[float]]] = {'update': {}, 'control period': {}}
+    for number in range(rounds):
+        kinds = (PlanarFilter, SolvedFilter)
+        for kind in kinds if number % 2 == 0 else kinds[::-1]:
+            simulation.reset()
+            robot.filtered = kind(CONTROL_PERIOD_SEC)
+            update = partial(
+                robot.filtered.update,
+                wheel_speed_m_s=0.5, wheel_yaw_rate_rad_s=0.1,
+                imu_yaw=0.0, imu_yaw_rate_rad_s=0.1,
+            )  # fmt: skip
+            for name, function in (('update', update), ('control period', simulation.advance)):
+                begin_sec = time.process_time()
+                for _ in range(periods):
+                    function()
+                passed_us = (time.process_time() - begin_sec) / periods * 1e6
+                took[name].setdefault(kind, []).append(passed_us)
+    print(f'{"median, us":<16} {"cofactors":>10} {"solve":>8} {"ratio":>6}')
+    for name, figures in took.items():
+        ours, solved = (median(figures[kind]) for kind in (PlanarFilter, SolvedFilter))
+        print(f'{name:<16} {ours:>10.1f} {solved:>8.1f} {solved / ours:>6.2f}')
+
+
 def main() -> int:
-    """Print the table, or the pairs."""
+    """Print the table, the pairs, or the filters."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument('--seconds', type=float, default=5.0, help='of every measurement')
     parser.add_argument('--beside', type=Path, help='another clone of the lab')
     parser.add_argument('--pairs', type=int, default=9, help='of measurements of every row')
+    parser.add_argument('--filter', action='store_true', help='the inverse in the filter alone')
     given = parser.parse_args()
+    if given.filter:
+        print_filters()
+        return 0
     if given.beside is not None and not (given.beside / 'lab').is_file():
         parser.error(f'--beside {given.beside}: no clone of the lab; name a folder that has ./lab')
     if given.pairs < 1 or not given.seconds > 0.0:

@@ -153,7 +153,7 @@ def node_speed(given: argparse.Namespace, ending: Ending) -> tuple[float, float]
     executor.add_node(node)
     driver = multiprocessing.get_context('spawn').Process(
         target=drive,
-        args=(prefixes, bool(parameters.get('lockstep')), not given.nobody_reads),
+        args=(prefixes, bool(parameters.get('lockstep')), not given.without_readers),
         daemon=True,
     )
     driver.start()
@@ -198,7 +198,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--robots', type=int, default=1, choices=range(1, len(STARTS) + 1))
     parser.add_argument('--parameters', type=json.loads, default={}, help='of the node, as JSON')
-    parser.add_argument('--nobody-reads', action='store_true')
+    parser.add_argument('--without-readers', action='store_true')
     parser.add_argument('--seconds', type=float, default=5.0, help='of every measurement')
     parser.add_argument('--without-bare', action='store_true', help='the node alone')
     given = parser.parse_args()

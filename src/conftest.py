@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A robot simple enough for tests: limits, lag and delay, but no slip."""
+"""A simple robot for tests: limits, lag and delay, but no slip."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Plant:
 
 @dataclass
 class Run:
-    """What came of a drive: every odometry, every command."""
+    """The course of a drive: every odometry, every command."""
 
     drive: Drive
     track: list[Odometry]

@@ -45,7 +45,7 @@ def drive(
     simulator = nodes.start(SimulatorNode, record=str(record), **time)
     driver = nodes.start(
         FollowPath,
-        before_spin=lambda node: node.start(Drive(plan_route(load_course(str(course))))),
+        lambda *_: Drive(plan_route(load_course(course))),
         progress='off',
     )
     wait_until(driver.finished.done, timeout_sec=timeout_sec, what=f'the end of {course.name}')
@@ -118,7 +118,7 @@ def test_the_laser_stops_it_until_an_unmapped_box_is_gone(
     )  # fmt: skip
     driver = nodes.start(
         FollowPath,
-        before_spin=lambda node: node.start(Drive(plan_route(load_course(str(course))))),
+        lambda *_: Drive(plan_route(load_course(course))),
         scan=True, progress='off',
     )  # fmt: skip
 

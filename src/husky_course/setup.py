@@ -13,7 +13,7 @@ setup(
     install_requires=['setuptools', 'numpy', 'PyYAML'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
-    maintainer_email='maintainers@playpen-lab.example',
+    maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='Waypoint files, routes, obstacles seen from above, and the record of a run.',
     license='Apache-2.0',
 )

@@ -33,7 +33,7 @@ setup(
     install_requires=['setuptools', 'numpy'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
-    maintainer_email='maintainers@playpen-lab.example',
+    maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='Drives the Husky along a path of waypoints.',
     license='Apache-2.0',
     entry_points={

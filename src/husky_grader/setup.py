@@ -14,7 +14,7 @@ setup(
     install_requires=['setuptools', 'matplotlib', 'numpy'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
-    maintainer_email='maintainers@playpen-lab.example',
+    maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='Judges runs: check of a course, rehearsal, score, live runs, classes, reports.',
     license='Apache-2.0',
     entry_points={

@@ -13,7 +13,7 @@ setup(
     install_requires=['setuptools', 'psutil'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
-    maintainer_email='maintainers@playpen-lab.example',
+    maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='How programs of the lab start, spin and end; DDS domains and child processes.',
     license='Apache-2.0',
     entry_points={

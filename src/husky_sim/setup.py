@@ -44,10 +44,9 @@ setup(
     install_requires=['setuptools', 'mujoco', 'numpy'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
-    maintainer_email='maintainers@playpen-lab.example',
+    maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='Clearpath Huskies in the playpen, simulated with MuJoCo, as a ROS 2 node.',
     license='Apache-2.0',
-    tests_require=['pytest'],
     entry_points={
         'console_scripts': [
             'husky_sim = husky_sim.programs:main',

@@ -18,7 +18,7 @@ setup(
     install_requires=['setuptools', 'mujoco', 'mjviser', 'numpy', 'trimesh', 'viser'],
     zip_safe=True,
     maintainer='The Husky Playpen Lab authors',
-    maintainer_email='maintainers@playpen-lab.example',
+    maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='The playpen in the browser: live, as a replay, and with an editor of waypoints.',
     license='Apache-2.0',
     entry_points={

@@ -5,9 +5,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
+import re
+
+from husky_course.frames import Pose
 
 ROBOT_LENGTH_M = 0.9874  # of the A200's collision box, bumpers included
 ROBOT_WIDTH_M = 0.6851
+
+_NAME = re.compile(r'[A-Za-z][A-Za-z0-9_]*')
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,3 +24,27 @@ class RobotStart:
     x: float = 0.0
     y: float = 0.0
     yaw: float = 0.0
+
+    @property
+    def pose(self) -> Pose:
+        """Return x, y and yaw."""
+        return self.x, self.y, self.yaw
+
+    @classmethod
+    def parse(cls, line: str) -> RobotStart:
+        """
+        Read a robot from a parameter or a command line: `NAME X Y YAW`.
+
+        :raises ValueError: if it is not of that form.
+        """
+        name, *pose = line.split() or ['']
+        try:
+            x, y, yaw = (float(word) for word in pose)
+        except ValueError:
+            x = y = yaw = math.nan
+        if not _NAME.fullmatch(name) or not all(math.isfinite(value) for value in (x, y, yaw)):
+            raise ValueError(
+                f"{line!r}: a robot is 'NAME X Y YAW', a name of letters, digits and _ and "
+                "three numbers, as in 'husky_beta 1.0 3.0 0.5236'"
+            )
+        return cls(name=name, x=x, y=y, yaw=yaw)

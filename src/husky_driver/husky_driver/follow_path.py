@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 import signal
 import sys
 from types import FrameType
@@ -13,7 +14,7 @@ from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.executor import make_executor
-from husky_runtime.start import signals_held_back
+from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
@@ -22,6 +23,11 @@ from husky_driver.drive.distance_drive import DistanceDrive
 from husky_driver.drive.drive import Drive
 from husky_driver.prompt import ask_move
 from husky_driver.ros.node import FollowPath, INTERRUPTED, TERMINATED
+from husky_driver.ros.settings import Settings
+
+
+class _Refused(Exception):
+    """The node cannot start; the message is printed as it is."""
 
 
 def main(args: Sequence[str] | None = None) -> int:
@@ -30,72 +36,84 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
     try:
         options = parser.parse_args(remove_ros_args(argv)[1:])
-        with signals_held_back():
-            # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
-            rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
-            node = FollowPath()
-    except KeyboardInterrupt:
-        rclpy.try_shutdown()
-        return INTERRUPTED
-    except Exception as error:  # rcl raises many types for what a person can mistype
-        return _refuse(' '.join(str(error).split()))
-    try:
-        return _run(node, options.waypoints or node.settings.waypoints)
+        return _run(_make_node(argv, options.waypoints))
     except KeyboardInterrupt:
         return INTERRUPTED
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-def _refuse(message: str) -> int:
-    print(f'follow_path: {message}', file=sys.stderr)
-    return BAD_INPUT
-
-
-def _run(node: FollowPath, waypoints: str) -> int:
-    try:
-        drive = _checked(node, plan_route(load_course(waypoints))) if waypoints else _ask()
-    except EOFError:
-        print(flush=True)
-        return _refuse('nobody answers; give a file: --waypoints FILE')
-    except ValueError as error:
+    except _Refused as error:
         print(error, file=sys.stderr)
         return BAD_INPUT
-    executor = make_executor()
-    executor.add_node(node)
-    node.start(drive)
-    _stop_on_signals(node)
-    while not node.finished.done():
-        # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up. A short
-        # one, for it sees signals only between two spins.
-        executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
-    executor.remove_node(node)
-    return int(node.finished.result())
+    finally:
+        rclpy.try_shutdown()
 
 
-def _checked(node: FollowPath, route: Route) -> Drive:
+def _make_node(argv: list[str], file: str | None) -> FollowPath:
+    try:
+        with SignalsHeldBack() as signals:
+            # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
+            rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
+            return FollowPath(partial(_choose_drive, signals, file))
+    except _Refused:
+        raise
+    except Exception as error:  # rcl raises many types for wrong arguments
+        raise _Refused(f'follow_path: {" ".join(str(error).split())}') from None
+
+
+def _choose_drive(
+    signals: SignalsHeldBack, file: str | None, settings: Settings, warn: Callable[[str], object]
+) -> Drive:
+    """Return the drive of a waypoint file, or of the answers at the terminal."""
+    file = file or settings.waypoints
+    with signals.let_through():
+        try:
+            if file:
+                return _drive_of(file, settings, warn)
+            move = ask_move()
+        except EOFError:
+            print(flush=True)
+            message = 'follow_path: nobody answers; give a file: --waypoints FILE'
+            raise _Refused(message) from None
+        except ValueError as error:
+            raise _Refused(str(error)) from None
+    return DistanceDrive(move.speed_m_s, move.distance_m, forward=move.forward)
+
+
+def _drive_of(file: str, settings: Settings, warn: Callable[[str], object]) -> Drive:
+    route = plan_route(load_course(file))
+    if settings.check != 'off':
+        _check(route, settings, warn)
+    return Drive(route, slip=settings.slip_model)
+
+
+def _check(route: Route, settings: Settings, warn: Callable[[str], object]) -> None:
     """
     Look for obstacles beside the route before anything moves.
 
     :raises ValueError: when the settings say that it must not be driven.
     """
-    settings, log = node.settings, node.get_logger()
-    if settings.check != 'off':
-        with signals_held_back():
-            from husky_driver.route_check import near_passes
-        x, y, yaw = settings.start
-        near = near_passes(route, world=settings.world, start=(x, y, yaw))
-        for place in near:
-            log.warning(f'{route.course.file}: {place}')
-        if near and settings.check == 'refuse':
-            raise ValueError(f'{route.course.file}: not driven, it passes too near to obstacles')
-    return node.new_drive(route)
+    with SignalsHeldBack():
+        from husky_driver.route_check import near_passes
+    x, y, yaw = settings.start
+    near = near_passes(route, world=settings.world, start=(x, y, yaw))
+    for place in near:
+        warn(f'{route.course.file}: {place}')
+    if near and settings.check == 'refuse':
+        raise ValueError(f'{route.course.file}: not driven, it passes too near to obstacles')
 
 
-def _ask() -> Drive:
-    move = ask_move()
-    return DistanceDrive(move.speed_m_s, move.distance_m, forward=move.forward)
+def _run(node: FollowPath) -> int:
+    """Spin the node until it has finished; return its exit status."""
+    executor = make_executor()
+    executor.add_node(node)
+    _stop_on_signals(node)
+    try:
+        while not node.finished.done():
+            # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up. A
+            # short one, for it sees signals only between two spins.
+            executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
+        executor.remove_node(node)
+        return int(node.finished.result())
+    finally:
+        node.destroy_node()
 
 
 def _stop_on_signals(node: FollowPath) -> None:

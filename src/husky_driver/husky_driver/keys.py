@@ -1,11 +1,11 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What keys mean for the robot: those of teleop_twist_keyboard, and the arrows.
+Commands of the keys of teleop_twist_keyboard, and of the arrows.
 
-A terminal tells when a key is pressed and repeated, never when it is released. So a key counts as
-held until no repeat has come for a while: at first as long as a keyboard takes to begin to
-repeat, then much shorter.
+A terminal reports when a key is pressed and repeated, never when it is released. So a key counts
+as held until no repeat has come for a time: first the delay of a keyboard's repeat, then a much
+shorter one.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from husky_driver.motion import Command, STOP
 
 MAX_SPEED_M_S = 1.0
 MAX_TURN_RAD_S = 2.0
-FASTER, SLOWER = 1.1, 0.9  # one press, as there
+FASTER, SLOWER = 1.1, 0.9  # one press, as in teleop_twist_keyboard
 
 HELP = """\
    u    i    o      forward, with a turn to the left and to the right
@@ -50,7 +50,7 @@ class Keyboard:
     _until_sec: float = 0.0
 
     def press(self, key: str, now_sec: float) -> None:
-        """Take a key press or a repeat."""
+        """Register a key press or a repeat."""
         if key in CHANGES:
             along, turning = CHANGES[key]
             self.speed_m_s = min(self.speed_m_s * along, MAX_SPEED_M_S)

@@ -1,18 +1,20 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What goes in and out of a drive: odometry and velocity commands."""
+"""Odometry, which a drive takes, and velocity commands, which it returns."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
+from husky_course.frames import Pose, to_odom, wrapped
+
 STANDING_M_S = 0.01
 STANDING_RAD_S = 0.02
 
 
 class Odometry(NamedTuple):
-    """Where the robot believes to be, in its odometry frame, and how it moves."""
+    """The estimated pose of the robot, in its odometry frame, and its velocity."""
 
     time_sec: float
     x_m: float
@@ -27,12 +29,13 @@ class Odometry(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What the velocity controller is asked for."""
+    """A command for the velocity controller."""
 
     speed_m_s: float
     yaw_rate_rad_s: float
 
 
+AT_ORIGIN = Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 STOP = Command(0.0, 0.0)
 
 
@@ -41,16 +44,14 @@ def yaw_of(x: float, y: float, z: float, w: float) -> float:
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
-def relative(x: float, y: float, origin: tuple[float, float, float]) -> tuple[float, float]:
+def relative(x: float, y: float, origin: Pose) -> tuple[float, float]:
     """Return a place as seen from a pose (x, y, yaw)."""
-    cos, sin = math.cos(origin[2]), math.sin(origin[2])
-    dx, dy = x - origin[0], y - origin[1]
-    return cos * dx + sin * dy, cos * dy - sin * dx
+    return to_odom(origin, x, y)
 
 
 def relative_odometry(odometry: Odometry, origin: Odometry) -> Odometry:
     """Return odometry of another frame as if it had begun at zero."""
-    pose = (origin.x_m, origin.y_m, origin.yaw_rad)
-    x, y = relative(odometry.x_m, odometry.y_m, pose)
-    yaw = math.remainder(odometry.yaw_rad - origin.yaw_rad, 2 * math.pi)
+    start = (origin.x_m, origin.y_m, origin.yaw_rad)
+    x, y = to_odom(start, odometry.x_m, odometry.y_m)
+    yaw = wrapped(odometry.yaw_rad - origin.yaw_rad)
     return odometry._replace(x_m=x, y_m=y, yaw_rad=yaw)

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ask at the terminal how to move, as the lab sheet does: speed, distance, forward."""
+"""Ask at the terminal for a move, as the lab sheet does: speed, distance, forward."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ T = TypeVar('T')
 
 @dataclass(frozen=True)
 class Move:
-    """A straight move; the speed is positive, `forward` tells which way."""
+    """A straight move; the speed is positive, also backward."""
 
     speed_m_s: float
     distance_m: float
@@ -28,9 +28,9 @@ class Move:
 
 def ask_move(ask: Callable[[str], str] = input, say: Callable[[str], None] = print) -> Move:
     """
-    Return what the person asks for; a wrong answer is explained and asked again.
+    Return the answers; a wrong one is explained and asked again.
 
-    :raises EOFError: when nobody is there to answer.
+    :raises EOFError: at the end of the input.
     """
     say("Let's move your robot")
     speed = _until_valid(ask, say, 'Input your speed: ', _read_speed)

@@ -1,10 +1,11 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Asks who knows the obstacles of a world whether a route passes too near to them.
+Check a route against the obstacles of a world, where an installed package can.
 
-The driver knows none: it runs on a robot's computer too. A package that does declares an entry
-point of the group `husky_driver.route_check`: a function as RouteCheck. husky_grader does.
+The driver itself runs without a world, on a robot's computer too. A package that checks routes
+declares an entry point of the group `husky_driver.route_check`: a function as RouteCheck.
+husky_grader does.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ GROUP = 'husky_driver.route_check'
 
 
 class RouteCheck(Protocol):
-    """Looks along a route; see husky_grader.world_check."""
+    """Surveys a route; see husky_grader.world_check."""
 
     def __call__(self, route: Route, *, world: str, start: Pose) -> Survey:
-        """Return what is near the route."""
+        """Return the obstacles near the route."""
 
 
 def near_passes(route: Route, *, world: str, start: Pose) -> list[NearPass]:
     """
-    Return where the route passes too near to obstacles, as far as an installed package knows.
+    Return where the route passes too near to obstacles; nothing if no package checks it.
 
     :raises ValueError: when the world cannot be used.
     """

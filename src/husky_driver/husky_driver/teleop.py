@@ -18,7 +18,7 @@ from typing import Any
 from geometry_msgs.msg import Twist
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.executor import make_executor
-from husky_runtime.start import signals_held_back
+from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -31,12 +31,12 @@ from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, spl
 from husky_driver.motion import Command, STOP
 
 PERIOD_SEC = 0.05
-DELIVERY_SEC = 0.5  # how long the last command, a stop, may take to whoever listens
-ENDINGS = ('\x03', '\x1b', '')  # Ctrl-C, Esc, and a terminal that is gone
+DELIVERY_SEC = 0.5  # how long the last command, a stop, may take to arrive
+ENDINGS = ('\x03', '\x1b', '')  # Ctrl-C, Esc, and a terminal that was closed
 
 
 class Teleop(Node):
-    """Publishes what the keys say, and zero when they say nothing; `finished` when it is over."""
+    """Publishes the commands of the keys, and zero without one; `finished` when it is over."""
 
     def __init__(self, terminal: int, **arguments: Any) -> None:
         super().__init__('teleop', **arguments)
@@ -61,7 +61,7 @@ class Teleop(Node):
     def _read(self, now: float) -> None:
         try:
             text = os.read(self._terminal, 1024).decode(errors='replace')
-        except OSError:  # the terminal went away
+        except OSError:  # the terminal was closed
             text = ''
         for key in split_keys(text) or ['']:
             if key in ENDINGS:
@@ -82,7 +82,7 @@ class Teleop(Node):
         self._commands.publish(message)
 
     def deliver(self) -> None:
-        """Wait until the last command has arrived: with the node goes what it has not sent."""
+        """Wait until the last command has arrived: a destroyed node sends nothing more."""
         self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
 
     def end(self) -> None:
@@ -107,7 +107,7 @@ def raw_terminal(terminal: int) -> Iterator[None]:
         tty.setcbreak(terminal)
         yield
     finally:
-        with suppress(termios.error):  # the terminal may be gone
+        with suppress(termios.error):  # the terminal may be closed
             termios.tcsetattr(terminal, termios.TCSADRAIN, before)
 
 
@@ -119,13 +119,13 @@ def main(args: Sequence[str] | None = None) -> int:
         print('teleop: needs a terminal to read keys from; run it in one', file=sys.stderr)
         return BAD_INPUT
     try:
-        with signals_held_back():
+        with SignalsHeldBack():
             rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
             node = Teleop(sys.stdin.fileno())
     except KeyboardInterrupt:
         rclpy.try_shutdown()
         return 0
-    except Exception as error:  # rcl raises many types for what a person can mistype
+    except Exception as error:  # rcl raises many types for wrong arguments
         print(f'teleop: {" ".join(str(error).split())}', file=sys.stderr)
         rclpy.try_shutdown()
         return BAD_INPUT

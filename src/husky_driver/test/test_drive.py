@@ -29,12 +29,12 @@ HUSKIES = [
 
 
 @pytest.mark.parametrize('husky', HUSKIES)
-def test_the_course_is_followed_within_two_centimetres_at_88_percent_of_the_speed(
+def test_a_course_is_followed_within_2_cm_at_88_percent_speed(
     courses: Path, drive_to_end: Callable[..., Any], make_plant: Any, husky: dict[str, float]
 ) -> None:
     course = load_course(courses / 'central_barrier.yaml')
     run = drive_to_end(drive_of(course), make_plant(**husky))
-    curve, i, worst = run.drive.legs[0].curve, 0, 0.0
+    curve, i, worst = run.drive.route.legs[0].curve, 0, 0.0
     for odometry in run.track:
         i, _, offset = curve.project(i, odometry.x_m, odometry.y_m)
         worst = max(worst, abs(offset))
@@ -65,7 +65,7 @@ def test_commands_keep_the_limits_of_the_velocity_controller(
         assert abs(after.yaw_rate_rad_s - before.yaw_rate_rad_s) <= 6.0 * 0.02 + 1e-9
 
 
-def test_the_same_odometry_gives_the_same_commands_to_the_last_bit(
+def test_the_same_odometry_gives_bit_identical_commands(
     courses: Path, drive_to_end: Callable[..., Any]
 ) -> None:
     course = load_course(courses / 'central_barrier.yaml')
@@ -112,7 +112,7 @@ def test_sharp_corners_are_turned_on_the_spot(drive_to_end: Callable[..., Any]) 
 
 
 @pytest.mark.parametrize('forward', [True, False])
-def test_an_asked_distance_is_driven_from_wherever_the_robot_stands(
+def test_a_distance_is_driven_from_any_start_pose(
     drive_to_end: Callable[..., Any], make_plant: Any, forward: bool
 ) -> None:
     start = Odometry(3.0, 1.0, 2.0, 0.7, 0.0, 0.0)
@@ -227,30 +227,28 @@ def test_after_a_reset_at_any_moment_the_course_is_driven_again(
         ({'time_sec': 1.5}, 'which is no reset'),
     ],
 )
-def test_nonsense_stops_the_robot_at_once_and_ends_the_drive(
+def test_implausible_odometry_ends_the_drive_at_once(
     make_plant: Any, changes: dict[str, float], said: str
 ) -> None:
     drive, plant = drive_of(parse_course('speed: 0.8\nwaypoints: [[0, 0], [9, 0]]')), make_plant()
     for _ in range(80):
         plant.advance(drive.step(plant.now))
-    believed = drive.odometry
+    plausible = drive.odometry
     commands = []
     while (command := drive.step(plant.now._replace(**changes))) is not None:
         commands.append(command)
         plant.advance(command)
-        drive.feel(plant.now.time_sec, math.nan)
+        drive.add_acceleration(plant.now.time_sec, math.nan)
         assert len(commands) < 100
-    assert said in drive.failure == drive.nonsense
+    assert said in drive.failure == drive.implausible
     assert set(commands) == {(0.0, 0.0)}
     assert plant.now.is_standing
-    assert drive.odometry is believed
+    assert drive.odometry is plausible
     assert math.isfinite(drive.remaining_m)
 
 
 @pytest.mark.parametrize('seed', range(20))
-def test_the_odometry_of_two_robots_ends_a_drive_without_an_error(
-    make_plant: Any, seed: int
-) -> None:
+def test_mixed_odometry_of_two_robots_ends_a_drive(make_plant: Any, seed: int) -> None:
     dice = random.Random(seed)
     drive, other = drive_of(parse_course(LED_IN)), drive_of(parse_course(LED_IN))
     ours, theirs = make_plant(), make_plant()

@@ -18,11 +18,11 @@ def complaint(*messages: Odometry) -> str:
 
 
 def moved(**changes: float) -> Odometry:
-    """Return what may come 20 ms after, but for the changes."""
+    """Return a plausible odometry 20 ms later, with these changes."""
     return DRIVING._replace(**{'time_sec': 30.02, 'x_m': 5.008, **changes})
 
 
-def test_what_a_husky_does_is_believed() -> None:
+def test_what_a_husky_does_is_accepted() -> None:
     assert complaint(DRIVING, moved()) == ''
     assert complaint(DRIVING, moved(yaw_rad=1.0 + 0.04)) == ''
     assert complaint(DRIVING._replace(yaw_rad=3.14), moved(yaw_rad=-3.14)) == ''
@@ -59,14 +59,14 @@ def test_lost_messages_are_no_jump() -> None:
     assert complaint(DRIVING, moved(time_sec=33.0, x_m=8.0, yaw_rad=-2.0)) == ''
 
 
-def test_a_reset_is_believed_and_what_follows_it() -> None:
+def test_a_reset_is_accepted_and_what_follows_it() -> None:
     begun = [Odometry(k * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0) for k in range(2000)]
     assert complaint(DRIVING, *begun) == ''
     assert complaint(begun[20], *begun) == ''
 
 
 @pytest.mark.parametrize('before', range(1, 60))
-def test_a_reset_is_believed_however_early(before: int) -> None:
+def test_a_reset_is_accepted_however_early(before: int) -> None:
     standing = Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     periods = [*range(before), *range(200)]
     assert complaint(*(standing._replace(time_sec=0.02 * n) for n in periods)) == ''

@@ -7,7 +7,7 @@ import pytest
 
 
 def person(*answers: str) -> tuple[Callable[[str], str], list[str]]:
-    """Return somebody who gives these answers, and what was asked."""
+    """Return a source of these answers, and the list of the questions."""
     asked, left = list[str](), list(answers)
 
     def answer(question: str) -> str:
@@ -33,7 +33,7 @@ def test_forward_is_answered_as_people_do(text: str, forward: bool) -> None:
     assert ask_move(answer, lambda _: None) == Move(0.5, 3.0, forward)
 
 
-def test_a_wrong_answer_is_explained_in_one_line_and_asked_again() -> None:
+def test_a_wrong_answer_is_explained_and_asked_again() -> None:
     answer, asked = person('fast', 'nan', '1.2', '0.8', '1e9', '2', 'maybe', '0')
     said = list[str]()
     assert ask_move(answer, said.append) == Move(0.8, 2.0, forward=False)
@@ -47,7 +47,7 @@ def test_a_wrong_answer_is_explained_in_one_line_and_asked_again() -> None:
     ]
 
 
-def test_nobody_there_ends_the_questions() -> None:
+def test_the_end_of_input_ends_the_questions() -> None:
     answer, _ = person('0.5')
     with pytest.raises(EOFError):
         ask_move(answer, lambda _: None)

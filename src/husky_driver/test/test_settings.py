@@ -1,6 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-from husky_driver.ros.settings import refuse_unknown, Settings
+from husky_driver.ros.settings import Settings
+from husky_runtime.settings import refuse_unknown
 import pytest
 
 
@@ -16,7 +17,7 @@ def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:
         Settings(start=(0.0, 1.0))
 
 
-def test_an_unknown_parameter_is_refused_with_the_nearest_right_spelling() -> None:
-    refuse_unknown(['waypoints', 'use_sim_time', 'qos_overrides./x.depth'])
+def test_an_unknown_parameter_is_refused_with_a_suggestion() -> None:
+    refuse_unknown(['waypoints', 'use_sim_time', 'qos_overrides./x.depth'], Settings)
     with pytest.raises(ValueError, match='wayponts does not exist; did you mean waypoints'):
-        refuse_unknown(['wayponts'])
+        refuse_unknown(['wayponts'], Settings)

@@ -6,14 +6,14 @@ import pytest
 
 
 def corrected(correction: SlipCorrection, speed: float, rate: float) -> Odometry:
-    """Return what is made of one second at a speed and yaw rate, with a pose that stays."""
+    """Return the correction of one second at a speed and yaw rate, with a constant pose."""
     result = Odometry(0.0, 0.0, 0.0, 0.0, speed, rate)
     for period in range(51):
         result = correction.corrected(result._replace(time_sec=period * 0.02, x_m=0.0, y_m=0.0))
     return result
 
 
-def test_a_robot_that_turns_left_is_carried_to_the_right_and_a_little_onward() -> None:
+def test_in_a_left_bend_the_slip_is_right_and_forward() -> None:
     found = corrected(SlipCorrection(SlipModel(0.04, 0.03)), 0.5, 0.2)
     assert (found.x_m, found.y_m) == pytest.approx((0.003, -0.004), abs=5e-5)
 
@@ -23,7 +23,7 @@ def test_a_robot_that_turns_right_is_carried_to_the_left() -> None:
     assert (found.x_m, found.y_m) == pytest.approx((0.003, 0.004), abs=5e-5)
 
 
-def test_one_that_drives_backwards_is_carried_outwards_and_onwards_too() -> None:
+def test_driving_backwards_the_slip_is_outward_and_onward_too() -> None:
     found = corrected(SlipCorrection(SlipModel(0.04, 0.03)), -0.5, 0.2)
     assert (found.x_m, found.y_m) == pytest.approx((-0.003, -0.004), abs=5e-5)
 

@@ -80,7 +80,7 @@ def test_an_arrow_is_one_key() -> None:
 
 
 @pytest.fixture
-def heard(domain: int, monkeypatch: pytest.MonkeyPatch) -> Any:
+def received(domain: int, monkeypatch: pytest.MonkeyPatch) -> Any:
     """Collect the commands on the graph."""
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
@@ -118,8 +118,8 @@ def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> No
         time.sleep(0.01)
 
 
-def test_a_key_at_a_terminal_drives_until_it_is_released_or_the_terminal_goes(
-    heard: list[Command],
+def test_a_released_key_or_a_closed_terminal_stops_the_robot(
+    received: list[Command],
 ) -> None:
     ours, theirs = pty.openpty()
     process = subprocess.Popen(
@@ -135,16 +135,16 @@ def test_a_key_at_a_terminal_drives_until_it_is_released_or_the_terminal_goes(
 
     def driving() -> bool:
         os.write(ours, b'i')
-        return heard[-1:] == [forward]
+        return received[-1:] == [forward]
 
     try:
         wait_until(driving, timeout_sec=20.0, what='command of 0.5 m/s')
-        wait_until(lambda: heard[-1] == STOP, timeout_sec=5.0, what='stop after the release')
+        wait_until(lambda: received[-1] == STOP, timeout_sec=5.0, what='stop after the release')
         assert process.poll() is None
         wait_until(driving, timeout_sec=5.0, what='command of 0.5 m/s')
         os.close(ours)
         assert process.wait(timeout=10.0) == 0
-        wait_until(lambda: heard[-1] == STOP, timeout_sec=5.0, what='stop')
+        wait_until(lambda: received[-1] == STOP, timeout_sec=5.0, what='stop')
     finally:
         process.kill()
         process.wait()

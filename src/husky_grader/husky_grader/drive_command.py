@@ -15,9 +15,9 @@ import time
 from husky_course.record import FILE_NAME
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_runtime.children import run_to_end
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.domains import DomainError, OwnDomain
+from husky_runtime.supervise import run_to_end
 
 from husky_grader import check, grade
 from husky_grader.classes.grading import keep_course

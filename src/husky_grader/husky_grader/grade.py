@@ -17,7 +17,7 @@ from husky_course.record import read_record, read_run, RunRecord
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_driver.ros import Tally
-from husky_runtime.command_line import BAD_INPUT, nobody_reads, Parser
+from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 
 from husky_grader.classes.grading import grade_file, Graded
 from husky_grader.classes.worker_pool import Classroom, write_csv
@@ -85,7 +85,7 @@ def main(args: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except BrokenPipeError:
-        return nobody_reads()
+        return discard_output()
     except ValueError as error:
         print(printable(str(error), keep='\n'), file=sys.stderr)
         return BAD_INPUT
@@ -250,7 +250,7 @@ def _give_up_output() -> None:
     try:
         sys.stdout.flush()
     except OSError:
-        nobody_reads()
+        discard_output()
 
 
 def _why(error: OSError) -> str:

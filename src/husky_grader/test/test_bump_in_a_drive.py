@@ -16,7 +16,7 @@ def held_sec(wheels: list[float], body: list[float], *, gap: int = -1) -> float 
     bump = Bump()
     for i in range(1, len(wheels)):
         if not gap <= i < gap + 10:
-            bump.feel(i * 0.02, (body[i] - body[i - 1]) / 0.02)
+            bump.add_acceleration(i * 0.02, (body[i] - body[i - 1]) / 0.02)
         if bump.is_held(i * 0.02, wheels[i]):
             return i * 0.02
     return None

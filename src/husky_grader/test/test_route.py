@@ -45,7 +45,7 @@ def driven(course: Course) -> tuple[Drive, float]:
             worst_m = max(worst_m, abs(drive.tracker.offset_m))
         return command
 
-    drive_with(controller, feel=drive.feel, world=EMPTY)
+    drive_with(controller, feel=drive.add_acceleration, world=EMPTY)
     return drive, worst_m
 
 

@@ -1,3 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""How programs of the lab start, spin and end; DDS domains and child processes."""
+"""Start, spin and end programs of the lab; settings, DDS domains and child processes."""

@@ -1,49 +1,42 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Children that are ended with everything they started.
+Child processes that are ended with everything they started.
 
 A child gets a session of its own, so that its signals reach all of it, and dies with its parent
-however that one ends. What leaves its session is found all the same, by a mark in its environment:
-on Linux a process whose parent has ended is given to the next ancestor that asked for such
-(`adopt_orphans`).
+however that one ends. What leaves its session carries the child's mark; see `descendants`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 import contextlib
-import ctypes
 from functools import partial
 import os
 from pathlib import Path
 import signal
 import subprocess
-import sys
 from typing import IO
 from uuid import uuid4
 
-import psutil
-
+from husky_runtime.descendants import (
+    descendants,
+    end_processes,
+    FIRM_SEC,
+    HURRIED_FIRM_SEC,
+    MARK,
+)
 from husky_runtime.parent_death import die_with_parent
-from husky_runtime.shared_memory import clean_shared_memory
 
-END_WITHIN_SEC = 1.2  # of what is asked to end by SIGINT, when nobody waits for it
-FIRM_SEC = 0.4  # the same by SIGTERM
+END_WITHIN_SEC = 1.2  # from SIGINT to SIGTERM
 # The same after Ctrl-C, which must be done in 2 s: with two children in a row, with what these
 # have started, and with their shared memory.
 HURRIED_SEC = 0.4
-HURRIED_FIRM_SEC = 0.2
-RUN_ENDS_WITHIN_SEC = 1.0  # of the one child of a run, which has a record to close
-POLL_SEC = 0.02
-
-_MARK = 'PLAYPEN_PROCESS'
-_PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 
 
-class Process:
+class ChildProcess:
     """
-    A child in a session of its own.
+    A child in a session of its own; a context manager that ends it.
 
     :param log: takes what it prints; None: what this process prints goes there too.
     :param answers: what it reads from its standard input.
@@ -67,7 +60,7 @@ class Process:
         self._mark = uuid4().hex
         self._child = subprocess.Popen(
             command,
-            env={**environment, _MARK: self._mark},
+            env={**environment, MARK: self._mark},
             stdin=subprocess.PIPE if answers else subprocess.DEVNULL,
             stdout=log,
             stderr=None if log is None else subprocess.STDOUT,
@@ -76,7 +69,7 @@ class Process:
             preexec_fn=partial(die_with_parent, parent_death),
         )
         if self._child.stdin is not None:
-            with contextlib.suppress(BrokenPipeError):  # it does not listen; that is its business
+            with contextlib.suppress(BrokenPipeError):  # it does not read its input
                 self._child.stdin.write(answers)
                 self._child.stdin.close()
 
@@ -86,9 +79,10 @@ class Process:
 
     @property
     def exit_code(self) -> int | None:
+        """Its exit status, minus the number of the signal that ended it; None while it runs."""
         return self._child.poll()
 
-    def __enter__(self) -> Process:
+    def __enter__(self) -> ChildProcess:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
@@ -116,11 +110,11 @@ class Process:
         firm_sec: float = FIRM_SEC,
     ) -> None:
         """
-        End it with everything it started: kindly, firmly, then at once.
+        End it with everything it started; may be called twice.
 
-        :param by: the kind signal.
-        :param within_sec: how long it may take to end then.
-        :param firm_sec: how long it may take after SIGTERM.
+        :param by: the first signal.
+        :param within_sec: how long to wait after it, before SIGTERM.
+        :param firm_sec: how long to wait after SIGTERM, before SIGKILL.
         """
         for number, wait_sec in (
             (by, within_sec),
@@ -130,86 +124,11 @@ class Process:
             if self.exit_code is None:
                 self.send(number)
                 self.wait(wait_sec)
-        mine = [each for each in _descendants() if _mark_of(each) == self._mark]
-        end_processes(mine, firm_sec=firm_sec)
-
-
-def _descendants() -> list[psutil.Process]:
-    return list(psutil.Process().children(recursive=True))
-
-
-def _mark_of(process: psutil.Process) -> str:
-    try:
-        return str(process.environ().get(_MARK, ''))
-    except psutil.Error:  # it has ended, or is somebody else's
-        return ''
-
-
-def adopt_orphans() -> None:
-    """Become the parent of every descendant that loses its own; on Linux only."""
-    if sys.platform == 'linux':
-        ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
-
-
-@contextlib.contextmanager
-def descendants_ended() -> Iterator[None]:
-    """End every descendant that came meanwhile, also one that has lost its mark."""
-    adopt_orphans()
-    before = _descendants()
-    firm_sec = FIRM_SEC
-    try:
-        yield
-    except KeyboardInterrupt:
-        firm_sec = HURRIED_FIRM_SEC
-        raise
-    finally:
-        came = [each for each in _descendants() if each not in before]
-        end_processes(came, firm_sec=firm_sec)
-
-
-def end_processes(processes: list[psutil.Process], *, firm_sec: float) -> None:
-    """End processes that should have ended by themselves: firmly, then at once."""
-    for number in (signal.SIGTERM, signal.SIGKILL):
-        for process in processes:
-            with contextlib.suppress(psutil.NoSuchProcess):
-                process.send_signal(number)
-        _, processes = psutil.wait_procs(processes, timeout=firm_sec)
-
-
-def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
-    """
-    Run a command until it ends, and everything that it has started with it.
-
-    :returns: its exit status; minus the number of the signal that ended it.
-    :raises SystemExit: when a signal has asked this process to end, with 128 and its number.
-    """
-    adopt_orphans()
-    asked: list[int] = []
-    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    before = {
-        number: signal.signal(number, lambda number, _: asked.append(number)) for number in numbers
-    }
-    firm_sec = FIRM_SEC
-    try:
-        child = Process(command, environment)
-        while not asked and not child.wait(POLL_SEC):
-            pass
-        if asked:
-            firm_sec = HURRIED_FIRM_SEC
-        kind = signal.SIGINT if signal.SIGINT in asked else signal.SIGTERM
-        child.end(kind, within_sec=RUN_ENDS_WITHIN_SEC, firm_sec=firm_sec)
-    finally:
-        end_processes(_descendants(), firm_sec=firm_sec)
-        clean_shared_memory()
-        for number, handler in before.items():
-            signal.signal(number, handler)
-    if asked:
-        print('\ninterrupted', file=sys.stderr)
-        raise SystemExit(128 + asked[0])
-    return child.exit_code or 0
+        end_processes(descendants(mark=self._mark), firm_sec=firm_sec)
 
 
 def tail_of(path: Path, lines: int) -> str:
+    """Return the last lines of a file; nothing if it cannot be read."""
     try:
         text = path.read_text(encoding='utf-8', errors='replace').strip()
     except OSError:

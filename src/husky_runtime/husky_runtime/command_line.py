@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""How every command of the driver refuses what it is given: one line, exit code 2."""
+"""Command lines: wrong arguments are refused with one line and exit status 2."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import sys
 from typing import NoReturn
 
 BAD_INPUT = 2
-NOBODY_READS = 141  # as of a program that SIGPIPE ends
+BROKEN_PIPE = 141  # the exit status of a program that SIGPIPE ends
 
 
 class Parser(argparse.ArgumentParser):
@@ -20,7 +20,7 @@ class Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
 
 
-def nobody_reads() -> int:
-    """Be quiet when who read the output (`head`, `less`) has seen enough; return the status."""
+def discard_output() -> int:
+    """Discard further output after its reader (`head`, `less`) has ended; return the status."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return NOBODY_READS
+    return BROKEN_PIPE

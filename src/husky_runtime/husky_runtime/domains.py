@@ -1,12 +1,12 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-DDS domains: one that a run has to itself, and at most one simulator in each.
+DDS domains: one for each run, and at most one simulator in each.
 
 Both are locks. A lock is a name that the kernel gives to one process at a time: that of a Unix
-socket in the abstract namespace (unix(7)). It goes with its process, however that ends, leaves no
-file behind, and counts for every user of the machine, but only in one network namespace: just
-where DDS participants hear each other. Where there is no such namespace, a locked file stands in.
+socket in the abstract namespace (unix(7)). It ends with its process, leaves no file behind, and
+holds for every user of the machine within one network namespace, as DDS discovery does. Other
+systems than Linux use a locked file.
 """
 
 from collections.abc import Iterator
@@ -27,7 +27,7 @@ DOMAINS = range(30, 102)
 _VARIABLE = 'ROS_DOMAIN_ID'
 _PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.2, 9.6.1.1: PB, DG
 _MOST_PARTICIPANTS = 20  # of a domain that are looked for
-_WAITING = 4096  # connections that nobody accepts: each asks who holds the lock
+_BACKLOG = 4096  # connections, never accepted, of those that ask for the holder
 
 
 class DomainError(Exception):
@@ -35,7 +35,7 @@ class DomainError(Exception):
 
 
 class Lock:
-    """A name that one process of this machine holds, until it lets go of it or ends."""
+    """A name that one process of this machine holds, until it releases it or ends."""
 
     def __init__(self, name: str) -> None:
         """
@@ -47,15 +47,15 @@ class Lock:
             held = _bind(name) if sys.platform == 'linux' else _lock_file(name)
         except OSError:
             raise BlockingIOError(f'{name} is held by another process') from None
-        self._let_go = weakref.finalize(self, held.close)  # also when its owner is dropped
+        self._release = weakref.finalize(self, held.close)  # also at garbage collection
 
     def close(self) -> None:
-        """Let go; may be called twice."""
-        self._let_go()
+        """Release the name; may be called twice."""
+        self._release()
 
 
 class OwnDomain:
-    """A DDS domain that no other run takes, and in which nobody is; a context manager."""
+    """A DDS domain without participants, for this run alone; a context manager."""
 
     def __init__(self) -> None:
         """
@@ -63,14 +63,14 @@ class OwnDomain:
 
         :raises DomainError: if every domain is taken.
         """
-        # Not the same one again at once: processes that end may still be in it.
+        # Not the domain of the run before: its processes may still be ending.
         first = os.getpid() % len(DOMAINS)
         for number in (*DOMAINS[first:], *DOMAINS[:first]):
             try:
                 lock = Lock(f'ros_domain_{number}')
             except BlockingIOError:
                 continue
-            if not _is_inhabited(number):
+            if not _has_participants(number):
                 self.number, self._lock = number, lock
                 return
             lock.close()
@@ -80,7 +80,7 @@ class OwnDomain:
         )
 
     def close(self) -> None:
-        """Give the domain back; may be called twice."""
+        """Release the domain; may be called twice."""
         self._lock.close()
 
     def __enter__(self) -> 'OwnDomain':
@@ -106,7 +106,7 @@ def in_own_domain() -> Iterator[int]:
 
 def lock_simulator(domain: int) -> Lock:
     """
-    Take the place of the one simulator of a domain: two would speak on the same topics.
+    Take the lock of the one simulator of a domain: two would publish the same topics.
 
     :raises DomainError: if there is one already.
     """
@@ -124,7 +124,7 @@ def _bind(name: str) -> socket.socket | FileIO:
     holder = socket.socket(socket.AF_UNIX)
     try:
         holder.bind(f'\0{name}')
-        holder.listen(_WAITING)
+        holder.listen(_BACKLOG)
     except OSError:
         holder.close()
         raise
@@ -144,14 +144,14 @@ def _lock_file(name: str) -> socket.socket | FileIO:
 
 
 def _holder(name: str) -> str:
-    """Say which process holds a lock, as far as the kernel tells."""
+    """Return words for the process that holds a lock, as far as the kernel knows it."""
     if sys.platform != 'linux':
         return 'a process of this machine'
     with socket.socket(socket.AF_UNIX) as asking:
         asking.setblocking(False)
         try:
             asking.connect(f'\0{name}')
-        except OSError:  # it has just let go
+        except OSError:  # it has just released the lock
             return 'a process that is ending'
         # struct ucred of socket(7): process, user, group.
         answer = asking.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize('3i'))
@@ -164,8 +164,8 @@ def _holder(name: str) -> str:
     return f'process {process} ({command})' if command else f'process {process}'
 
 
-def _is_inhabited(domain: int) -> bool:
-    """Tell whether somebody without our lock is there, by the ports that participants bind."""
+def _has_participants(domain: int) -> bool:
+    """Return whether a participant without a lock is there, by the ports that it binds."""
     first = _PORT_BASE + _DOMAIN_GAIN * domain
     for port in (first, *(first + 10 + 2 * each for each in range(_MOST_PARTICIPANTS))):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Spins nodes with the executor that costs least."""
+"""Spin nodes with the executor that takes the least CPU time."""
 
 import signal
 
@@ -10,14 +10,14 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 SIGNAL_LATENCY_SEC = 0.2
-"""How long a signal may go unnoticed."""
+"""The longest time until a signal is handled."""
 
 
 def make_executor(context: rclpy.Context | None = None) -> Executor:
     """Return the executor with the least overhead that this rclpy has."""
     try:
         from rclpy.experimental import EventsExecutor
-    except ImportError:  # the first Jazzy releases
+    except ImportError:  # early Jazzy releases
         return SingleThreadedExecutor(context=context)
     return EventsExecutor(context=context)
 
@@ -43,9 +43,9 @@ def spin(node: Node, *, until: 'Future[None]') -> None:
     """Spin a node until a future is done."""
     executor = make_executor()
     executor.add_node(node)
-    # One event after the other: the EventsExecutor sees signals only between two spins, and
-    # forgets the timeout of a longer one while a timer is always due.
+    # One event at a time: the EventsExecutor handles signals only between two spins, and ignores
+    # the timeout of a longer one while a timer is always due.
     while not until.done():
         executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
-    executor.remove_node(node)  # before it is destroyed: events may wait in here
+    executor.remove_node(node)  # before it is destroyed: the executor may hold its events
     executor.shutdown()

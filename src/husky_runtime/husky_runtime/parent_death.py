@@ -13,7 +13,7 @@ import sys
 
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
-# Loaded now: between fork and exec of a process with threads as little as possible may be done.
+# Loaded here: between fork and exec of a process with threads little is allowed.
 _LIBC = ctypes.CDLL(None) if sys.platform == 'linux' else None
 
 

@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What killed participants leave of Fast DDS's shared memory.
+Remove the shared memory of Fast DDS that killed participants leave.
 
-It makes files fastrtps_NAME, fastrtps_NAME_el and sem.fastrtps_NAME_mutex in /dev/shm. One that is
-killed leaves them, and the clean-up of the next one overlooks half of them.
+A participant makes files fastrtps_NAME, fastrtps_NAME_el and sem.fastrtps_NAME_mutex in /dev/shm.
+One that is killed leaves them, and the clean-up of the next one removes half of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import time
 
 _FOLDER = Path('/dev/shm')
 _MARK = 'fastrtps_'
-_MADE_SEC = 0.2  # younger ones may be just being made, and not be mapped yet
+_MADE_SEC = 0.2  # a younger file may not be mapped yet
 
 
 def clean_shared_memory() -> None:
@@ -31,12 +31,12 @@ def clean_shared_memory() -> None:
 
 
 def unused_files() -> dict[Path, float]:
-    """Return the age of every file of this user that is in nobody's memory."""
+    """Return the age of every file of this user that no process has mapped."""
     ages: dict[Path, float] = {}
     for file in _FOLDER.glob(f'*{_MARK}*'):
         try:
             status = file.stat()
-        except OSError:  # gone meanwhile
+        except OSError:  # removed meanwhile
             continue
         if status.st_uid == os.getuid():
             ages[file] = time.time() - status.st_mtime
@@ -54,5 +54,5 @@ def _stem_of(name: str) -> str:
 def _maps_of(process: Path) -> str:
     try:
         return (process / 'maps').read_text()
-    except OSError:  # it has ended, or is somebody else's
+    except OSError:  # it has ended, or belongs to another user
         return ''

@@ -4,11 +4,57 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 import os
+import signal
 import sys
 
-from husky_runtime.children import run_to_end
+from husky_runtime.children import ChildProcess
+from husky_runtime.descendants import (
+    adopt_orphans,
+    descendants,
+    end_processes,
+    FIRM_SEC,
+    HURRIED_FIRM_SEC,
+)
+from husky_runtime.shared_memory import clean_shared_memory
 from husky_runtime.start import INTERRUPTED, run
+
+END_WITHIN_SEC = 1.0  # the one child of a run has a record to close
+POLL_SEC = 0.02
+
+
+def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
+    """
+    Run a command until it ends, and everything that it has started with it.
+
+    :returns: its exit status; minus the number of the signal that ended it.
+    :raises SystemExit: when a signal has asked this process to end, with 128 and its number.
+    """
+    adopt_orphans()
+    asked: list[int] = []
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {
+        number: signal.signal(number, lambda number, _: asked.append(number)) for number in numbers
+    }
+    firm_sec = FIRM_SEC
+    try:
+        child = ChildProcess(command, environment)
+        while not asked and not child.wait(POLL_SEC):
+            pass
+        if asked:
+            firm_sec = HURRIED_FIRM_SEC
+        first = signal.SIGINT if signal.SIGINT in asked else signal.SIGTERM
+        child.end(first, within_sec=END_WITHIN_SEC, firm_sec=firm_sec)
+    finally:
+        end_processes(descendants(), firm_sec=firm_sec)
+        clean_shared_memory()
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    if asked:
+        print('\ninterrupted', file=sys.stderr)
+        raise SystemExit(128 + asked[0])
+    return child.exit_code or 0
 
 
 def main() -> int:

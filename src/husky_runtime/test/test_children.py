@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Children, and everything that they have started: nothing of it stays."""
+"""Children are ended with everything that they have started."""
 
 from collections.abc import Callable
 import os
@@ -10,7 +10,8 @@ import subprocess
 import sys
 import time
 
-from husky_runtime.children import adopt_orphans, descendants_ended, Process
+from husky_runtime.children import ChildProcess
+from husky_runtime.descendants import adopt_orphans, descendants_ended
 from husky_runtime.domains import OwnDomain
 from husky_runtime.shared_memory import clean_shared_memory
 from playpen_testing.shared_memory import mapped_by
@@ -30,24 +31,24 @@ if os.fork() == 0:
 os.wait()
 time.sleep(600)
 """
-DEAF = """
+IGNORING = """
 import signal, time
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     signal.signal(number, signal.SIG_IGN)
-print('deaf', flush=True)
+print('ready', flush=True)
 time.sleep(600)
 """
 PARENT = """
 import os, sys
-from husky_runtime.children import Process
-child = Process([sys.executable, '-c', 'import time; time.sleep(600)'], os.environ)
+from husky_runtime.children import ChildProcess
+child = ChildProcess([sys.executable, '-c', 'import time; time.sleep(600)'], os.environ)
 print(child.pid, flush=True)
 sys.stdin.read()
 """
-DEAF_CHILD = f"""
+IGNORING_CHILD = f"""
 import os, signal, sys
-from husky_runtime.children import Process
-child = Process([sys.executable, '-c', {DEAF!r}], os.environ, parent_death=signal.SIGKILL)
+from husky_runtime.children import ChildProcess
+child = ChildProcess([sys.executable, '-c', {IGNORING!r}], os.environ, parent_death=signal.SIGKILL)
 print(child.pid, flush=True)
 sys.stdin.read()
 """
@@ -67,9 +68,9 @@ def wait_for(fact: Callable[[], object], what: str) -> None:
         time.sleep(0.01)
 
 
-def start(text: str, log: Path) -> Process:
+def start(text: str, log: Path) -> ChildProcess:
     with log.open('w') as stream:
-        process = Process([sys.executable, '-c', text], os.environ, stream)
+        process = ChildProcess([sys.executable, '-c', text], os.environ, stream)
     wait_for(lambda: log.read_text().endswith('\n'), 'the first line of the child')
     return process
 
@@ -89,8 +90,8 @@ def test_a_daemon_ends_with_the_child_that_made_it(tmp_path: Path) -> None:
     assert not is_running(daemon)
 
 
-def test_a_child_that_hears_no_signal_ends_in_2_s(tmp_path: Path) -> None:
-    process = start(DEAF, tmp_path / 'log')
+def test_a_child_that_ignores_signals_ends_in_2_s(tmp_path: Path) -> None:
+    process = start(IGNORING, tmp_path / 'log')
     begun = time.monotonic()
     process.end()
     assert process.exit_code == -signal.SIGKILL
@@ -109,20 +110,20 @@ def test_a_child_ends_with_its_killed_parent() -> None:
     wait_for(lambda: not is_running(child), 'the end of the child')
 
 
-def test_a_deaf_child_ends_with_its_killed_parent() -> None:
+def test_a_child_that_ignores_signals_ends_with_its_parent() -> None:
     parent = subprocess.Popen(
-        [sys.executable, '-c', DEAF_CHILD],
+        [sys.executable, '-c', IGNORING_CHILD],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
     )
     assert parent.stdout is not None
     told = {parent.stdout.readline().strip(), parent.stdout.readline().strip()}
-    (child,) = map(int, told - {'deaf'})
+    (child,) = map(int, told - {'ready'})
     assert is_running(child)
     parent.kill()
     parent.communicate()
-    wait_for(lambda: not is_running(child), 'the end of the deaf child')
+    wait_for(lambda: not is_running(child), 'the end of the child')
 
 
 def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
@@ -130,7 +131,7 @@ def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
     with descendants_ended():
         with log.open('w') as stream:
             command = ['env', '-i', sys.executable, '-c', DAEMON]
-            child = Process(command, os.environ, stream)
+            child = ChildProcess(command, os.environ, stream)
         wait_for(lambda: log.read_text().endswith('\n'), 'the daemon')
         daemon = int(log.read_text())
         child.end()

@@ -24,7 +24,7 @@ def main():
 """
 
 
-def test_an_interrupt_in_a_callback_of_pythons_own_is_not_forgotten(tmp_path: Path) -> None:
+def test_an_interrupt_in_a_weakref_callback_is_not_lost(tmp_path: Path) -> None:
     (tmp_path / 'forgetful.py').write_text(FORGETFUL)
     program = (
         'import sys; from forgetful import main; from husky_runtime.start import run; '

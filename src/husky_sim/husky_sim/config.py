@@ -4,28 +4,21 @@
 Settings of the simulator: the only place a default lives.
 
 Values of the velocity controller are those of husky_control for ROS Noetic
-(husky/husky noetic-devel, config/control.yaml) and of the A200's URDF. The metadata of a field
-are its description and its range as a ROS parameter.
+(husky/husky noetic-devel, config/control.yaml) and of the A200's URDF.
 """
 
 from dataclasses import dataclass, field
-from typing import Any
 
 from husky_course.robot import RobotStart
+from husky_runtime.settings import setting
 
 CONTROL_PERIOD_SEC = 0.02
 """The velocity controller, the odometry and the IMU all run at 50 Hz."""
 
 
-def setting(default: Any, description: str, low: float = 0.0, high: float = 0.0) -> Any:
-    """Declare a field that is also a ROS parameter; low < high gives it a range."""
-    metadata = {'description': description, 'low': low, 'high': high}
-    return field(default=default, metadata=metadata)
-
-
 @dataclass(frozen=True, kw_only=True)
 class DriveConfig:
-    """What the velocity controller knows of the robot, and what it allows."""
+    """The kinematic model and the limits of the velocity controller."""
 
     wheel_separation_m: float = setting(
         0.5708 * 1.875, 'Track of the kinematic model: 1.875 times the geometric one.', 0.1, 5.0
@@ -50,7 +43,7 @@ GRIP = {'ideal': 1.5, 'asphalt': 1.0, 'gravel': 0.3}
 class GroundConfig:
     """What the robots drive on."""
 
-    slip: str = setting('asphalt', 'How the tyres grip: ideal, asphalt or gravel.')
+    slip: str = setting('asphalt', 'How the tyres grip: ideal, asphalt or gravel.', choices=GRIP)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +75,7 @@ class RunConfig:
 
     world: str = setting('', 'MJCF file of the world; empty: the playpen.')
     real_time_factor: float = setting(
-        1.0, 'Simulated seconds a second; 0: as fast as possible.', 0.0, 1000.0
+        1.0, 'Simulated seconds a second; 0: as fast as possible.', 0.0, 1000.0, changeable=True
     )
     lockstep: bool = setting(
         False, 'Wait for a command after each odometry message, then advance one control period.'

@@ -1,11 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a picture of the simulation needs, on one topic: `~/scene`.
+The topic `~/scene` for viewers: every pose, and the track of the robots since the last message.
 
-Every pose of the world, and where the robots have been since the last message. It goes out 30
-times a second of wall time and only while somebody listens, so that a viewer costs the same
-whether the simulation runs in real time or fifty times as fast.
+It is published 30 times a second of wall time, and only while it has subscriptions, so that a
+viewer costs the same whether the simulation runs in real time or fifty times as fast.
 """
 
 from array import array
@@ -29,14 +28,14 @@ from husky_sim.world.world import World
 TOPIC = '~/scene'
 RATE_HZ = 30.0
 ROW_SEC = 0.004
-"""Wall time from one entry of a track to the next: a fast simulation has more than can be seen."""
+"""Wall time from one entry of a track to the next; a fast simulation leaves periods out."""
 
 TRACK = ('x', 'y', 'yaw', 'odom_x', 'odom_y', 'odom_yaw', 'speed_m_s')
-"""Of every robot, after the time: the true pose, the believed one, the true speed."""
+"""Of every robot, after the time: the true pose, the estimated one, the true speed."""
 
 _KEY = 16
 
-# Best effort: a viewer that hangs must not make the simulator wait.
+# Best effort: the simulator must not wait for a viewer that hangs.
 QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 Array = npt.NDArray[np.float64]
@@ -45,9 +44,9 @@ Array = npt.NDArray[np.float64]
 @dataclass(frozen=True, kw_only=True)
 class Scene:
     """
-    One message, taken apart.
+    One message, decoded.
 
-    :param run: tells one run of a simulator from those before and beside it.
+    :param run: a key of this run of a simulator.
     """
 
     run: str = ''
@@ -80,7 +79,7 @@ class SceneTopic:
         self._timer = node.create_timer(1.0 / RATE_HZ, self._on_timer, clock=steady)
 
     def append(self) -> None:
-        """Take down where the robots are; call it after every control period."""
+        """Append the poses of the robots to the track; call it after every control period."""
         if self._watched and time.monotonic() >= self._next_row_sec:
             self._append()
 
@@ -120,7 +119,7 @@ class SceneTopic:
 
 
 def world_key(world: World) -> str:
-    """Return what tells a world with its robots from any other, wherever its file lies."""
+    """Return a key of a world with its robots; the path of its file does not matter."""
     model = world.model
     parts = (
         *(model.qpos0, model.body_pos, model.body_quat),
@@ -140,7 +139,7 @@ def origin_of(message: Float64MultiArray) -> tuple[str, str]:
 
 def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:
     """
-    Take a message apart, of a world with so many robots.
+    Decode a message of a world with so many robots.
 
     :raises ValueError: if it is of another simulation than one with so many robots.
     """

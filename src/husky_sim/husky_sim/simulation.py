@@ -3,7 +3,7 @@
 """
 The simulation: physics and controllers, advanced by whole control periods.
 
-It knows neither ROS nor the wall clock, so a run is a function of the world file, the settings
+It uses neither ROS nor the wall clock, so a run is a function of the world file, the settings
 and the commands, bit for bit.
 """
 
@@ -50,13 +50,13 @@ class SimulatedRobot:
         self.odometry.reset()
         self._imu.reset()
         self.sensors.reset()
-        self.timeout_bites = False
+        self.command_timed_out = False
         self._measure()
         self.filtered.reset(self.imu.yaw)
 
     def act(self, time_sec: float) -> None:
         """Turn the last command into wheel speeds for the coming period."""
-        self.timeout_bites = self.controller.update(
+        self.command_timed_out = self.controller.update(
             time_sec=time_sec, period_sec=CONTROL_PERIOD_SEC
         )
         self.husky.drive(*self.controller.wheel_speeds_rad_s())
@@ -134,7 +134,7 @@ class Simulation:
         timestep_sec = self.model.opt.timestep
         for step in range(1, self.world.steps_per_period + 1):
             mujoco.mj_step(self.model, self.data)
-            self._detector.look(begin_sec + step * timestep_sec)
+            self._detector.update(begin_sec + step * timestep_sec)
         self.periods += 1
         for robot in self.robots:
             robot.observe(self.periods)

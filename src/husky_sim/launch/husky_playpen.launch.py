@@ -52,7 +52,7 @@ def _views(_context: LaunchContext, page: dict[str, ParameterValue]) -> list[Nod
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Return the simulator and, if asked for, its view in the browser."""
+    """Return the simulator and, if requested, its view in the browser."""
     share = FindPackageShare('husky_sim')
     playpen = PathJoinSubstitution([share, 'worlds', 'playpen.xml'])
     defaults = PathJoinSubstitution([share, 'config', 'husky_sim.yaml'])

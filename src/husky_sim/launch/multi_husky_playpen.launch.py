@@ -14,7 +14,7 @@ ROBOTS = "['husky_alpha 0.0 0.0 0.0', 'husky_beta 1.0 3.0 0.5236', 'husky_gamma 
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Return the launch of one robot, told of several."""
+    """Return the launch of one robot, with several robots as argument."""
     one = PathJoinSubstitution(
         [FindPackageShare('husky_sim'), 'launch', 'husky_playpen.launch.py']
     )

@@ -45,7 +45,7 @@ def worlds() -> Path:
 
 @pytest.fixture
 def make_world(tmp_path: Path) -> MakeWorld:
-    """Write a world of asphalt and what else is asked for."""
+    """Write a world of asphalt and of the given bodies."""
 
     def make(more: str = '') -> str:
         path = tmp_path / 'world.xml'
@@ -68,7 +68,7 @@ def on_asphalt(make_world: MakeWorld) -> Callable[..., Simulation]:
 
 @pytest.fixture
 def drive() -> Drive:
-    """Command every robot for a while, anew in every control period."""
+    """Command every robot for some time, in every control period."""
 
     def command(
         simulation: Simulation, speed_m_s: float, yaw_rate_rad_s: float, *, seconds: float

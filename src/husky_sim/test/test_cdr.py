@@ -68,7 +68,7 @@ def messages_of(kind: Any) -> Any:
 
 
 def padding_of(message: Any) -> set[int]:
-    """Return the places of the bytes that stand for nothing."""
+    """Return the places of the padding bytes."""
     with mock.patch('husky_sim.messages.cdr_stream._PADDING', b'\xff'):
         filled = encode(message)
     pairs = enumerate(zip(filled, encode(message), strict=True))
@@ -93,10 +93,10 @@ def test_every_type_is_read_as_it_was_written(package: str) -> None:
     assert kinds
     for kind in kinds:
         data = encode(kind())
-        message, heard = decode(kind, data), deserialize_message(data, kind)
-        assert message == kind() == heard
+        message, received = decode(kind, data), deserialize_message(data, kind)
+        assert message == kind() == received
         for name in kind.get_fields_and_field_types():
-            field, other = getattr(message, name), getattr(heard, name)
+            field, other = getattr(message, name), getattr(received, name)
             assert type(field) is type(other)
             assert getattr(field, 'dtype', None) == getattr(other, 'dtype', None)
 
@@ -156,12 +156,12 @@ def test_the_rules_give_these_bytes(slots: list[Any], values: list[Any], written
     fields = dict(zip('abcdef', values, strict=False))
     data = encode(kind(**fields))
     assert data.hex() == '00010000' + written.replace(' ', '')
-    heard = vars(decode(kind, data))
-    assert {name: type(value) for name, value in heard.items()} == {
+    received = vars(decode(kind, data))
+    assert {name: type(value) for name, value in received.items()} == {
         name: type(value) for name, value in fields.items()
     }
     for name, value in fields.items():
-        assert np.array_equal(heard[name], value)
+        assert np.array_equal(received[name], value)
 
 
 def test_every_number_has_its_place() -> None:

@@ -115,7 +115,7 @@ def test_backing_into_something_names_the_rear_bumper(on_asphalt: OnAsphalt) -> 
     assert touch.part == 'rear_bumper'
 
 
-def test_a_lasting_touch_is_one_touch_and_a_second_one_is_another(on_asphalt: OnAsphalt) -> None:
+def test_a_lasting_touch_counts_once_and_a_second_one_again(on_asphalt: OnAsphalt) -> None:
     simulation = on_asphalt(BOX.format(x=1.5))
     assert len(touches(simulation, 0.5, seconds=4.0)) == 1
     assert touches(simulation, -0.5, seconds=2.0) == []

@@ -4,7 +4,8 @@
 
 import math
 
-from husky_sim.robot.diff_drive import VelocityController, WheelOdometry, wrapped
+from husky_course.frames import wrapped
+from husky_sim.robot.diff_drive import VelocityController, WheelOdometry
 from hypothesis import given
 from hypothesis import strategies as st
 import pytest
@@ -63,7 +64,7 @@ def test_the_timeout_says_nothing_of_a_robot_that_stands(controller: VelocityCon
 
 
 @pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf])
-def test_a_command_that_is_no_number_is_refused_and_stops_the_robot(
+def test_a_command_that_is_not_finite_stops_the_robot(
     controller: VelocityController, bad: float
 ) -> None:
     controller.command(0.06, 0.0, time_sec=0.0)
@@ -95,7 +96,7 @@ def test_wheel_odometry_of_a_quarter_circle_ends_on_the_circle() -> None:
     assert odometry.speed_m_s == pytest.approx(radius_m * math.pi / 2.0 / steps / PERIOD_SEC)
 
 
-def test_wheel_odometry_starts_at_the_origin_whatever_the_angles_are() -> None:
+def test_wheel_odometry_starts_at_the_origin_at_any_angles() -> None:
     odometry = WheelOdometry(DriveConfig())
     odometry.update(123.0, -45.0, period_sec=PERIOD_SEC)
     assert (odometry.x, odometry.y, odometry.yaw, odometry.speed_m_s) == (0.0, 0.0, 0.0, 0.0)

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the messages say against what the physics holds: by name, in the right frame."""
+"""Messages compared with the state of the physics: by name, in the right frame."""
 
 from collections.abc import Callable
 import math
@@ -106,7 +106,7 @@ def test_without_noise_the_imu_says_what_the_physics_holds(simulation: Simulatio
         assert list(covariance[::4]) == [2.5e-5] * 3
 
 
-def test_odometry_starts_at_its_own_origin_and_speaks_of_base_link(
+def test_odometry_starts_at_its_own_origin_in_base_link(
     simulation: Simulation,
 ) -> None:
     robot = simulation.robots[0]

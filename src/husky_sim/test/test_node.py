@@ -47,14 +47,14 @@ TOPICS = {
 
 
 class Probe(Node):
-    """Hears every topic of the simulator, and commands it."""
+    """Subscribes to every topic of the simulator, and commands it."""
 
     def __init__(self, context: Context, prefix: str = '') -> None:
         super().__init__('probe', context=context)
-        self.heard: dict[str, list[Any]] = {name: [] for name in TOPICS}
+        self.received: dict[str, list[Any]] = {name: [] for name in TOPICS}
         for name, kind in TOPICS.items():
             topic = name if name.startswith('/') else prefix + name
-            self.create_subscription(kind, topic, self.heard[name].append, 500)
+            self.create_subscription(kind, topic, self.received[name].append, 500)
         self.publisher = self.create_publisher(Twist, prefix + COMMANDS, 10)
 
     def command(self, speed_m_s: float, yaw_rate_rad_s: float = 0.0) -> None:
@@ -64,7 +64,7 @@ class Probe(Node):
 
     @property
     def odometry(self) -> list[Odometry]:
-        return self.heard['odometry/filtered']
+        return self.received['odometry/filtered']
 
 
 class Bench:
@@ -87,16 +87,18 @@ class Bench:
             self.executor.spin_once(timeout_sec=0.05)
 
     def matched(self) -> None:
-        self.until(lambda: all(self.probe.heard[n] for n in TOPICS if n != 'collisions'), 'topics')
+        self.until(
+            lambda: all(self.probe.received[n] for n in TOPICS if n != 'collisions'), 'topics'
+        )
 
     def begun(self) -> None:
         self.until(lambda: self.probe.odometry, 'the first odometry message')
 
     def answer(self, speed_m_s: float, yaw_rate_rad_s: float = 0.0) -> None:
         """Command, and wait for the odometry that follows."""
-        heard = len(self.probe.odometry)
+        received = len(self.probe.odometry)
         self.probe.command(speed_m_s, yaw_rate_rad_s)
-        self.until(lambda: len(self.probe.odometry) > heard, 'the next odometry message')
+        self.until(lambda: len(self.probe.odometry) > received, 'the next odometry message')
 
     def call(self, kind: Any, name: str, request: Any) -> Any:
         client = self.probe.create_client(kind, f'/husky_sim/{name}')
@@ -136,13 +138,13 @@ def value(message: DiagnosticStatus, key: str) -> str:
 def test_every_topic_comes_at_50_hz_of_simulated_time(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=3.0)
     run.matched()
-    run.until(lambda: len(run.probe.heard['imu/data']) > 60, '60 IMU messages')
+    run.until(lambda: len(run.probe.received['imu/data']) > 60, '60 IMU messages')
     for name, kind in TOPICS.items():
         if kind in (Odometry, Imu, JointState):
-            stamps = [stamp_sec(message) for message in run.probe.heard[name]]
+            stamps = [stamp_sec(message) for message in run.probe.received[name]]
             steps = [after - before for before, after in pairwise(stamps)]
             assert steps == pytest.approx([0.02] * len(steps)), name
-    clock = [m.clock.sec + m.clock.nanosec * 1e-9 for m in run.probe.heard['/clock']]
+    clock = [m.clock.sec + m.clock.nanosec * 1e-9 for m in run.probe.received['/clock']]
     assert clock[-1] == pytest.approx(stamp_sec(run.probe.odometry[-1]), abs=0.0201)
 
 
@@ -152,15 +154,15 @@ def test_frames_and_covariances_are_those_of_the_original(bench: Callable[..., B
     for off in ('front/scan', 'camera/image_raw'):
         assert run.simulator.count_publishers(off) == 0, f'{off} should be off by default'
     filtered = run.probe.odometry[0]
-    truth = run.probe.heard['ground_truth/odom'][0]
-    wheels = run.probe.heard['husky_velocity_controller/odom'][0]
-    imu = run.probe.heard['imu/data'][-1]
+    truth = run.probe.received['ground_truth/odom'][0]
+    wheels = run.probe.received['husky_velocity_controller/odom'][0]
+    imu = run.probe.received['imu/data'][-1]
     assert (filtered.header.frame_id, filtered.child_frame_id) == ('odom', 'base_link')
     assert (truth.header.frame_id, truth.child_frame_id) == ('world', 'base_link')
     assert list(wheels.pose.covariance[::7]) == [0.001] * 5 + [0.03]
     assert imu.linear_acceleration.z == pytest.approx(9.8, abs=0.05)
     assert imu.header.frame_id == 'base_link'
-    assert list(run.probe.heard['joint_states'][0].name) == [
+    assert list(run.probe.received['joint_states'][0].name) == [
         'front_left_wheel_joint',
         'front_right_wheel_joint',
         'rear_left_wheel_joint',
@@ -188,7 +190,7 @@ def test_scanner_and_receiver_speak_at_their_rates(bench: Callable[..., Bench]) 
 
 def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=0.0, localization=False)
-    run.until(lambda: run.probe.heard['husky_velocity_controller/odom'], 'wheel odometry')
+    run.until(lambda: run.probe.received['husky_velocity_controller/odom'], 'wheel odometry')
     assert run.probe.count_publishers('odometry/filtered') == 0
 
 
@@ -227,21 +229,21 @@ def test_it_keeps_the_pace_it_is_told(bench: Callable[..., Bench]) -> None:
     assert_pace(6.0, 6.0)
 
 
-def test_the_scene_of_a_fast_run_leaves_out_what_nobody_could_see(
+def test_the_scene_of_a_fast_run_leaves_periods_out(
     bench: Callable[..., Bench],
 ) -> None:
     run = bench(real_time_factor=0.0)
-    heard: list[Float64MultiArray] = []
-    run.probe.create_subscription(Float64MultiArray, 'husky_sim/scene', heard.append, SCENE_QOS)
-    run.until(lambda: len(heard) > 10, 'ten scenes')
-    scenes = [read_scene(message, robots=1) for message in heard[1:]]
+    received: list[Float64MultiArray] = []
+    run.probe.create_subscription(Float64MultiArray, 'husky_sim/scene', received.append, SCENE_QOS)
+    run.until(lambda: len(received) > 10, 'ten scenes')
+    scenes = [read_scene(message, robots=1) for message in received[1:]]
     times_sec = np.concatenate([scene.time_sec for scene in scenes])
     assert (np.diff(times_sec) > 0.0).all()
     periods = round((times_sec[-1] - times_sec[0]) / CONTROL_PERIOD_SEC)
     assert len(times_sec) < periods, 'every period is in it'
 
 
-def test_a_command_moves_it_and_its_end_stops_it_within_the_timeout(
+def test_it_stops_within_the_timeout_after_the_last_command(
     bench: Callable[..., Bench], capfd: pytest.CaptureFixture[str]
 ) -> None:
     run = bench(real_time_factor=1.0)
@@ -300,30 +302,32 @@ def test_a_stamped_command_is_answered_with_what_is_wrong(
 
 def test_diagnostics_tell_the_pace_and_whether_it_is_kept(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=2.0)
-    heard: list[DiagnosticArray] = []
-    run.probe.create_subscription(DiagnosticArray, '/diagnostics', heard.append, 10)
-    run.until(lambda: len(heard) >= 2, 'two diagnostics')
-    values = {entry.key: entry.value for entry in heard[-1].status[0].values}
+    received: list[DiagnosticArray] = []
+    run.probe.create_subscription(DiagnosticArray, '/diagnostics', received.append, 10)
+    run.until(lambda: len(received) >= 2, 'two diagnostics')
+    values = {entry.key: entry.value for entry in received[-1].status[0].values}
     assert float(values['real_time_factor']) == pytest.approx(2.0, rel=0.2)
     assert values['real_time_factor_asked'] == '2'
     assert values['physics_warnings'] == '0'
-    assert heard[-1].status[0].name == 'husky_sim: time'
+    assert received[-1].status[0].name == 'husky_sim: time'
 
 
 def test_after_a_stall_it_tells_so_and_goes_on_with_whole_steps(
     bench: Callable[..., Bench],
 ) -> None:
     run = bench(real_time_factor=1.0)
-    heard: list[DiagnosticArray] = []
-    run.probe.create_subscription(DiagnosticArray, '/diagnostics', heard.append, 10)
+    received: list[DiagnosticArray] = []
+    run.probe.create_subscription(DiagnosticArray, '/diagnostics', received.append, 10)
     run.matched()
     before_sec, over_at = run.simulator.simulation.time_sec, time.monotonic() + 0.4
     while time.monotonic() < over_at:
         pass  # as if the machine were busy with something else
     run.until(lambda: run.simulator.simulation.time_sec > before_sec, 'the next period')
     assert run.simulator.simulation.time_sec < before_sec + 0.11, 'it should not make up for it'
-    run.until(lambda: heard and heard[-1].status[0].level == DiagnosticStatus.WARN, 'a warning')
-    values = {entry.key: entry.value for entry in heard[-1].status[0].values}
+    run.until(
+        lambda: received and received[-1].status[0].level == DiagnosticStatus.WARN, 'a warning'
+    )
+    values = {entry.key: entry.value for entry in received[-1].status[0].values}
     assert int(values['overruns']) >= 1
     assert float(values['wall_time_lost_sec']) > 0.25
     stamps = [stamp_sec(message) for message in run.probe.odometry]
@@ -348,10 +352,10 @@ def test_driving_into_the_barrier_reports_one_collision(bench: Callable[..., Ben
 
     def hit() -> bool:
         run.probe.command(0.6)
-        return bool(run.probe.heard['collisions'])
+        return bool(run.probe.received['collisions'])
 
     run.until(hit, 'a collision')
-    (touch,) = run.probe.heard['collisions']
+    (touch,) = run.probe.received['collisions']
     assert touch.name == 'jersey_barrier_15'
     assert touch.hardware_id == 'husky'
     assert touch.level == DiagnosticStatus.ERROR
@@ -362,7 +366,7 @@ def test_driving_into_the_barrier_reports_one_collision(bench: Callable[..., Ben
     assert len(value(touch, 'position').split()) == 3
 
 
-def test_lockstep_waits_for_each_command_and_advances_one_period(
+def test_lockstep_advances_one_period_for_each_command(
     bench: Callable[..., Bench],
 ) -> None:
     run = bench(real_time_factor=0.0, lockstep=True)
@@ -373,10 +377,10 @@ def test_lockstep_waits_for_each_command_and_advances_one_period(
         run.answer(0.5)
         assert stamp_sec(run.probe.odometry[-1]) == pytest.approx(answered * 0.02)
     deadline = time.monotonic() + 0.7
-    heard = len(run.probe.odometry)
+    received = len(run.probe.odometry)
     while time.monotonic() < deadline:
         run.executor.spin_once(timeout_sec=0.05)
-    assert len(run.probe.odometry) == heard, 'it went on without a command'
+    assert len(run.probe.odometry) == received, 'it went on without a command'
 
 
 def test_pause_step_and_reset(bench: Callable[..., Bench]) -> None:
@@ -423,10 +427,10 @@ def test_each_of_many_robots_has_its_own_topics(domain_id: int) -> None:
     for node in nodes:
         executor.add_node(node)
     deadline = time.monotonic() + 15.0
-    while not all(probe.heard['ground_truth/odom'] for probe in probes):
+    while not all(probe.received['ground_truth/odom'] for probe in probes):
         assert time.monotonic() < deadline, 'one of the robots says nothing'
         executor.spin_once(timeout_sec=0.05)
-    x = [probe.heard['ground_truth/odom'][0].pose.pose.position.x for probe in probes]
+    x = [probe.received['ground_truth/odom'][0].pose.pose.position.x for probe in probes]
     executor.shutdown()
     for node in reversed(nodes):
         node.destroy_node()

@@ -40,7 +40,7 @@ def stamp_ns(message: Any) -> int:
 
 
 class Stand:
-    """A simulator, and a node that hears the last message of every topic."""
+    """A simulator, and a node that keeps the last message of every topic."""
 
     def __init__(self, domain_id: int) -> None:
         self.context = Context()
@@ -48,7 +48,7 @@ class Stand:
         overrides = [Parameter('navsat_rate_hz', value=50.0)]
         self.simulator = SimulatorNode(context=self.context, parameter_overrides=overrides)
         self.probe = rclpy.create_node('probe', context=self.context)
-        self.heard: dict[str, Any] = {}
+        self.received: dict[str, Any] = {}
         for topic, kind in TOPICS.items():
             self.probe.create_subscription(kind, topic, self._hear(topic), 10)
         self.commands = self.probe.create_publisher(Twist, f'{CONTROL}/cmd_vel', 10)
@@ -57,26 +57,26 @@ class Stand:
         self.executor.add_node(self.probe)
 
     def _hear(self, topic: str) -> Any:
-        return lambda message: self.heard.__setitem__(topic, message)
+        return lambda message: self.received.__setitem__(topic, message)
 
     def drive(self, *, until_m_s: float) -> None:
-        """Command until the robot is as fast and every topic was heard."""
+        """Command until the robot is as fast and every topic was received."""
         command, deadline = Twist(), time.monotonic() + 20.0
         command.linear.x, command.angular.z = 0.8, 0.3
         robot = self.simulator.simulation.robots[0]
-        while robot.odometry.speed_m_s < until_m_s or len(self.heard) < len(TOPICS):
-            assert time.monotonic() < deadline, f'{robot.odometry}, heard {list(self.heard)}'
+        while robot.odometry.speed_m_s < until_m_s or len(self.received) < len(TOPICS):
+            assert time.monotonic() < deadline, f'{robot.odometry}, received {list(self.received)}'
             self.commands.publish(command)
             self.executor.spin_once(timeout_sec=0.02)
 
     def step(self) -> None:
-        """Advance one period, and wait until every message of it was heard."""
+        """Advance one period, and wait until every message of it was received."""
         self.simulator.pause(True)
         self.simulator.step()
         now_ns, deadline = self.simulator.simulation.time_ns, time.monotonic() + 10.0
         stamped = [topic for topic, kind in TOPICS.items() if kind is not Twist]
-        while missing := [t for t in stamped if stamp_ns(self.heard[t]) != now_ns]:
-            assert time.monotonic() < deadline, f'not heard of {now_ns} ns: {missing}'
+        while missing := [t for t in stamped if stamp_ns(self.received[t]) != now_ns]:
+            assert time.monotonic() < deadline, f'not received of {now_ns} ns: {missing}'
             self.executor.spin_once(timeout_sec=0.02)
 
     def close(self) -> None:
@@ -99,17 +99,17 @@ def test_every_topic_comes_and_one_line_says_how(
 ) -> None:
     stand.drive(until_m_s=0.3)
     stand.step()
-    heard, robot = stand.heard, stand.simulator.simulation.robots[0]
-    true = heard['ground_truth/odom'].pose.pose.position
+    received, robot = stand.received, stand.simulator.simulation.robots[0]
+    true = received['ground_truth/odom'].pose.pose.position
     assert (true.x, true.y, true.z) == tuple(robot.state.position)
-    assert heard['odometry/filtered'].pose.pose.position.x == robot.filtered.x
-    assert heard[f'{CONTROL}/odom'].twist.twist.linear.x == robot.odometry.speed_m_s > 0.25
-    assert heard[f'{CONTROL}/cmd_vel_out'].linear.x > 0.0
-    assert tuple(heard['joint_states'].velocity) == tuple(robot.wheels.speeds_rad_s)
-    rate, fix = heard['imu/data'].angular_velocity, robot.sensors.fix
+    assert received['odometry/filtered'].pose.pose.position.x == robot.filtered.x
+    assert received[f'{CONTROL}/odom'].twist.twist.linear.x == robot.odometry.speed_m_s > 0.25
+    assert received[f'{CONTROL}/cmd_vel_out'].linear.x > 0.0
+    assert tuple(received['joint_states'].velocity) == tuple(robot.wheels.speeds_rad_s)
+    rate, fix = received['imu/data'].angular_velocity, robot.sensors.fix
     assert (rate.x, rate.y, rate.z) == tuple(robot.imu.angular_velocity)
     assert fix is not None
-    assert heard['navsat/fix'].latitude == fix[0]
+    assert received['navsat/fix'].latitude == fix[0]
     lines = [line for line in capfd.readouterr().err.splitlines() if 'another form' in line]
     assert len(lines) == 1
     assert ' has another form for nav_msgs/Odometry: failed to deserialize; publishing' in lines[0]

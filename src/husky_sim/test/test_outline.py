@@ -67,7 +67,7 @@ def test_distances_to_a_wall_and_a_post_ahead() -> None:
     assert near(0.0, 0.0, 0.0, POST) == pytest.approx(2.5 - HALF_LENGTH)
 
 
-def test_it_is_zero_for_what_overlaps_even_without_a_corner_inside() -> None:
+def test_clearance_is_zero_where_outlines_overlap() -> None:
     bar = Outline(name='bar', x=0.0, y=0.0, yaw=0.0, size=(0.1, 5.0))
     assert near(0.0, 0.0, 0.0, bar) == 0.0
     assert near(2.8, 0.0, 0.0, POST) == 0.0

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Simulated time against a wall clock that the tests turn by hand."""
+"""Simulated time against a wall clock that the tests set."""
 
 from husky_sim.ros.pacing import Pacer
 import pytest
@@ -73,7 +73,7 @@ def test_at_most_as_many_as_asked_for() -> None:
 
 
 @pytest.mark.parametrize('late_sec', [0.0, 0.003, 0.0055, 0.006, 0.01, 0.015, 0.019])
-def test_periods_fall_due_with_the_ticks_however_late_the_first_was(late_sec: float) -> None:
+def test_periods_fall_due_at_ticks_after_a_late_first_one(late_sec: float) -> None:
     pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
     pacer.change(1.0, begin_sec=10.0)
     pacer.due(10.02 + late_sec)

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The layouts of the simulator's messages: right whatever memory held, and proven at the start."""
+"""The layouts of the messages: correct for any content of memory, and checked at the start."""
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -122,8 +122,8 @@ def test_several_fields_are_packed_over_the_padding_between() -> None:
     message = PackedMessage(NavSatFix())
     places = message.places
     message.packer(places['status'], places['latitude'])(-1, 3, 49.5)
-    heard = deserialize_message(bytes(message), NavSatFix)
-    assert (heard.status.status, heard.status.service, heard.latitude) == (-1, 3, 49.5)
+    received = deserialize_message(bytes(message), NavSatFix)
+    assert (received.status.status, received.status.service, received.latitude) == (-1, 3, 49.5)
     with pytest.raises(ValueError, match='only numbers can be packed; this field holds text'):
         message.packer(places['header'])
 

@@ -90,9 +90,7 @@ def test_a_shorter_timestep_takes_it_nowhere_else(
     assert abs(turned) < math.radians(0.2)
 
 
-def test_the_servos_pull_as_the_robot_speeds_up_and_do_not_rattle(
-    on_asphalt: OnAsphalt, drive: Drive
-) -> None:
+def test_the_servos_accelerate_without_oscillation(on_asphalt: OnAsphalt, drive: Drive) -> None:
     simulation = on_asphalt()
     robot = simulation.robots[0]
     timestep_sec = simulation.model.opt.timestep
@@ -195,7 +193,7 @@ def test_pushing_a_wall_neither_enters_it_nor_throws_the_robot(
     assert simulation.physics_warnings == 0
 
 
-def test_wheel_odometry_drifts_in_turns_and_the_fused_heading_does_not(
+def test_wheel_odometry_drifts_in_turns_but_fused_yaw_does_not(
     on_asphalt: OnAsphalt, drive: Drive
 ) -> None:
     simulation = on_asphalt()

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator as a process: how it ends, and what it says then."""
+"""The simulator as a process: its exit status and its output."""
 
 from pathlib import Path
 import signal
@@ -20,7 +20,7 @@ def run_process(*arguments: str, module: str = 'husky_sim.ros.node') -> 'subproc
     )
 
 
-def test_a_bad_world_ends_the_process_with_one_line_and_status_2(domain_id: int) -> None:
+def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     del domain_id
     process = run_process('-p', 'world:=nowhere.xml')
     _, said = process.communicate(timeout=20.0)
@@ -62,3 +62,19 @@ def test_a_signal_ends_it_soon_and_the_record_is_whole(
     assert record.complete
     assert len(record.obstacles) == 34
     assert record.min_clearance_m(0) == pytest.approx(0.73, abs=0.02)
+
+
+def test_a_second_simulator_is_refused_by_name(domain_id: int) -> None:
+    command = [sys.executable, '-m', 'husky_sim.ros.node']
+    first = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert first.stdout is not None
+    try:
+        assert 'real time' in first.stdout.readline()
+        second = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
+    finally:
+        first.send_signal(signal.SIGINT)
+        first.communicate(timeout=10.0)
+    assert second.returncode == 2
+    (line,) = second.stderr.splitlines()
+    assert f'another simulator runs in ROS domain {domain_id}: process {first.pid} ' in line
+    assert 'export ROS_DOMAIN_ID=' in line

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The record of a run: written as it goes, read by one reader, believed only when it can be."""
+"""The record of a run: written meanwhile, read by one reader, refused when it cannot be true."""
 
 from collections.abc import Callable
 import os
@@ -131,7 +131,7 @@ while True:
 """
 
 
-def test_a_simulator_that_is_killed_leaves_all_but_its_last_moments(tmp_path: Path) -> None:
+def test_a_killed_simulator_loses_only_its_last_seconds(tmp_path: Path) -> None:
     command = [sys.executable, '-c', PROGRAM, str(tmp_path / FILE_NAME)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
@@ -260,7 +260,7 @@ def test_a_header_beyond_all_bounds_is_refused(
     assert str(refused.value).isascii()
 
 
-def test_a_changed_byte_is_refused_or_read_but_never_a_traceback(path: Path) -> None:
+def test_a_changed_byte_is_read_or_refused_in_words(path: Path) -> None:
     whole, chance = path.read_bytes(), random.Random(2)
     for _ in range(300):
         broken = bytearray(whole)
@@ -272,7 +272,7 @@ def test_a_changed_byte_is_refused_or_read_but_never_a_traceback(path: Path) -> 
             assert '\n' not in str(refused)
 
 
-def test_a_full_disk_ends_the_record_in_one_line_and_the_run_goes_on(tmp_path: Path) -> None:
+def test_a_full_disk_ends_the_record_but_not_the_run(tmp_path: Path) -> None:
     simulation = new_simulation()
     said: list[str] = []
     recorder = RunRecorder(simulation, tmp_path / FILE_NAME, complain=said.append)

@@ -33,7 +33,7 @@ def run_until(
     deadline = time.monotonic() + 15.0
     try:
         while not holds(simulator):
-            assert time.monotonic() < deadline, 'it did not come in 15 s'
+            assert time.monotonic() < deadline, 'the condition does not hold after 15 s'
             executor.spin_once(timeout_sec=0.05)
     finally:
         executor.shutdown()

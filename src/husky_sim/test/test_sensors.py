@@ -5,6 +5,8 @@
 from collections.abc import Callable
 import math
 from pathlib import Path
+import sys
+from types import ModuleType
 
 from builtin_interfaces.msg import Time
 from husky_course.robot import RobotStart
@@ -55,7 +57,7 @@ def test_the_imu_at_rest_feels_gravity_and_nothing_else(drive: Drive) -> None:
     assert imu.angular_velocity == pytest.approx((0.0, 0.0, 0.0), abs=1e-4)
 
 
-def test_the_imu_feels_the_robot_speed_up_and_the_circle_it_drives(drive: Drive) -> None:
+def test_the_imu_measures_acceleration_in_line_and_in_circles(drive: Drive) -> None:
     simulation = simulate()
     drive(simulation, 1.0, 0.0, seconds=0.2)
     assert simulation.robots[0].imu.acceleration[0] == pytest.approx(3.0, rel=0.15)
@@ -84,7 +86,7 @@ def test_noise_has_the_deviation_of_the_original(drive: Drive) -> None:
     assert np.std(values, axis=0) == pytest.approx([0.005] * 5, rel=0.1)
 
 
-def test_the_same_seed_gives_the_same_noise_and_another_does_not(drive: Drive) -> None:
+def test_the_noise_depends_on_the_seed_alone(drive: Drive) -> None:
     def rates(seed: int) -> list[float]:
         simulation = simulate(noise=True, seed=seed)
         found = []
@@ -104,7 +106,7 @@ def test_the_same_seed_gives_the_same_noise_and_another_does_not(drive: Drive) -
 BOX = '<body name="box" pos="3 0 0.5"><geom type="box" size="0.5 20 1"/></body>'
 
 
-def test_the_scanner_measures_the_distance_to_a_wall_in_every_direction(
+def test_the_scanner_measures_walls_in_every_direction(
     make_world: Callable[..., str], drive: Drive
 ) -> None:
     simulation = Simulation(
@@ -172,7 +174,7 @@ POSTS = """
 """
 
 
-def test_the_camera_sees_things_where_they_are_or_says_in_one_line_why_not(
+def test_the_camera_shows_objects_in_place_or_is_refused(
     make_world: Callable[..., str],
 ) -> None:
     simulation = Simulation(SimulationConfig(world=make_world(POSTS)))
@@ -202,15 +204,19 @@ def test_the_camera_sees_things_where_they_are_or_says_in_one_line_why_not(
         assert columns.mean() == pytest.approx(column, abs=6.0), name
 
 
-def test_where_nothing_can_be_drawn_the_camera_says_so_in_one_line(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def refuse(name: str) -> None:
-        raise ImportError(f'no {name}:\nlibEGL.so is missing')
+class Missing(ModuleType):
+    """A module that cannot be imported from."""
 
-    monkeypatch.setattr('husky_sim.sensors.camera.import_module', refuse)
+    def __getattr__(self, _: str) -> None:
+        raise ImportError(f'no {self.__name__}:\nlibEGL.so is missing')
+
+
+def test_without_egl_and_osmesa_the_camera_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ('mujoco.egl', 'mujoco.osmesa'):
+        monkeypatch.setitem(sys.modules, name, Missing(name))
     simulation = simulate()
     with pytest.raises(SettingError, match='set camera_rate_hz to 0') as refused:
         Camera('husky', simulation.model, simulation.data)
     assert '\n' not in str(refused.value)
-    assert 'libEGL.so is missing' in str(refused.value)
+    for name in ('mujoco.egl', 'mujoco.osmesa'):
+        assert f'{name}: no {name}: libEGL.so is missing' in str(refused.value)

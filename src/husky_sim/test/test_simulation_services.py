@@ -93,9 +93,8 @@ def simulator(domain_id: int, worlds: Path) -> Iterator[SimulatorNode]:
 
 @pytest.fixture
 def call(simulator: SimulatorNode, monkeypatch: pytest.MonkeyPatch) -> Call:
-    monkeypatch.setitem(sys.modules, 'simulation_interfaces', SimpleNamespace())
-    monkeypatch.setitem(sys.modules, 'simulation_interfaces.msg', MESSAGES)
-    monkeypatch.setitem(sys.modules, 'simulation_interfaces.srv', SERVICES)
+    package = SimpleNamespace(msg=MESSAGES, srv=SERVICES)
+    monkeypatch.setitem(sys.modules, 'simulation_interfaces', package)
     recorder = Recorder()
     assert add_simulation_services(recorder, simulator)
     return recorder.call

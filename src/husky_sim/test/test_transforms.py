@@ -94,7 +94,7 @@ def test_the_wheels_are_where_the_physics_has_them(
         assert turn(frame) == pytest.approx(matrix, abs=1e-9)
 
 
-def test_odom_to_base_link_is_what_the_filter_says_and_only_the_filter(
+def test_only_the_filter_publishes_odom_to_base_link(
     simulation: Simulation, publish: Callable[..., Recorder]
 ) -> None:
     base = publish().last('tf')['base_link']

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Worlds by students: what loads, and how what does not is refused."""
+"""Worlds by students: which load, and how the others are refused."""
 
 from collections.abc import Callable
 import math
@@ -53,7 +53,7 @@ def test_obstacles_are_named_after_the_outermost_body(write: Callable[[str], str
     assert world.obstacles[2].size == pytest.approx((2.0, 2.0))
 
 
-def test_static_obstacles_keep_their_names_where_the_world_would_fuse_them(
+def test_static_obstacles_keep_names_in_a_fused_world(
     write: Callable[[str], str],
 ) -> None:
     body = FLOOR + '<body name="house" pos="3 0 0"><geom type="box" size="1 1 1"/></body>'
@@ -192,7 +192,7 @@ def test_without_gravity_the_robot_floats_and_nothing_breaks(
         ),
     ],
 )
-def test_a_broken_world_is_refused_with_its_file_and_the_reason_in_one_line(
+def test_a_broken_world_is_refused_with_file_and_reason(
     write: Callable[[str], str], text: str, reason: str
 ) -> None:
     path = write(text)

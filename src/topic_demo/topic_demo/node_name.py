@@ -10,8 +10,8 @@ def unique_node_name(base: str) -> str:
     """
     Return a node name that no other process of this machine has.
 
-    ROS 1 made such a name with ``anonymous=True``; ROS 2 takes two nodes of one name without a
-    word and then mixes them up. A name given by the user (``--ros-args -r __node:=me``) wins.
+    ROS 1 made such a name with ``anonymous=True``; ROS 2 accepts two nodes of one name, and then
+    confuses them. A name given by the user (``--ros-args -r __node:=me``) wins.
 
     :param base: how the name begins.
     :returns: the base, the process id and the time in milliseconds, joined by underscores.

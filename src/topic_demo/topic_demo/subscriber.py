@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Listen to a topic and log what is heard."""
+"""Subscribe to a topic and log its messages."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the driver notices by itself: nonsense, obstacles, a robot that is held."""
+"""Checks of what the driver receives: implausible messages, obstacles, a robot that is held."""
 
 from husky_driver.checks.bump import Bump, forward_acceleration
 from husky_driver.checks.plausibility import no_rotation, OdometryCheck

@@ -1,11 +1,11 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Feel that something holds the robot, by what a real Husky has: wheels and an accelerometer.
+Detect from wheel speeds and the accelerometer that something holds the robot.
 
-The wheels of a robot that pushes straight against a wall go on turning, and so does its odometry,
-the filtered one too. But when it hit the wall the IMU felt a jolt: it lost a speed that the
-wheels have not lost (Ward, Iagnemma: "A dynamic-model-based wheel slip detector for mobile robots
+The wheels of a robot that pushes straight against a wall go on turning, so its odometry goes on,
+the filtered one too. But the IMU has measured the impact: the robot lost a speed that the wheels
+have not lost (Ward, Iagnemma: "A dynamic-model-based wheel slip detector for mobile robots
 on outdoor terrain", IEEE Transactions on Robotics 24, 2008, compare the same two). Slower than
 0.15 m/s a jolt is too weak to tell from noise.
 """
@@ -17,26 +17,26 @@ import math
 from typing import NamedTuple
 
 GRAVITY_M_S2 = 9.81
-LAG_SEC = 0.1  # so long a sample may be under way; then the same run feels the same
+LAG_SEC = 0.1  # samples are used at this age, so that late delivery does not change a run
 WINDOW_SEC = 2.0
-GAP_SEC = 0.03  # samples further apart than this do not continue each other: one was lost
+GAP_SEC = 0.03  # a longer gap between samples means that one was lost: begin again
 LOST_SHARE = 0.6  # of the wheels' speed
-LOST_M_S = 0.08  # what noise and bends may look like
-SLOWEST_M_S = 0.1  # slower wheels push nothing, and noise alone would be most of what is lost
+LOST_M_S = 0.08  # less may come from noise and bends
+SLOWEST_M_S = 0.1  # below it, noise would be most of the lost speed
 HELD_SEC = 0.5  # a robot that slides along an edge gets its speed back sooner
 
 
 class _Sample(NamedTuple):
     time_sec: float
     speed_m_s: float  # of the wheels
-    felt_nm_s: int  # speed gained as the IMU felt it; whole numbers add up alike from any start
+    gained_nm_s: int  # by the IMU; sums of whole numbers do not depend on where they begin
 
 
 def forward_acceleration(force_x_m_s2: float, x: float, y: float, z: float, w: float) -> float:
     """
-    Return the acceleration ahead, without the part of gravity that an inclined IMU feels.
+    Return the forward acceleration, without the part of gravity that an inclined IMU measures.
 
-    :param force_x_m_s2: what the accelerometer says; the others are its orientation.
+    :param force_x_m_s2: of the accelerometer; the others are its orientation.
     """
     return force_x_m_s2 - GRAVITY_M_S2 * 2.0 * (x * z - w * y)
 
@@ -45,22 +45,26 @@ class Bump:
     """Compares wheels and IMU; give it both in order of time."""
 
     def __init__(self) -> None:
-        self._felt: deque[tuple[float, float]] = deque(maxlen=1000)
+        self._accelerations: deque[tuple[float, float]] = deque(maxlen=1000)
         self._wheels: deque[tuple[float, float]] = deque(maxlen=1000)
         self._window: deque[_Sample] = deque()
         self._free_sec = 0.0
 
-    def feel(self, time_sec: float, acceleration_m_s2: float) -> None:
-        """Take a sample of the IMU."""
+    def add_acceleration(self, time_sec: float, acceleration_m_s2: float) -> None:
+        """Add a sample of the IMU."""
         if math.isfinite(time_sec) and math.isfinite(acceleration_m_s2):
-            self._felt.append((time_sec, acceleration_m_s2))
+            self._accelerations.append((time_sec, acceleration_m_s2))
 
     def is_held(self, time_sec: float, speed_m_s: float) -> bool:
-        """Take the speed of the wheels; tell whether the robot does not go as they do."""
+        """Add the speed of the wheels; return whether the robot moves more slowly than they do."""
         self._wheels.append((time_sec, speed_m_s))
-        felt = self._felt
-        while felt and (felt[0][0] <= time_sec - LAG_SEC or felt[0][0] > time_sec + WINDOW_SEC):
-            self._take(*felt.popleft())
+        samples, begin_sec, end_sec = (
+            self._accelerations,
+            time_sec - LAG_SEC,
+            time_sec + WINDOW_SEC,
+        )
+        while samples and (samples[0][0] <= begin_sec or samples[0][0] > end_sec):
+            self._integrate(*samples.popleft())
         if not self._window:
             return False
         now = self._window[-1]
@@ -69,7 +73,7 @@ class Bump:
             self._free_sec = now.time_sec
         return now.time_sec - self._free_sec > HELD_SEC
 
-    def _take(self, time_sec: float, acceleration_m_s2: float) -> None:
+    def _integrate(self, time_sec: float, acceleration_m_s2: float) -> None:
         window, wheels = self._window, self._wheels
         while len(wheels) > 1 and wheels[1][0] <= time_sec:
             wheels.popleft()
@@ -81,14 +85,14 @@ class Bump:
         elif time_sec == before:
             return  # a simulator in lockstep repeats its first message
         gained = round(1e9 * acceleration_m_s2 * (time_sec - before))
-        felt = gained + (window[-1].felt_nm_s if window else 0)
-        window.append(_Sample(time_sec, wheels[0][1], felt))
+        gained += window[-1].gained_nm_s if window else 0
+        window.append(_Sample(time_sec, wheels[0][1], gained))
         while window[0].time_sec < time_sec - WINDOW_SEC:
             window.popleft()
 
     def _lost_m_s(self) -> float:
         """Return how much speed the robot has lost that its wheels have not."""
         first, last = self._window[0], self._window[-1]
-        gained = (last.felt_nm_s - first.felt_nm_s) / 1e9
+        gained = (last.gained_nm_s - first.gained_nm_s) / 1e9
         lost = last.speed_m_s - first.speed_m_s - gained
         return lost if last.speed_m_s > 0.0 else -lost

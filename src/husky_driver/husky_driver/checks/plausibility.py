@@ -1,9 +1,9 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Tell what a message says from what can be: nobody drives, shows or grades by nonsense.
+Check messages for values that cannot be true, before they are used.
 
-Each function returns what is wrong in a few words, or nothing.
+Each function returns in a few words what is wrong, or an empty string.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ from typing import Any
 from husky_driver.motion import Odometry
 
 FARTHEST_M = 1e6
-FASTEST_M_S = 10.0  # a Husky drives 1 m/s; wheels in the air, or pushed ones, turn faster
+FASTEST_M_S = 10.0  # a Husky drives 1 m/s; wheels in the air turn faster
 FASTEST_RAD_S = 20.0
 LENGTH_ERROR = 0.1  # of a quaternion
-JUMP_M, JUMP_M_S = 0.25, 2.0  # further than this, and this times the time between, is a jump
+JUMP_M, JUMP_M_S = 0.25, 2.0  # a jump: more than the first, plus the second times the period
 JUMP_RAD, JUMP_RAD_S = 0.5, 4.0
 STEP_SEC = 0.1  # odometry comes more often than this
-AHEAD_SEC = 30.0  # nothing is missed for so long
-RESET_SEC = 1.0  # a simulator that was reset begins again near zero, ...
-RESET_M_S = 0.3  # ... with a robot that has hardly begun to move
-HARDEST_M_S2 = 1e5  # an accelerometer feels no harder blow
+AHEAD_SEC = 30.0  # no longer gap in odometry is accepted
+RESET_SEC = 1.0  # after a reset of the simulator the stamp is at most this, ...
+RESET_M_S = 0.3  # ... and the robot drives at most this fast
+HARDEST_M_S2 = 1e5  # no impact is harder
 
 
 class OdometryCheck:
-    """Looks at every odometry message of one robot, in the order in which they come."""
+    """Checks every odometry message of one robot, in the order of arrival."""
 
     def __init__(self) -> None:
         self._last: Odometry | None = None
@@ -36,8 +36,8 @@ class OdometryCheck:
         self._reset_sec = 0.0
 
     def complaint(self, now: Odometry) -> str:
-        """Return why the next message cannot be true; then ask no more."""
-        if what := _absurd(now):
+        """Return why the next message cannot be true; after one that cannot, the check is over."""
+        if what := _out_of_range(now):
             return what
         last, self._last = self._last, now
         if last is None:
@@ -64,7 +64,7 @@ class OdometryCheck:
         return ''
 
     def _returns(self, last: Odometry, now: Odometry) -> bool:
-        """Tell whether the time before a reset goes on: then it was none, but two publishers."""
+        """Return whether the time from before a reset goes on: then there are two publishers."""
         halfway_sec = (self._before_reset_sec - self._reset_sec) / 2
         if now.time_sec - last.time_sec < max(halfway_sec, STEP_SEC):
             if now.time_sec > self._reset_sec + RESET_SEC:
@@ -73,7 +73,7 @@ class OdometryCheck:
         return now.time_sec >= self._before_reset_sec
 
 
-def _absurd(now: Odometry) -> str:
+def _out_of_range(now: Odometry) -> str:
     for name, value, unit, most in (
         ('stamp', now.time_sec, 's', math.inf),
         ('x', now.x_m, 'm', FARTHEST_M),
@@ -102,7 +102,7 @@ def _jump(last: Odometry, now: Odometry) -> str:
 
 
 def no_rotation(q: Any) -> str:
-    """Return why a quaternion (with x, y, z, w) is none."""
+    """Return why a quaternion (with x, y, z, w) is no rotation."""
     length = math.sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)
     if abs(length - 1.0) <= LENGTH_ERROR:  # NaN is not
         return ''
@@ -111,7 +111,7 @@ def no_rotation(q: Any) -> str:
 
 
 def no_numbers(values: Mapping[str, float], most: float = HARDEST_M_S2) -> str:
-    """Return which of the values is no number, or beyond all measure."""
+    """Return which of the values is not finite, or greater than allowed."""
     for name, value in values.items():
         if not math.isfinite(value) or abs(value) > most:
             return f'its {name} is {value:.6g}'

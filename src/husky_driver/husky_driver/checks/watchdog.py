@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Notice a robot that does not do what it is told."""
+"""Detect a robot that does not follow its commands."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ import math
 from husky_driver.checks.bump import Bump
 from husky_driver.motion import Command, Odometry, STANDING_M_S, STANDING_RAD_S
 
-UNHEARD_SEC = 0.2  # odometry that skips so much: a command may have come too late, or not at all
+GAP_SEC = 0.2  # after a longer gap in odometry a command may have been late or lost
 STUCK_SEC = 4.0
 STUCK_MOVE_M = 0.02
 STUCK_TURN_RAD = 0.03
-SLIPPING_SEC = 1.0  # so long the heading may ignore what the wheels are told
+SLIPPING_SEC = 1.0  # how long the yaw rate may differ from the command
 SLIPPING_RAD_S = 0.3
 SLIPPING_SHARE = 0.6
 
 
 class Watchdog:
-    """Compares commands with what odometry says came of them."""
+    """Compares commands with the motion in odometry."""
 
     def __init__(self, start: Odometry) -> None:
         self._judge_from(start)
         self.bump = Bump()
 
     def _judge_from(self, odometry: Odometry) -> None:
-        self._heard_sec = self._turning_well_sec = odometry.time_sec
+        self._last_sec = self._turning_well_sec = odometry.time_sec
         self._moved = odometry
 
     def complaint(self, odometry: Odometry, command: Command) -> str:
         """Return why the drive cannot go on, or nothing."""
-        if odometry.time_sec - self._heard_sec > UNHEARD_SEC:
+        if odometry.time_sec - self._last_sec > GAP_SEC:
             self._judge_from(odometry)
-        self._heard_sec = odometry.time_sec
+        self._last_sec = odometry.time_sec
         place = f'({odometry.x_m:.2f}, {odometry.y_m:.2f})'
         if self._is_stuck(odometry, command):
             return (
@@ -68,7 +68,7 @@ class Watchdog:
 
     def _is_slipping(self, odometry: Odometry, command: Command) -> bool:
         """
-        Tell whether the robot has not turned as told for a while.
+        Return whether the robot has turned too slowly for SLIPPING_SEC.
 
         The wheels of a robot that pushes against a wall go on turning, so its odometry goes on
         too; only the IMU's yaw rate shows that something holds it.

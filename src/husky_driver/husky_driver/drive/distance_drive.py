@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-import math
+from functools import partial
 
+from husky_course.frames import Pose, to_world
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import Course, Waypoint
 
@@ -17,13 +18,15 @@ class DistanceDrive(Drive):
     """Drives straight ahead or back from wherever the robot starts."""
 
     def __init__(self, speed_m_s: float, distance_m: float, *, forward: bool = True) -> None:
-        self._ahead_m = distance_m if forward else -distance_m
-        self._speed_m_s = speed_m_s
-        super().__init__(self._route_from(Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)))
+        plan = partial(_straight_route, speed_m_s, distance_m if forward else -distance_m)
+        super().__init__(plan((0.0, 0.0, 0.0)))
+        self._plan = plan
 
     def _route_from(self, start: Odometry) -> Route:
-        x = start.x_m + self._ahead_m * math.cos(start.yaw_rad)
-        y = start.y_m + self._ahead_m * math.sin(start.yaw_rad)
-        goal = Waypoint(x, y, reverse=self._ahead_m < 0.0)
-        begin = Waypoint(start.x_m, start.y_m)
-        return plan_route(Course('distance', (begin, goal), speed_m_s=self._speed_m_s))
+        return self._plan((start.x_m, start.y_m, start.yaw_rad))
+
+
+def _straight_route(speed_m_s: float, ahead_m: float, start: Pose) -> Route:
+    begin = Waypoint(start[0], start[1])
+    goal = Waypoint(*to_world(start, ahead_m, 0.0), reverse=ahead_m < 0.0)
+    return plan_route(Course('distance', (begin, goal), speed_m_s=speed_m_s))

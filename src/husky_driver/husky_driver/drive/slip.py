@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What wheel odometry cannot see of a skid-steer robot: in a bend it slides.
+The slip of a skid-steer robot in bends, which wheel odometry does not measure.
 
-A Husky that turns is carried outwards, and goes a little further than its wheels roll. Both grow
-with speed times yaw rate; how much is a property of tyres and ground, found by driving (Mandow,
+A Husky that turns slides outwards, and moves a little further than its wheels roll. Both grow
+with speed times yaw rate; the factors depend on tyres and ground, and are measured (Mandow,
 Martinez, Morales, Blanco, Garcia-Cerezo, Gonzalez: "Experimental kinematics for wheeled
 skid-steer mobile robots", IROS 2007).
 """
@@ -35,7 +35,7 @@ NO_SLIP = SlipModel(0.0, 0.0)
 
 
 class SlipCorrection:
-    """Adds up what odometry has missed; give it every odometry once, in order."""
+    """Integrates the slip; give it every odometry once, in order."""
 
     def __init__(self, model: SlipModel) -> None:
         self._model = model

@@ -15,7 +15,7 @@ NEARER_M = 0.01  # less than this is no progress
 
 
 class TimeLimit:
-    """Counts the time of one drive; ask it at every odometry, in order."""
+    """Counts the time of one drive; call it with every odometry, in order."""
 
     def __init__(self, route: Route, begun_sec: float) -> None:
         self.limit_sec = route.limit_sec
@@ -30,8 +30,8 @@ class TimeLimit:
         Return why the drive must end, or nothing.
 
         :param nearer: it has come nearer to its goal than ever before.
-        :param held: somebody lets it wait: this time does not count.
-        :param dwelling: it stands where and as long as the course says: no progress is needed.
+        :param held: the drive is paused: this time does not count.
+        :param dwelling: it stands at a waypoint as the course asks: no progress is needed.
         """
         period_sec = max(time_sec - self._last_sec, 0.0)  # a reset takes nothing back
         self._last_sec = time_sec

@@ -26,14 +26,14 @@ class TrackerGains:
 
     offset_per_m2: float = 9.0  # natural frequency squared, 3 per metre
     heading_per_m: float = 6.0  # twice the natural frequency: no overshoot
-    max_offset_m: float = 0.3  # further away it still steers like this far away
+    max_offset_m: float = 0.3  # a greater offset steers no harder
     delay_sec: float = 0.04  # from odometry to the wheels turning at the new speed
     preview_sec: float = 0.08  # the curve's yaw rate is commanded this much ahead
     end_rate_per_s: float = 8.0  # speed over distance left, close to the end
 
 
 class Tracker:
-    """Keeps its place on one curve; a leg driven backwards faces against its curve."""
+    """Follows one curve; on a leg driven backwards the robot faces against its curve."""
 
     def __init__(
         self,
@@ -59,7 +59,7 @@ class Tracker:
         return self.curve.length_m - self.s
 
     def locate(self, x: float, y: float, yaw: float) -> None:
-        """Take a pose: find the place on the curve, the offset and the heading error."""
+        """Find the place on the curve, the offset and the heading error of a pose."""
         self._sample, self.s, self.offset_m = self.curve.project(self._sample, x, y)
         heading = self.curve.heading_at(self.s) + (math.pi if self.reverse else 0.0)
         self.heading_error_rad = math.remainder(yaw - heading, _TWO_PI)

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the driver says and hears over ROS."""
+"""The ROS interface of the driver."""
 
 from husky_driver.ros.node import FollowPath
 from husky_driver.ros.progress import Tally

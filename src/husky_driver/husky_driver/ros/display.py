@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What somebody who watches a drive wants to see, as topics in the frame `odom`.
+Topics that show a drive, in the frame `odom`; they have no influence on it.
 
-`path`, `waypoints` and `waypoints_left` are kept for those who come late; `lookahead_point` is
-the place on the path that is steered for. Nothing here takes part in driving.
+`path`, `waypoints` and `waypoints_left` are latched; `lookahead_point` is the place on the path
+that is steered for.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ class DriveDisplay:
         self._point.header.frame_id = 'odom'
 
     def show(self, drive: Drive) -> None:
-        """Go over to another drive."""
+        """Change to another drive."""
         self._drive, self._route, self._left = drive, None, -1
 
     def update(self) -> None:
-        """Publish what has changed; call it now and then."""
+        """Publish what has changed; call it regularly."""
         drive = self._drive
-        if drive.route is not self._route:  # planned anew, from where the robot stands
+        if drive.route is not self._route:  # planned from where the robot stands
             self._route = drive.route
             self._publish_course()
         left = drive.total - drive.reached

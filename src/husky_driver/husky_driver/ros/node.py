@@ -1,17 +1,20 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The node: it answers every odometry message with one command, which a `Drive` decides."""
+"""The node: it answers every odometry message with one command of a `Drive`."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 import os
-import sys
 import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_course.route import plan_route, Route
+from husky_course.route import plan_route
 from husky_course.waypoints import load_course
+from husky_runtime.parameters import declare_settings
+from husky_runtime.settings import refuse_unknown
 from nav_msgs.msg import Odometry as OdometryMsg
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
@@ -24,14 +27,12 @@ from rclpy.task import Future
 from sensor_msgs.msg import Imu, LaserScan
 from std_srvs.srv import SetBool
 
-from husky_driver.checks.lookout import BLIND_SEC, Lookout
 from husky_driver.checks.plausibility import no_rotation
 from husky_driver.drive.drive import Drive
-from husky_driver.drive.slip import NO_SLIP
 from husky_driver.motion import Odometry, relative_odometry
+from husky_driver.obstacle_stop import ObstacleStop
 from husky_driver.ros.display import DriveDisplay
-from husky_driver.ros.parameters import declare_settings
-from husky_driver.ros.progress import Progress
+from husky_driver.ros.progress import make_progress
 from husky_driver.ros.readings import (
     has_orientation,
     read_acceleration,
@@ -41,77 +42,81 @@ from husky_driver.ros.readings import (
     wrong_imu,
     wrong_scan,
 )
-from husky_driver.ros.settings import ODOMETRY_TOPICS
+from husky_driver.ros.settings import ODOMETRY_TOPICS, refuse, Settings
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
-DELIVERY_SEC = 1.0  # how long the first command may take to whom it was sent
-STOP_WITHIN_SEC = (
-    1.0  # how long a robot is waited for when the drive is broken off: it takes a third
-)
+DELIVERY_SEC = 1.0  # how long the first command may take to arrive
+# How long to wait for the robot to stand when the drive is broken off; it takes 0.33 s.
+STOP_WITHIN_SEC = 1.0
 
 DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
 NO_STAMP = (-1, -1)
+IMU_TOPIC, SCAN_TOPIC = 'imu/data', 'front/scan'
 SENSOR = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+ChooseDrive = Callable[[Settings, Callable[[str], object]], Drive]
 
 
 class FollowPath(Node):
     """Drives the Husky; `finished` becomes done with the exit code of the process."""
 
-    def __init__(self, **arguments: Any) -> None:
+    def __init__(self, choose_drive: ChooseDrive, **arguments: Any) -> None:
+        """
+        Read the parameters, choose the drive, and begin to listen to odometry.
+
+        :param choose_drive: returns what to drive; it is given the settings, and a function
+            that logs a warning. What it raises goes through.
+        :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
+        :raises ValueError: for a parameter that does not exist or a value that is not allowed.
+        """
         arguments.setdefault('automatically_declare_parameters_from_overrides', True)
         super().__init__('follow_path', **arguments)
-        self.settings = declare_settings(self)
+        refuse_unknown(self.get_parameters_by_prefix(''), Settings)
+        self.settings = declare_settings(self, Settings, refuse)
         self.finished: Future[int] = Future()
-        self._pending: OdometryMsg | None = None
+        self._drive = choose_drive(self.settings, self.get_logger().warning)
+        self._display = DriveDisplay(self, self._drive)
+        self._progress = make_progress(self.settings.progress, self.get_logger().info)
+        self._pending: OdometryMsg | None = None  # to be answered when a subscriber takes commands
         self._last_stamp = NO_STAMP
-        self._listened = False  # somebody takes our commands
-        self._stopping: int | None = None  # the exit code to leave with, once it stands
+        self._has_listener = False  # a subscriber takes the commands
+        self._exit_code: int | None = None  # to leave with once the robot stands
         self._stop_deadline_sec = 0.0
         self._hint = ''
         self._origin: Odometry | None = None
         self._paused = False
-        self._lookout = Lookout() if self.settings.scan else None
+        self._obstacles = ObstacleStop() if self.settings.scan else None
         self._command = Twist()
-        topic = 'husky_velocity_controller/cmd_vel'
-        self._commands = self.create_publisher(Twist, topic, 10)
+        self._begun_sec = self._received_sec = time.monotonic()
+        self._commands = self.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+        self._odometry = self._subscribe()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(TICK_SEC, self._on_tick, clock=steady)
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.add_on_set_parameters_callback(self._on_parameters)
 
-    def new_drive(self, route: Route) -> Drive:
-        """Return a drive of a route as the settings want it."""
-        slips = self.settings.slip and self.settings.odometry != 'ground_truth'
-        return Drive(route, slip=None if slips else NO_SLIP)
-
-    def start(self, drive: Drive) -> None:
-        """Begin to listen to odometry and to drive."""
-        self._drive = drive
-        self._display = DriveDisplay(self, drive)
-        mode = self.settings.progress
-        bar = mode == 'bar' or (mode == 'auto' and sys.stdout.isatty())
-        line = (lambda _: None) if mode == 'off' else self.get_logger().info
-        self._progress = Progress(sys.stdout, line, bar=bar)
-        self._begun_sec = self._heard_sec = time.monotonic()
-        topic = self.settings.odometry_topic
-        self._odometry = self.create_subscription(OdometryMsg, topic, self._on_odometry, 10)
+    def _subscribe(self) -> Subscription:
+        """Return the subscription to the odometry that is followed."""
         if self.settings.odometry != 'filtered':
-            # A simulator in lockstep waits until somebody reads this one.
+            # A simulator in lockstep waits for a subscriber of this topic.
             self.create_subscription(
                 OdometryMsg, ODOMETRY_TOPICS['filtered'], lambda _: None, 10, raw=True
             )
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = self.create_timer(TICK_SEC, self._on_tick, clock=steady)
-        self.create_service(SetBool, '~/pause', self._on_pause)
-        self.add_on_set_parameters_callback(self._on_parameters)
         if self.settings.imu:
-            self._imu = self.create_subscription(Imu, 'imu/data', self._on_imu, SENSOR)
-        if self._lookout is not None:
-            self._scans = self.create_subscription(LaserScan, 'front/scan', self._on_scan, SENSOR)
+            self.create_subscription(Imu, IMU_TOPIC, self._on_imu, SENSOR)
+        if self._obstacles is not None:
+            watch = partial(self._on_scan, self._obstacles)
+            self.create_subscription(LaserScan, SCAN_TOPIC, watch, SENSOR)
+        topic = self.settings.odometry_topic
+        return self.create_subscription(OdometryMsg, topic, self._on_odometry, 10)
 
     def stop(self, exit_code: int, why: str) -> None:
         """Break the drive off: stop the robot, then finish with this exit code."""
-        if self._stopping is not None or self.finished.done():
+        if self._exit_code is not None or self.finished.done():
             return
         self._say(why, failed=True)
-        self._stopping = exit_code
+        self._exit_code = exit_code
         self._stop_deadline_sec = time.monotonic() + STOP_WITHIN_SEC
         self._drive.give_up(why)
         self._publish(0.0, 0.0)
@@ -120,28 +125,28 @@ class FollowPath(Node):
         stamp = (msg.header.stamp.sec, msg.header.stamp.nanosec)
         if stamp == self._last_stamp or self.finished.done():
             return
-        if not self._listened:
-            self._listened = self._commands.get_subscription_count() > 0
-            if not self._listened:
-                self._pending = msg  # answered as soon as somebody listens
+        if not self._has_listener:
+            self._has_listener = self._commands.get_subscription_count() > 0
+            if not self._has_listener:
+                self._pending = msg
                 return
         first = self._last_stamp == NO_STAMP
         self._pending = None
         self._last_stamp = stamp
-        self._heard_sec = time.monotonic()
+        self._received_sec = time.monotonic()
         odometry = self._relative(read_odometry(msg))
         if what := no_rotation(msg.pose.pose.orientation):
-            self._drive.disbelieve(what)
-        self._look_out(odometry.time_sec)
+            self._drive.refuse_odometry(what)
+        self._hold_for_obstacles(odometry.time_sec)
         command = self._drive.step(odometry)
-        if self._drive.nonsense and self._stopping is None:
-            self._stop_for_nonsense(self._odometry)
+        if self._drive.implausible and self._exit_code is None:
+            self._stop_for_implausible(self.settings.odometry_topic)
         elif command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
-            if first:  # DDS may know a listener before the listener knows us
+            if first:  # the publisher may have matched before the subscription has
                 self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
-        elif self._stopping is not None:
-            self._finish(self._stopping)
+        elif self._exit_code is not None:
+            self._finish(self._exit_code)
         else:
             self._conclude()
 
@@ -154,78 +159,64 @@ class FollowPath(Node):
         return response
 
     def _on_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
-        """Go over to another waypoint file at once, unless there is something wrong with it."""
+        """Change to another waypoint file at once, or refuse it."""
         for parameter in parameters:
             if parameter.name == 'waypoints':
                 try:
                     route = plan_route(load_course(str(parameter.value)))
                 except ValueError as error:
                     return SetParametersResult(successful=False, reason=str(error))
-                self._drive = self.new_drive(route)
+                self._drive = Drive(route, slip=self.settings.slip_model)
                 self._display.show(self._drive)
                 self._hold()
                 self._say(f'going over to {parameter.value}')
         return SetParametersResult(successful=True)
 
-    def _stop_for_nonsense(self, heard: Subscription) -> None:
-        """Stop at once, for what was heard cannot be true."""
-        topic = heard.topic_name
-        count = self.count_publishers(topic)
-        whose = f'{count} nodes publish it' if count > 1 else 'who publishes it?'
-        self.stop(
-            GAVE_UP,
-            f'gave up: {topic} cannot be true: {self._drive.nonsense}; {whose}, '
-            f'`ros2 topic info -v {topic}` names them',
-        )
-
     def _on_imu(self, msg: Imu) -> None:
         if not has_orientation(msg):
             return
         if what := wrong_imu(msg):
-            self._disbelieve(self._imu, what)
+            self._refuse(IMU_TOPIC, what)
         else:
-            self._drive.feel(time_of(msg), read_acceleration(msg))
+            self._drive.add_acceleration(time_of(msg), read_acceleration(msg))
 
-    def _disbelieve(self, heard: Subscription, what: str) -> None:
-        self._drive.disbelieve(what)
-        if self._stopping is None:
-            self._stop_for_nonsense(heard)
+    def _refuse(self, topic: str, what: str) -> None:
+        """Break the drive off, because a message of this topic cannot be true."""
+        self._drive.refuse_odometry(what)
+        if self._exit_code is None:
+            self._stop_for_implausible(topic)
 
-    def _on_scan(self, msg: LaserScan) -> None:
-        if self._lookout is None:
-            return
-        drive = self._drive
+    def _stop_for_implausible(self, relative_topic: str) -> None:
+        topic = self.resolve_topic_name(relative_topic)
+        count = self.count_publishers(topic)
+        whose = f'{count} nodes publish it' if count > 1 else 'who publishes it?'
+        self.stop(
+            GAVE_UP,
+            f'gave up: {topic} cannot be true: {self._drive.implausible}; {whose}, '
+            f'`ros2 topic info -v {topic}` names them',
+        )
+
+    def _on_scan(self, obstacles: ObstacleStop, msg: LaserScan) -> None:
         if what := wrong_scan(msg):
-            self._disbelieve(self._scans, what)
-            return
-        scan = read_scan(msg)
-        now, tracker = drive.odometry, drive.tracker
-        if now is not None and scan.time_sec > now.time_sec + BLIND_SEC:
-            return  # from before a reset; it would hide that no scan comes any more
-        if now is None or tracker is None or tracker.reverse:
-            self._lookout.pass_over(scan)
-            return
-        pose = (now.x_m, now.y_m, now.yaw_rad)
-        # One that stands looks further than one that drives: else it would creep on.
-        going_on = drive.course.speed_m_s + 0.1 if self._lookout.holds else 0.0
-        speed = max(drive.speed_m_s, going_on)
-        self._lookout.look(scan, pose, tracker.curve, tracker.s, speed)
+            self._refuse(SCAN_TOPIC, what)
+        else:
+            obstacles.add_scan(read_scan(msg), self._drive)
 
-    def _look_out(self, now_sec: float) -> None:
-        if self._lookout is None or self._drive.nonsense:
+    def _hold_for_obstacles(self, now_sec: float) -> None:
+        if self._obstacles is None or self._drive.implausible:
             return
-        if news := self._lookout.news(now_sec):
+        if news := self._obstacles.update(now_sec):
             self._say(news)
-        if complaint := self._lookout.complaint:
+        if complaint := self._obstacles.complaint:
             self._drive.give_up(complaint)
         self._hold()
 
     def _hold(self) -> None:
-        blocked = self._lookout is not None and self._lookout.holds
+        blocked = self._obstacles is not None and self._obstacles.holds
         self._drive.held = self._paused or blocked
 
     def _relative(self, odometry: Odometry) -> Odometry:
-        """Let the frame begin where the robot starts, as that of odometry does by itself."""
+        """Return ground truth in the frame odom, which begins where the robot starts."""
         if self.settings.odometry != 'ground_truth':
             return odometry
         if self._origin is None:
@@ -265,20 +256,20 @@ class FollowPath(Node):
             self.get_logger().info(text)
 
     def _on_tick(self) -> None:
-        """Look after what no odometry message will tell."""
+        """Show progress, wait, and give up when no odometry comes."""
         now = time.monotonic()
         if self.finished.done():
             return
-        if self._stopping is not None:
+        if self._exit_code is not None:
             gone = self._commands.get_subscription_count() == 0
             if gone or now > self._stop_deadline_sec:
-                self._finish(self._stopping)
-            elif now - self._heard_sec > TICK_SEC:
+                self._finish(self._exit_code)
+            elif now - self._received_sec > TICK_SEC:
                 self._publish(0.0, 0.0)
         elif self._last_stamp == NO_STAMP:
             self._wait(now - self._begun_sec)
-        elif now - self._heard_sec > self.settings.odometry_timeout_sec:
-            self.stop(GAVE_UP, f'gave up: {self._silence(now - self._heard_sec)}')
+        elif now - self._received_sec > self.settings.odometry_timeout_sec:
+            self.stop(GAVE_UP, f'gave up: {self._silence(now - self._received_sec)}')
         else:
             drive = self._drive
             self._display.update()

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import math
 import shutil
+import sys
 from typing import TextIO
 
 BAR_WIDTH = 30
@@ -50,6 +51,12 @@ class Progress:
             self._stream.write('\n')
             self._stream.flush()
             self._shown = False
+
+
+def make_progress(mode: str, line: Callable[[str], None]) -> Progress:
+    """Return what shows progress in one of the modes auto, bar, lines and off."""
+    bar = mode == 'bar' or (mode == 'auto' and sys.stdout.isatty())
+    return Progress(sys.stdout, (lambda _: None) if mode == 'off' else line, bar=bar)
 
 
 class Tally:

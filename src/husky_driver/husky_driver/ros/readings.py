@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the driver takes out of messages, and what is wrong with those that cannot be true."""
+"""Read ROS messages, and check those that cannot be true."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from nav_msgs.msg import Odometry as OdometryMsg
 from sensor_msgs.msg import Imu, LaserScan
 
 from husky_driver.checks.bump import forward_acceleration
-from husky_driver.checks.lookout import Scan
+from husky_driver.checks.path_scan import Scan
 from husky_driver.checks.plausibility import no_numbers, no_rotation
 from husky_driver.motion import Odometry, yaw_of
 
-NOT_GIVEN = -1.0  # sensor_msgs/Imu: so a covariance begins whose values nobody measures
+NOT_GIVEN = -1.0  # sensor_msgs/Imu: first covariance of a quantity that is not measured
 
 
 def time_of(msg: Any) -> float:
@@ -25,7 +25,7 @@ def time_of(msg: Any) -> float:
 
 
 def read_odometry(msg: OdometryMsg) -> Odometry:
-    """Take what the driver needs out of the message."""
+    """Return the pose and the velocity of the message."""
     pose, twist = msg.pose.pose, msg.twist.twist
     position, q = pose.position, pose.orientation
     return Odometry(
@@ -39,12 +39,12 @@ def read_odometry(msg: OdometryMsg) -> Odometry:
 
 
 def has_orientation(msg: Imu) -> bool:
-    """Tell whether this IMU knows how it lies; without that, gravity cannot be taken off."""
+    """Return whether the orientation is measured; gravity is subtracted with it."""
     return bool(msg.orientation_covariance[0] != NOT_GIVEN)
 
 
 def read_acceleration(msg: Imu) -> float:
-    """Return what the IMU felt along the robot."""
+    """Return the forward acceleration that the IMU measured."""
     q = msg.orientation
     return forward_acceleration(msg.linear_acceleration.x, q.x, q.y, q.z, q.w)
 
@@ -55,8 +55,8 @@ def read_scan(msg: LaserScan) -> Scan:
 
 def wrong_imu(msg: Imu) -> str:
     """Return why a message of the IMU cannot be true, or nothing."""
-    felt = {'linear_acceleration.x': msg.linear_acceleration.x}
-    return no_rotation(msg.orientation) or no_numbers(felt)
+    measured = {'linear_acceleration.x': msg.linear_acceleration.x}
+    return no_rotation(msg.orientation) or no_numbers(measured)
 
 
 def wrong_scan(msg: LaserScan) -> str:

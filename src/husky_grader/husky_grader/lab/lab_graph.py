@@ -14,7 +14,8 @@ from statistics import median
 import time
 from typing import Any, IO
 
-from husky_runtime.children import Process, tail_of
+from husky_runtime.children import ChildProcess as Process
+from husky_runtime.children import tail_of
 from husky_runtime.domains import OwnDomain
 from husky_runtime.executor import make_executor
 import rclpy

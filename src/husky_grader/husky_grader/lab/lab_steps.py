@@ -12,7 +12,8 @@ import signal
 from tempfile import TemporaryFile
 import xml.etree.ElementTree as ElementTree
 
-from husky_runtime.children import descendants_ended, Process
+from husky_runtime.children import ChildProcess as Process
+from husky_runtime.descendants import descendants_ended
 
 BUILD_WITHIN_SEC = 300.0
 SOURCE_WITHIN_SEC = 60.0

@@ -21,7 +21,9 @@ from typing import Any
 
 from husky_course.record import FILE_NAME, read_record, Record
 from husky_course.route import Route
-from husky_runtime.children import descendants_ended, Process, tail_of
+from husky_runtime.children import ChildProcess as Process
+from husky_runtime.children import tail_of
+from husky_runtime.descendants import descendants_ended
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.executor import make_executor
 from husky_runtime.shared_memory import clean_shared_memory

@@ -57,7 +57,7 @@ def drive_route(
     drive = Drive(route, slip=NO_SLIP if odometry == 'ground_truth' else None)
     driven = drive_with(
         drive.step,
-        feel=drive.feel,
+        feel=drive.add_acceleration,
         world=world,
         start=start,
         odometry=odometry,

@@ -61,7 +61,7 @@ class OdometryMessage(PackedMessage):
 
 
 class WheelOdometryMessage(OdometryMessage):
-    """Where the wheels say the robot is."""
+    """The pose from the wheels."""
 
     def __init__(self) -> None:
         super().__init__('odom', ODOMETRY_VARIANCES)
@@ -73,7 +73,7 @@ class WheelOdometryMessage(OdometryMessage):
 
 
 class FilteredOdometryMessage(OdometryMessage):
-    """Where the filter believes the robot is, and how sure it is."""
+    """The filtered pose, with its covariance."""
 
     def __init__(self) -> None:
         super().__init__('odom', ODOMETRY_VARIANCES)
@@ -163,7 +163,7 @@ class CommandMessage(PackedMessage):
 
 
 class FixMessage(PackedMessage):
-    """What the satellite receiver says, with the variances of its noise."""
+    """A fix of the satellite receiver, with the variances of its noise."""
 
     def __init__(self) -> None:
         message = NavSatFix(position_covariance_type=NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN)

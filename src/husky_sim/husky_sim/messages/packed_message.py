@@ -3,11 +3,11 @@
 """
 Messages whose lengths never change, kept in their serialized form.
 
-To convert a message from Python costs more than to simulate what it says. In the messages of a
-control period only numbers change, and each stays at its place. So a message is encoded once;
+To convert a message from Python takes longer than to simulate its values. In the messages of a
+control period only numbers change, and each keeps its place. So a message is encoded once;
 afterwards numbers are packed into their places, and the bytes are published.
 
-Nobody may publish bytes that its middleware reads otherwise: `proven_form` finds out.
+`proven_form` checks that the middleware reads these bytes as they were packed.
 """
 
 from collections.abc import Callable, Iterable
@@ -110,11 +110,11 @@ def prove(message: PackedMessage) -> None:
         head = bytes(serialize_message(message.unpacked()))[:2]
         if head != HEADER[:2]:
             raise ValueError(f'{kind}: it begins with {head.hex(" ")}, not {HEADER[:2].hex(" ")}')
-        heard = PackedMessage(deserialize_message(bytes(copy), message.kind))
+        read = PackedMessage(deserialize_message(bytes(copy), message.kind))
     except RuntimeError as error:  # rclpy's RMWError
         raise ValueError(f'{kind}: {error}') from error
-    if bytes(heard) != bytes(copy):
-        pairs = zip(copy.fields(), heard.fields(), strict=False)
+    if bytes(read) != bytes(copy):
+        pairs = zip(copy.fields(), read.fields(), strict=False)
         name = next((one[0] for one, other in pairs if one != other), 'a length')
         raise ValueError(f'{kind}: {name} is not read as it was packed')
 

@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What was pushed: where the loose things of a world went during a run.
+The poses of the loose bodies of a world that were pushed during a run.
 
-Loose is every body outside the robots that has a joint. Its pose is noted only when it has moved,
-so that a run that touches nothing notes nothing.
+Loose is every body outside the robots that has a joint. Its pose is recorded only when it has
+moved.
 """
 
 import numpy as np
@@ -44,17 +44,17 @@ class PushedBodies:
         self.restart()
 
     def restart(self) -> None:
-        """Take it that what stands where it stands now was not pushed."""
+        """Use the poses of now as those before any push."""
         self._noted = self._simulation.data.qpos.copy()
 
-    def look(self) -> list[tuple[str, list[float]]]:
+    def moved(self) -> list[tuple[str, list[float]]]:
         """Return name and joint coordinates of what has moved; call it after every period."""
         qpos, places = self._simulation.data.qpos, self._places
         if not (np.abs(qpos[places] - self._noted[places]) > MOVED).any():
             return []
-        moved = []
+        found = []
         for name, part in self._loose.items():
             if (np.abs(qpos[part] - self._noted[part]) > MOVED).any():
                 self._noted[part] = qpos[part]
-                moved.append((name, [round(value, _DIGITS) for value in qpos[part].tolist()]))
-        return moved
+                found.append((name, [round(value, _DIGITS) for value in qpos[part].tolist()]))
+        return found

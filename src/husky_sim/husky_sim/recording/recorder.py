@@ -4,7 +4,7 @@
 Writes the record of a run while the run goes on: see `record`.
 
 A block is written every BLOCK_PERIODS, so that memory stays the same however long the run is, and
-a simulator that is killed leaves all but its last moments.
+a simulator that is killed loses only its last seconds.
 """
 
 from array import array
@@ -42,8 +42,8 @@ class RunRecorder:
         """
         Begin the file with the simulation as it is now; its folder is made where there is none.
 
-        :param complain: told in one line when nothing more can be written (a full disk), and
-            the run goes on without; None: OSError is raised.
+        :param complain: called with one line when nothing more can be written (a full disk); the
+            run continues without a record. None: OSError is raised.
         :raises OSError: if the file cannot be made.
         """
         self._simulation = simulation
@@ -74,7 +74,7 @@ class RunRecorder:
         time_sec = self._simulation.time_sec
         for robot in self._simulation.robots:
             self._rows.extend(_row(robot, time_sec))
-        for name, qpos in self._pushed.look():
+        for name, qpos in self._pushed.moved():
             self._note('pushed', body=name, time_sec=time_sec, qpos=qpos)
         if self._simulation.touches:
             self._note_touches(self._simulation.touches)
@@ -83,17 +83,17 @@ class RunRecorder:
             self._flush()
 
     def disturb(self, time_sec: float, topic: str, nodes: Iterable[str]) -> None:
-        """Note that others than this run's own nodes were heard on a topic."""
+        """Record that nodes of other runs publish a topic."""
         self._note('disturbance', time_sec=time_sec, topic=topic, nodes=list(nodes))
         self._flush()
 
     def close(self) -> None:
-        """Say that this is the end; may be called twice."""
+        """Write the end of the run; may be called twice."""
         if self._file is not None:
             self._note_touches(self._simulation.unreported_touches())
             self._note('end', time_sec=self._simulation.time_sec)
             self._flush()
-        self._let_go()
+        self._release()
 
     def __enter__(self) -> 'RunRecorder':
         return self
@@ -107,7 +107,7 @@ class RunRecorder:
         if error is None:
             self.close()
         else:
-            self._let_go()  # a run that broke off has no end
+            self._release()  # a run that broke off has no end
 
     def _note(self, event: str, **values: Any) -> None:
         self._events.append({'event': event, **values})
@@ -133,7 +133,7 @@ class RunRecorder:
             while left:
                 left = left[self._file.write(left) :]
         except OSError as error:
-            self._let_go()
+            self._release()
             if self._complain is None:
                 raise OSError(error.errno, error.strerror, str(self._path)) from error
             self._complain(
@@ -141,14 +141,14 @@ class RunRecorder:
                 'space and drive again'
             )
 
-    def _let_go(self) -> None:
+    def _release(self) -> None:
         if self._file is not None:
             self._file.close()
             self._file = None
 
 
 def _new_file(path: Path) -> io.FileIO:
-    """Make a file in the place of what has its name: no link is followed, no pipe waited for."""
+    """Make a new file, in place of one of that name; links and pipes are replaced, too."""
     if path.is_dir() and not path.is_symlink():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     if path.is_symlink() or not (path.is_char_device() or path.is_block_device()):

@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Which robot touches what.
+Touches between robots and obstacles.
 
 A touch begins when a part of a robot meets an obstacle or another robot, and ends when the two
 have been apart for RELEASE_SEC. It is reported once, PEAK_SEC after it began, with the greatest
@@ -42,7 +42,7 @@ class _Contact:
 
 
 class TouchDetector:
-    """Looks at the contacts after every physics step."""
+    """Detects touches in the contacts of every physics step."""
 
     def __init__(self, world: World, data: mujoco.MjData) -> None:
         self._world = world
@@ -57,9 +57,9 @@ class TouchDetector:
         """Forget every touch."""
         self._contacts.clear()
 
-    def look(self, time_sec: float) -> None:
-        """Take notice of what touches after a physics step."""
-        # Nearly always the same pairs touch as at some step before: wheels and ground.
+    def update(self, time_sec: float) -> None:
+        """Read the contacts after a physics step."""
+        # Nearly always the pairs are those of an earlier step: wheels and ground.
         pairs = self._data.contact.geom.tobytes()
         if pairs in self._harmless:
             return

@@ -8,6 +8,8 @@ It does what diff_drive_controller does for the Husky: one update every control 
 
 import math
 
+from husky_course.frames import wrapped
+
 from husky_sim.config import DriveConfig
 
 
@@ -41,7 +43,7 @@ class VelocityController:
         """
         Take a command.
 
-        :raises ValueError: if it is not finite; the robot is then told to stop.
+        :raises ValueError: if it is not finite; the robot is then commanded to stop.
         """
         self._asked_at_sec = time_sec
         if not (math.isfinite(speed_m_s) and math.isfinite(yaw_rate_rad_s)):
@@ -57,14 +59,14 @@ class VelocityController:
         """
         Advance the limited velocity by one control period.
 
-        :returns: whether the timeout has just begun to stop a robot that was told to move.
+        :returns: whether the timeout has just begun to stop a moving robot.
         """
         config = self.config
         # 1e-9: rounding must not decide.
         late = time_sec - self._asked_at_sec > config.command_timeout_sec + 1e-9
         speed = 0.0 if late else self.asked_speed_m_s
         yaw_rate = 0.0 if late else self.asked_yaw_rate_rad_s
-        bites = late and not self.timed_out and self.moving
+        begins = late and not self.timed_out and self.moving
         self.timed_out = late
         self.speed_m_s = approached(
             self.speed_m_s,
@@ -76,11 +78,11 @@ class VelocityController:
             limited(yaw_rate, config.yaw_rate_limit_rad_s),
             config.yaw_acceleration_limit_rad_s2 * period_sec,
         )
-        return bites
+        return begins
 
     @property
     def moving(self) -> bool:
-        """Whether the wheels are told to turn."""
+        """Whether the wheels are commanded to turn."""
         return self.speed_m_s != 0.0 or self.yaw_rate_rad_s != 0.0
 
     def wheel_speeds_rad_s(self) -> tuple[float, float]:
@@ -92,9 +94,9 @@ class VelocityController:
 
 class WheelOdometry:
     """
-    Where the robot is, from its wheels alone: x, y and yaw in the frame `odom`.
+    The pose from the wheels alone: x, y and yaw in the frame `odom`.
 
-    It drifts as a skid-steer robot's does, since wheels that scrub sideways do not tell how far.
+    It drifts as a skid-steer robot's does, since wheels do not measure how far they slide.
     """
 
     def __init__(self, config: DriveConfig) -> None:
@@ -139,8 +141,3 @@ def along_arc(
     half = turned_rad / 2.0
     chord = distance_m * (math.sin(half) / half if abs(half) > 1e-6 else 1.0)
     return x + chord * math.cos(yaw + half), y + chord * math.sin(yaw + half)
-
-
-def wrapped(angle_rad: float) -> float:
-    """Bring an angle into the range from -pi to pi."""
-    return math.remainder(angle_rad, math.tau)

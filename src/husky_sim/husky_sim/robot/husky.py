@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A Husky in the physics: its wheels, its true state and what its IMU feels."""
+"""A Husky in the physics: its wheels, its true state and its specific force."""
 
 import math
 from typing import NamedTuple
@@ -113,7 +113,7 @@ class Husky:
         )
 
     def wheel_loads_n(self) -> tuple[float, ...]:
-        """Return the force with which the ground, or whatever it is, presses on each wheel."""
+        """Return the contact force on each wheel."""
         loads = [0.0] * len(WHEELS)
         force = np.zeros(6)
         for index, pair in enumerate(self._data.contact.geom.tolist()):
@@ -130,10 +130,10 @@ class Husky:
 
     def specific_force(self, before: Vector, after: Vector, period_sec: float) -> Vector:
         """
-        Return what an accelerometer at base_link feels, in m/s2, in base_link.
+        Return the specific force at base_link, in m/s2, in base_link.
 
-        It is the mean over the time from one world velocity to the next, which is how an IMU
-        keeps the shaking of contacts out of samples 20 ms apart.
+        It is the mean over the time from one world velocity to the next: an IMU, too, filters the
+        vibration of contacts out of samples 20 ms apart.
         """
         return into_body(
             tuple(self._pose[3:].tolist()),  # type: ignore[arg-type]

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""How the simulator keeps up, on /diagnostics once a second of wall time."""
+"""The pace of the simulator, on /diagnostics once a second of wall time."""
 
 import time
 
@@ -12,11 +12,11 @@ from husky_sim.ros.pacing import Pacer
 from husky_sim.simulation import Simulation
 
 PERIOD_SEC = 1.0
-_ENOUGH = 0.95  # of the pace that was asked for
+_ENOUGH = 0.95  # of the requested pace
 
 
 class PaceWatch:
-    """Compares simulated with wall time, from one look to the next."""
+    """Compares simulated with wall time, from one call to the next."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -24,12 +24,12 @@ class PaceWatch:
         self._time_sec = simulation.time_sec
         self._overruns = 0
 
-    def look(self, pacer: Pacer, asked: float, *, waits: bool) -> DiagnosticStatus:
+    def status(self, pacer: Pacer, asked: float, *, waits: bool) -> DiagnosticStatus:
         """
-        Judge the time since the last look.
+        Return the status of the time since the last call.
 
         :param asked: the real-time factor, 0 for as fast as possible.
-        :param waits: whether a pause or a driver, and not the machine, holds time up.
+        :param waits: whether a pause or a driver, and not the machine, delays time.
         """
         now_sec, time_sec = time.monotonic(), self._simulation.time_sec
         passed_sec = max(time_sec - self._time_sec, 0.0)
@@ -64,7 +64,7 @@ class PaceWatch:
 
 
 class DiagnosticsTopic:
-    """Publishes what a function says, once a second."""
+    """Publishes one status at a time."""
 
     def __init__(self, node: Node) -> None:
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)

@@ -1,9 +1,9 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Others that speak where one alone may: commands from two, or odometry and clock beside ours.
+Other publishers of topics that must have one: commands of two drivers, a second odometry or clock.
 
-Nothing in ROS 2 forbids it, and a run that it happened to is worth nothing.
+ROS 2 allows it, and a run that was disturbed so is not valid.
 """
 
 from collections.abc import Callable, Sequence
@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
-LOOK_SEC = 0.1
-"""Wall time between two looks at the graph."""
+CHECK_SEC = 0.1
+"""Wall time between two checks of the graph."""
 
-PATIENCE_LOOKS = 20
-"""So long the name of a node may take to arrive; it comes by a message of its own."""
+NAME_CHECKS = 20
+"""How many checks to wait for the name of a node, which has a message of its own."""
 
 GONE = 'a node that is gone already'
 
@@ -47,7 +47,7 @@ class Interference:
 
 class InterferenceWatch:
     """
-    Looks for other publishers.
+    Finds other publishers.
 
     :param ours: topics that this node alone should publish.
     :param commands: topics that one node should publish.
@@ -69,23 +69,23 @@ class InterferenceWatch:
         ]
         self._on_found = on_found
         self._found: set[Interference] = set()
-        self._nameless_looks = 0
+        self._nameless_checks = 0
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(LOOK_SEC, self.look, clock=steady)
+        self._timer = node.create_timer(CHECK_SEC, self.check, clock=steady)
 
-    def look(self, *, at_the_end: bool = False) -> None:
+    def check(self, *, at_the_end: bool = False) -> None:
         """
-        Look now.
+        Check now.
 
-        :param at_the_end: no name will come any more.
+        :param at_the_end: do not wait for names.
         """
         for topic, ours in self._topics:
             if self._node.count_publishers(topic) < 2:
                 continue
             others = _publishers(self._node, topic)
             nameless = any(_UNKNOWN in name for name in others)
-            if nameless and self._nameless_looks < PATIENCE_LOOKS and not at_the_end:
-                self._nameless_looks += 1
+            if nameless and self._nameless_checks < NAME_CHECKS and not at_the_end:
+                self._nameless_checks += 1
                 continue
             me = self._node.get_fully_qualified_name()
             if ours and me in others:
@@ -93,9 +93,9 @@ class InterferenceWatch:
             if len(others) > (not ours):
                 self._report(Interference(topic, tuple(others), ours))
 
-    def look_at_commands(self, topic: str, publishers: int) -> None:
-        """Look at a topic of commands as DDS tells that so many publish it now."""
-        self.look()
+    def check_commands(self, topic: str, publishers: int) -> None:
+        """Check a topic of commands when DDS reports so many publishers at once."""
+        self.check()
         known = any(found.topic == topic for found in self._found)
         if publishers > 1 and not known and self._node.count_publishers(topic) < publishers:
             self._report(Interference(topic, (*_publishers(self._node, topic), GONE), ours=False))

@@ -9,7 +9,6 @@ odometry of the one before.
 """
 
 from dataclasses import replace
-from functools import partial
 import gc
 import sys
 import time
@@ -26,21 +25,18 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.timer import Timer
-from rosgraph_msgs.msg import Clock
-from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import SettingError, SimulatorError
-from husky_sim.messages.messages import ClockMessage, packed_messages
-from husky_sim.messages.packed_message import proven_form
 from husky_sim.recording.recorder import open_recorder
+from husky_sim.ros.control_services import ControlServices
 from husky_sim.ros.diagnostics import DiagnosticsTopic, PaceWatch
 from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pacing import Pacer
-from husky_sim.ros.parameters import CHANGEABLE, read_factor, read_run, read_simulation
-from husky_sim.ros.robot_topics import QOS, RobotTopics
+from husky_sim.ros.parameters import FACTOR, read_factor, read_run, read_simulation
 from husky_sim.ros.simulation_services import add_simulation_services
+from husky_sim.ros.simulation_topics import SimulationTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
 
@@ -49,23 +45,23 @@ REPEAT_SEC = 0.5
 
 HANGING_SEC = 60.0
 """
-A driver that does not answer one message for so long, in a run with a limit, hangs.
+Without an answer to one message for so long, a run with a limit ends: the driver hangs.
 
-Counted in looks of this node, which come later on a busy machine, as the driver's answer does.
+Counted in polls of this node, which come later on a busy machine, as the answer does.
 """
 
 _LOCKSTEP_POLL_SEC = 0.01
 _SHORTEST_TICK_SEC = 0.001
 
-# How long to go on before the executor may look for commands and services. As fast as possible: to
-# come back to it costs as much as half a control period. Behind the wall clock: long enough to
-# catch up where a control period takes most of its time.
+# How long to simulate before the executor handles commands and services. As fast as possible: a
+# return to the executor costs as much as half a control period. Behind the wall clock: long enough
+# to catch up where a control period takes most of its time.
 _TURN_SEC = 0.002
 _CATCH_UP_TURN_SEC = 0.02
 
 
 class SimulatorNode(Node):
-    """Simulates the robots of a world and speaks for them."""
+    """Simulates the robots of a world and publishes their topics."""
 
     def __init__(self, **arguments: Any) -> None:
         """
@@ -88,38 +84,22 @@ class SimulatorNode(Node):
         self._paused = False
         self._driven = False  # lockstep: the first odometry message is out
         self._answered = False  # lockstep: and was answered
-        self._looks = 0  # lockstep: for the answer to the last message, in vain
+        self._polls = 0  # lockstep: since the last message, without an answer
         self._sent_at_sec = 0.0
-        many = len(config.robots) > 1
-        self._form = proven_form(packed_messages(), self.get_logger())
-        self._topics = [
-            RobotTopics(
-                self,
-                self._simulation,
-                robot,
-                f'{robot.name}/' if many else '',
-                self._on_command,
-                self._form,
-                on_commander=partial(self._on_commander, place),
-            )
-            for place, robot in enumerate(self._simulation.robots)
-        ]
-        self._by_name = {topics.robot.name: topics for topics in self._topics}
-        self._clock_publisher = self.create_publisher(Clock, '/clock', QOS)
-        self._clock_message = ClockMessage()
+        self._topics = SimulationTopics(
+            self,
+            self._simulation,
+            on_command=self._on_command,
+            on_commander=self._on_commander,
+        )
         self._interference = InterferenceWatch(
             self,
-            ours=[
-                self._clock_publisher.topic_name,
-                *(name for topics in self._topics for name in topics.odometry_topics),
-            ],
-            commands=[topics.command_subscription.topic_name for topics in self._topics],
+            ours=self._topics.own_topics,
+            commands=self._topics.command_topics,
             on_found=self._on_interference,
         )
         self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
-        self.create_service(Empty, '~/reset', self._on_reset)
-        self.create_service(SetBool, '~/pause', self._on_pause)
-        self.create_service(Trigger, '~/step', self._on_step)
+        ControlServices(self, self)
         add_simulation_services(self, self)
         self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
         self._timer = self._new_timer()
@@ -130,12 +110,12 @@ class SimulatorNode(Node):
         self.get_logger().info(
             f'{self._run.world}: {len(self._simulation.world.obstacles)} obstacles, '
             f'{", ".join(robot.name for robot in config.robots)}; '
-            f'{self._pace_in_words()}'
+            f'{self._describe_pace()}'
         )
 
     @property
     def simulation(self) -> Simulation:
-        """Return what the node speaks for."""
+        """Return the simulation behind the node."""
         return self._simulation
 
     def _tick_sec(self) -> float:
@@ -143,14 +123,14 @@ class SimulatorNode(Node):
             return max(CONTROL_PERIOD_SEC / self._run.real_time_factor, _SHORTEST_TICK_SEC)
         return _LOCKSTEP_POLL_SEC if self._run.lockstep else 0.0
 
-    def _pace_in_words(self) -> str:
+    def _describe_pace(self) -> str:
         factor = self._run.real_time_factor
         pace = f'{factor:g} x real time' if factor > 0.0 else 'as fast as possible'
         return f'lockstep, {pace}' if self._run.lockstep else pace
 
     def _on_set_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         for parameter in parameters:
-            if parameter.name == CHANGEABLE:
+            if parameter.name == FACTOR.name:
                 try:
                     self._change_pace(read_factor(parameter.value))
                 except SettingError as error:
@@ -161,7 +141,7 @@ class SimulatorNode(Node):
         self._run = replace(self._run, real_time_factor=factor)
         self.destroy_timer(self._timer)
         self._timer = self._new_timer()
-        self.get_logger().info(self._pace_in_words())
+        self.get_logger().info(self._describe_pace())
 
     def _new_timer(self) -> Timer:
         self._pacer.change(self._run.real_time_factor or 1e9, begin_sec=time.monotonic())
@@ -186,48 +166,41 @@ class SimulatorNode(Node):
             self._advance_if_answered()
 
     def _continue_lockstep(self) -> None:
-        """Begin, repeat the first message, or take up a command that came too early."""
+        """Begin, repeat the first message, or use a command that came too early."""
         if self._answered:
             self._advance_if_answered()
-            self._looks += 1
-            if self._run.limit_sec and self._looks * self._tick_sec() > HANGING_SEC:
+            self._polls += 1
+            if self._run.limit_sec and self._polls * self._tick_sec() > HANGING_SEC:
                 self._end(f'no command for {HANGING_SEC:g} s: the driver hangs')
             return
         now = time.monotonic()
         if not self._driven:
-            if all(topics.has_driver() for topics in self._topics):
+            if self._topics.has_drivers:
                 self._driven = True
-                self._publish()
+                self._topics.publish()
                 self._sent_at_sec = now
         elif now - self._sent_at_sec >= REPEAT_SEC:
-            self._publish()
+            self._topics.publish()
             self._sent_at_sec = now
 
     def _advance_if_answered(self) -> None:
-        if not all(topics.commanded for topics in self._topics):
+        if not self._topics.commanded:
             return
         if self._run.real_time_factor > 0.0 and not self._pacer.due(time.monotonic(), most=1):
             return
         self._advance()
 
     def _advance(self) -> None:
-        for topics in self._topics:
-            topics.commanded = False
+        self._topics.forget_commands()
         self._simulation.advance()
         if self._record is not None:
             self._record.append()
-        self._publish()
-        self._looks = 0
+        self._topics.publish()
+        self._polls = 0
         if 0.0 < self._run.limit_sec <= self._simulation.time_sec:
             self._end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._scene.append()
-        for topics in self._topics:
-            if topics.robot.timeout_bites:
-                config = topics.robot.controller.config
-                self.get_logger().warning(
-                    f'{topics.robot.name}: no command for {config.command_timeout_sec:g} s '
-                    '(command_timeout_sec); stopping'
-                )
+        self._topics.warn_of_timeouts()
 
     def _end(self, why: str) -> None:
         """End the run, which its driver should have ended before."""
@@ -235,20 +208,8 @@ class SimulatorNode(Node):
             self.get_logger().error(f'the run ends: {why}')
             self.over.set_result(None)
 
-    def _publish(self) -> None:
-        stamp = divmod(self._simulation.time_ns, 1_000_000_000)
-        for topics in self._topics:
-            topics.publish_filtered(stamp)
-        self._clock_message.pack(stamp)
-        self._clock_publisher.publish(self._form(self._clock_message))
-        for topics in self._topics:
-            topics.publish_rest(stamp)
-        for touch in self._simulation.touches:
-            self._by_name[touch.robot].publish_collision(touch)
-
-    def _on_commander(self, place: int, count: int) -> None:
-        topic = self._topics[place].command_subscription.topic_name
-        self._interference.look_at_commands(topic, count)
+    def _on_commander(self, topic: str, count: int) -> None:
+        self._interference.check_commands(topic, count)
 
     def _on_interference(self, found: Interference) -> None:
         self.get_logger().error(str(found))
@@ -256,14 +217,13 @@ class SimulatorNode(Node):
             self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
 
     def _on_diagnose(self) -> None:
-        status = self._watch.look(
+        status = self._watch.status(
             self._pacer,
             self._run.real_time_factor,
             waits=self._paused or self._run.lockstep,
         )
         self._diagnostics.publish(status, self._simulation.time_ns)
-        for topics in self._topics:
-            topics.warn_of_other_types(self)
+        self._topics.warn_of_other_types()
 
     @property
     def paused(self) -> bool:
@@ -275,8 +235,13 @@ class SimulatorNode(Node):
         """Whether no time has passed since the start or the last reset."""
         return self._simulation.periods == 0
 
+    @property
+    def time_sec(self) -> float:
+        """Return the simulated time."""
+        return self._simulation.time_sec
+
     def pause(self, paused: bool) -> None:
-        """Hold time up, or let it go on."""
+        """Stop time, or continue."""
         self._paused = paused
         self._pacer.restart()
 
@@ -291,42 +256,18 @@ class SimulatorNode(Node):
             self._record.restart()
         self._pacer.restart()
         self._driven = self._answered = False
-        for topics in self._topics:
-            topics.commanded = False
+        self._topics.forget_commands()
         if not self._run.lockstep:
-            self._publish()
+            self._topics.publish()
         self.get_logger().info('everything is back at its start')
 
-    def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
-        self.reset()
-        return response
-
-    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        self.pause(request.data)
-        response.success = True
-        response.message = f'{"paused" if self._paused else "going on"} at {self._now_in_words()}'
-        return response
-
-    def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        response.success = self._paused
-        if self._paused:
-            self.step()
-            response.message = f'stepped to {self._now_in_words()}'
-        else:
-            response.message = 'a step needs a paused simulation; call ~/pause with true first'
-        return response
-
-    def _now_in_words(self) -> str:
-        return f'{self._simulation.time_sec:.2f} s of simulated time'
-
     def destroy_node(self) -> None:
-        """End the record, then let go of everything; may be called twice."""
+        """End the record, then release everything; may be called twice."""
         if self._record is not None:
-            self._interference.look(at_the_end=True)
+            self._interference.check(at_the_end=True)
             self._record.close()
             self._record = None
-        for topics in self._topics:
-            topics.close()
+        self._topics.close()
         super().destroy_node()
         self._lock.close()
 
@@ -338,7 +279,7 @@ def main(args: list[str] | None = None) -> int:
     node: SimulatorNode | None = None
     try:
         node = SimulatorNode()
-        gc.freeze()  # what is there now stays: no long search through it in the middle of a run
+        gc.freeze()  # no long garbage collection of what is there now during a run
         node.over.add_done_callback(lambda _: interrupted.done() or interrupted.set_result(None))
         spin(node, until=interrupted)
     except (SimulatorError, DomainError) as error:

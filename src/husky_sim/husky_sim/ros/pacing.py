@@ -3,8 +3,8 @@
 """
 The wall clock against simulated time.
 
-A simulation that fell behind catches up, but only by CATCH_UP_SEC of wall time: after a long
-stall it goes on from where it is, and the physics never takes a longer step.
+A simulation that fell behind catches up, but only by CATCH_UP_SEC of wall time: after a longer
+delay it continues from where it is. The physics never takes a longer step.
 """
 
 import math
@@ -16,7 +16,7 @@ EARLY = 0.25
 
 
 class Pacer:
-    """Says how many control periods are due. Times are of a steady wall clock, in seconds."""
+    """Computes how many control periods are due. Times are of a steady wall clock, in seconds."""
 
     def __init__(self, *, period_sec: float, real_time_factor: float) -> None:
         self._period_sec = period_sec
@@ -26,21 +26,21 @@ class Pacer:
 
     def change(self, real_time_factor: float, *, begin_sec: float | None = None) -> None:
         """
-        Go on at another pace; what was lost stays counted.
+        Continue at another pace; the counts of lost time stay.
 
-        :param begin_sec: when the timer was made that asks. Periods fall due when it fires: due
-            times amid two of its ticks would come now with the one, now with the other.
+        :param begin_sec: when the timer that calls `due` was made. Periods fall due at its ticks:
+            due times between two ticks would be rounded now to the one, now to the other.
         """
         self._begin_sec = begin_sec
         self._wall_period_sec = self._period_sec / real_time_factor
         self._next_sec: float | None = None
 
     def restart(self) -> None:
-        """Begin anew at the next question, after a pause."""
+        """Begin again at the next call of `due`, after a pause."""
         self._next_sec = None
 
     def due(self, now_sec: float, *, most: int = 1000) -> int:
-        """Return how many periods to advance now, and count on it that it is done."""
+        """Return how many periods to advance now; they count as done."""
         if self._next_sec is None:
             self._next_sec = self._tick_near(now_sec)
         late_sec = now_sec - self._next_sec

@@ -13,6 +13,7 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Bool
 
@@ -24,11 +25,11 @@ from husky_sim.ros.sensor_topics import SensorTopics
 from husky_sim.ros.transforms import TransformTopics
 from husky_sim.simulation import SimulatedRobot, Simulation
 
-# Reliable and volatile: a reader that is slow for a moment loses nothing.
+# Reliable and volatile: a subscription that is slow for a moment loses nothing.
 QOS = QoSProfile(depth=10)
 
-LOOK_SEC = 0.005
-"""How often to look who reads, by the wall clock: each look costs as much as a message."""
+COUNT_SEC = 0.005
+"""Wall time between two counts of subscriptions: a count costs as much as a message."""
 
 _COMMAND_TYPE = 'geometry_msgs/msg/Twist'
 
@@ -39,8 +40,8 @@ class RobotTopics:
 
     :param namespace: before every topic; empty for the only robot, ending in / for one of many.
     :param on_command: called after every command was taken.
-    :param on_commander: called when one who publishes commands comes or goes, with how many did
-        so at the same time.
+    :param on_commander: called with the topic of the commands when a publisher of it comes or
+        goes, and with how many there were at the same time.
     :param form: in which packed messages are published.
     """
 
@@ -53,7 +54,7 @@ class RobotTopics:
         on_command: Callable[[], None],
         form: Form,
         *,
-        on_commander: Callable[[int], None],
+        on_commander: Callable[[str, int], None],
     ) -> None:
         self.robot = robot
         self.commanded = False
@@ -83,8 +84,8 @@ class RobotTopics:
             for message, publisher in ((self._filtered, self.filtered_publisher), *self._rest)
             if publisher is not None and isinstance(message, messages.OdometryMessage)
         ]
-        self._read = self._rest  # those of them that somebody reads
-        self._look_again_sec = 0.0
+        self._read = self._rest  # those of them that have subscriptions
+        self._count_again_sec = 0.0
         self._collision_publisher = node.create_publisher(
             DiagnosticStatus, f'{namespace}collisions', QOS
         )
@@ -92,13 +93,15 @@ class RobotTopics:
         self._transforms = TransformTopics(
             node, namespace, localization=self.filtered_publisher is not None
         )
-        self.command_subscription = node.create_subscription(
+        self.command_subscription: Subscription = node.create_subscription(
             Twist,
             f'{controller}/cmd_vel',
             self._on_cmd_vel,
             QOS,
             event_callbacks=SubscriptionEventCallbacks(
-                matched=lambda event: on_commander(most_at_once(event))
+                matched=lambda event: on_commander(
+                    self.command_subscription.topic_name, most_at_once(event)
+                )
             ),
         )
         # As the Husky's twist_mux has it: while true, no command reaches the wheels.
@@ -129,10 +132,10 @@ class RobotTopics:
 
     def warn_of_other_types(self, node: Node) -> None:
         """
-        Say so, once, when somebody commands with another message type.
+        Log an error, once, for a publisher of commands with another message type.
 
-        DDS does not connect the two, so without a word nothing would move. Most often it is a
-        TwistStamped, which Jazzy's own controllers take.
+        DDS does not connect the two, so the robot would not move. Most often it is a TwistStamped,
+        which Jazzy's own controllers take.
         """
         topic = self.command_subscription.topic_name
         for publisher in node.get_publishers_info_by_topic(topic):
@@ -145,16 +148,16 @@ class RobotTopics:
                 )
 
     def publish_filtered(self, stamp: Stamp) -> None:
-        """Publish what a driver steers by: first of all, so that it works while we go on."""
+        """Publish the odometry for the driver: first, so that the driver works meanwhile."""
         if self.filtered_publisher is not None:
             self._filtered.pack(stamp, self.robot)
             self.filtered_publisher.publish(self._form(self._filtered))
 
     def publish_rest(self, stamp: Stamp) -> None:
-        """Publish everything else of a control period that somebody reads."""
+        """Publish everything else of a control period that has subscriptions."""
         now_sec = time.monotonic()
-        if now_sec >= self._look_again_sec:
-            self._look_again_sec = now_sec + LOOK_SEC
+        if now_sec >= self._count_again_sec:
+            self._count_again_sec = now_sec + COUNT_SEC
             self._read = [each for each in self._rest if each[1].get_subscription_count()]
         for message, publisher in self._read:
             message.pack(stamp, self.robot)
@@ -167,14 +170,14 @@ class RobotTopics:
         self._collision_publisher.publish(messages.new_collision(touch))
 
     def has_driver(self) -> bool:
-        """Tell whether somebody reads the odometry and somebody writes commands."""
+        """Return whether the odometry has a subscription and the commands have a publisher."""
         return (
             self.filtered_publisher.get_subscription_count() > 0
             and self.command_subscription.get_publisher_count() > 0
         )
 
     def close(self) -> None:
-        """Let go of what the node does not own; may be called twice."""
+        """Release what the node does not own; may be called twice."""
         self._sensors.close()
 
 

@@ -34,7 +34,7 @@ class SensorTopics:
         """
         Create the publishers.
 
-        :raises SettingError: if pictures are asked for where none can be drawn.
+        :raises SettingError: if pictures are requested where none can be drawn.
         """
         config: SensorConfig = simulation.config.sensors
         self._robot = robot
@@ -75,7 +75,7 @@ class SensorTopics:
             self._images.publish(new_image(self._camera.picture(), time_message(stamp)))
 
     def close(self) -> None:
-        """Let go of the camera; may be called twice."""
+        """Release the camera; may be called twice."""
         if self._camera is not None:
             self._camera.close()
             self._camera = None

@@ -3,18 +3,18 @@
 """
 The state services of simulation_interfaces, where that package is installed; else nothing.
 
-They do what ~/pause, ~/step and ~/reset do, for tools that steer any simulator in this way:
+They do what ~/pause, ~/step and ~/reset do, for tools that control any simulator in this way:
 ~/get_simulator_features, ~/get_simulation_state, ~/set_simulation_state, ~/reset_simulation and
 ~/step_simulation. Result codes are those of Result.msg and SetSimulationState.srv, release 1.0.
 """
 
-from importlib import import_module
-from typing import Any, Protocol
+from typing import Any
 
 from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.ros.control_services import Run
 
 MOST_STEPS = 3000
-"""A minute of simulated time: no signal is heard while the steps of one call are made."""
+"""A minute of simulated time: signals wait until the steps of one call are made."""
 
 _FEATURES = (
     'SIMULATION_RESET',
@@ -26,35 +26,13 @@ _FEATURES = (
 )
 
 
-class Run(Protocol):
-    """What the services steer."""
-
-    @property
-    def paused(self) -> bool:
-        """Whether time stands still."""
-
-    @property
-    def at_start(self) -> bool:
-        """Whether no time has passed since the start or the last reset."""
-
-    def pause(self, paused: bool) -> None:
-        """Hold time up, or let it go on."""
-
-    def step(self) -> None:
-        """Advance by one control period."""
-
-    def reset(self) -> None:
-        """Put everything back as it was at the start."""
-
-
 def add_simulation_services(node: Any, run: Run) -> bool:
     """Create the services under the node; tell whether simulation_interfaces is there."""
     try:
-        messages = import_module('simulation_interfaces.msg')
-        services = import_module('simulation_interfaces.srv')
+        from simulation_interfaces import msg, srv
     except ImportError:
         return False
-    SimulationServices(node, run, messages, services)
+    SimulationServices(node, run, msg, srv)
     return True
 
 
@@ -79,7 +57,7 @@ class SimulationServices:
             node.create_service(kind, f'~/{name}', callback)
 
     def state(self) -> int:
-        """Return the state in the words of SimulationState: stopped is paused at the start."""
+        """Return a state of SimulationState: stopped is paused at the start."""
         if not self._run.paused:
             self._stopped = False
             return int(self._state.STATE_PLAYING)

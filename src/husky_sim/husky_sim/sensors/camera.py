@@ -3,10 +3,9 @@
 """
 The camera on the top plate, drawn off the screen with EGL or OSMesa.
 
-Everything of OpenGL belongs to the thread that draws first.
+All calls of OpenGL must come from the thread that draws first.
 """
 
-from importlib import import_module
 import math
 from typing import Any
 
@@ -18,12 +17,11 @@ from husky_sim.errors import SettingError
 
 WIDTH, HEIGHT = 640, 480
 FRAME = 'camera'
-_PLATFORMS = ('mujoco.egl', 'mujoco.osmesa')
 _SEEN_GROUPS = (0, 1, 2)  # group 3 holds the collision shapes of the robots
 
 
 class Camera:
-    """Draws what one robot sees."""
+    """Draws the view from one robot."""
 
     def __init__(self, name: str, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """
@@ -77,7 +75,7 @@ class Camera:
         return context, scene, options, renderer
 
     def close(self) -> None:
-        """Let go of the drawing surface; may be called twice."""
+        """Release the drawing surface; may be called twice."""
         if self._drawing is not None:
             self._drawing[3].free()
             self._drawing[0].free()
@@ -86,10 +84,14 @@ class Camera:
 
 def _new_context() -> Any:
     problems = []
-    for platform in _PLATFORMS:
-        try:
-            return import_module(platform).GLContext(WIDTH, HEIGHT)
-        except Exception as error:  # whatever a driver, or its absence, comes up with
+    for platform in ('mujoco.egl', 'mujoco.osmesa'):
+        try:  # to import one of these loads its library, and fails where there is none
+            if platform == 'mujoco.egl':
+                from mujoco.egl import GLContext
+            else:
+                from mujoco.osmesa import GLContext
+            return GLContext(WIDTH, HEIGHT)
+        except Exception as error:  # drivers, or their absence, raise many types
             problems.append(f'{platform}: {" ".join(str(error).split())}')
     raise SettingError(
         f'camera_rate_hz: no picture can be drawn here ({"; ".join(problems)}); install EGL '

@@ -17,7 +17,7 @@ VARIANCE = DEVIATION * DEVIATION
 
 
 class ImuSample(NamedTuple):
-    """What the IMU says: orientation in `world` (w, x, y, z), the rest in base_link."""
+    """A measurement: orientation in `world` (w, x, y, z), the rest in base_link."""
 
     orientation: Quaternion
     angular_velocity: Vector
@@ -26,7 +26,7 @@ class ImuSample(NamedTuple):
 
 
 class Imu:
-    """Measures one robot. Acceleration is what an accelerometer feels, so it includes gravity."""
+    """Measures one robot. The acceleration is the specific force, so it includes gravity."""
 
     def __init__(self, husky: Husky, noise: Noise | None) -> None:
         self._husky = husky
@@ -54,7 +54,7 @@ def new_noise(seed: list[int]) -> Noise:
 
 
 def disturbed(sample: ImuSample, noise: Noise, period_sec: float) -> ImuSample:
-    """Return what an IMU with this noise says where an exact one says `sample`."""
+    """Return an exact sample with the errors of this noise."""
     errors = noise.sample(period_sec).tolist()
     acceleration, rate = sample.acceleration, sample.angular_velocity
     return ImuSample(

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The sensors with a rate of their own: which of them has something new after a period."""
+"""The sensors with a rate of their own: which of them measures after a period."""
 
 import math
 
@@ -14,7 +14,7 @@ from husky_sim.sensors import lidar, navsat
 
 
 class Rate:
-    """Says after which control periods a sensor measures: as evenly as whole periods allow."""
+    """Decides after which control periods a sensor measures: as evenly as possible."""
 
     def __init__(self, rate_hz: float) -> None:
         self._per_period = rate_hz * CONTROL_PERIOD_SEC
@@ -32,7 +32,7 @@ class Sensors:
     """
     The sensors of one robot.
 
-    After `measure`, `scan` and `fix` hold what is new, and None what is not.
+    After `measure`, `scan` and `fix` hold a new measurement, or None.
     """
 
     def __init__(

@@ -15,6 +15,7 @@ import math
 from pathlib import Path
 import warnings
 
+from husky_course.frames import to_world
 from husky_course.outline import Outline
 from husky_course.robot import RobotStart
 import mujoco
@@ -36,7 +37,7 @@ _NOTHING, _GROUND, _FIRST_OWNER = -2, -1, 0
 
 @dataclass(frozen=True, kw_only=True)
 class World:
-    """A compiled model, and who is who in it."""
+    """A compiled model, and the robot or obstacle that each geom belongs to."""
 
     path: str
     model: mujoco.MjModel
@@ -60,8 +61,8 @@ def load_world(path: str, robots: Sequence[RobotStart], *, husky: str = '') -> W
     :raises WorldError: if the file cannot be a world.
     :raises StartPoseError: if a robot cannot start where it should.
     """
-    # By default MuJoCo writes its warnings to a file in the current folder. What they count is in
-    # MjData, too.
+    # By default MuJoCo writes its warnings to a file in the current folder. MjData counts them,
+    # too.
     mujoco.set_mju_user_warning(_ignore)
     if len({robot.name for robot in robots}) != len(robots):
         raise StartPoseError(
@@ -103,14 +104,14 @@ def _parsed(path: str) -> mujoco.MjSpec:
         spec = mujoco.MjSpec.from_file(path)
     except (ValueError, mujoco.FatalError) as error:
         raise refused(path, error) from error
-    spec.compiler.fusestatic = False  # it takes the bodies' names
+    spec.compiler.fusestatic = False  # fused bodies lose their names
     return spec
 
 
 def _compiled(path: str, spec: mujoco.MjSpec) -> mujoco.MjModel:
     try:
         with warnings.catch_warnings():
-            # One is that something a robot stands in cannot sleep, which is refused later on.
+            # One is about a body that cannot sleep because a robot stands in it: refused later.
             warnings.simplefilter('ignore')
             return spec.compile()
     except (ValueError, mujoco.FatalError) as error:
@@ -152,7 +153,7 @@ def _attach(spec: mujoco.MjSpec, husky: str, robot: RobotStart, height: float) -
         quat=[math.cos(robot.yaw / 2.0), 0.0, 0.0, math.sin(robot.yaw / 2.0)],
     )
     child.option.timestep = spec.option.timestep
-    spec.memory = -1  # as much as it takes: what a world sets for itself is too little for both
+    spec.memory = -1  # automatic: the size that a world sets does not suffice with robots
     frame.attach_body(base, f'{robot.name}/', '')
 
 
@@ -167,11 +168,9 @@ def _height_under(path: str, model: mujoco.MjModel, robot: RobotStart) -> float:
             'nothing to drive on; add a plane, or a geom whose name begins with one of '
             f'{", ".join(GROUND_NAMES)}',
         )
-    cos, sin = math.cos(robot.yaw), math.sin(robot.yaw)
     heights = []
     for forward, left in _FEET:
-        x = robot.x + cos * forward - sin * left
-        y = robot.y + sin * forward + cos * left
+        x, y = to_world(robot.pose, forward, left)
         height = _ground_at(model, data, ground, x, y)
         if height is None:
             raise StartPoseError(
@@ -185,7 +184,7 @@ def _height_under(path: str, model: mujoco.MjModel, robot: RobotStart) -> float:
 def _ground_at(
     model: mujoco.MjModel, data: mujoco.MjData, ground: set[int], x: float, y: float
 ) -> float | None:
-    """Look down from far above, through everything that is not ground."""
+    """Return the height of the ground, by a ray from above through everything else."""
     down = np.array([0.0, 0.0, -1.0])
     hit = np.zeros(1, dtype=np.int32)
     z = _ABOVE_M
@@ -201,7 +200,7 @@ def _ground_at(
 
 
 def _can_touch(model: mujoco.MjModel, geom: int) -> bool:
-    """Tell whether a geom and a robot's would collide, whose contype and conaffinity are 1."""
+    """Return whether a geom collides with a robot's, whose contype and conaffinity are 1."""
     return bool((model.geom_contype[geom] | model.geom_conaffinity[geom]) & 1)
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a world's file must not say, and how it is refused: file, reason, and line if any."""
+"""Check the settings of a world's file; a refusal names file, reason, and line if any."""
 
 import math
 from pathlib import Path
@@ -21,8 +21,8 @@ def refused(path: str, reason: str | Exception, *, word: str = '') -> WorldError
     """
     Make the error that says why a world cannot be used, in one line.
 
-    :param word: what to look for in the file, if the reason names no line: an attribute or a
-        name. By default what the reason quotes, which is what MuJoCo found wrong.
+    :param word: an attribute or a name to find the line of, if the reason names none. By
+        default what the reason quotes.
     """
     text = ' '.join(str(reason).split())
     if not _HAS_LINE.search(text):
@@ -71,7 +71,7 @@ def steps_per_period(path: str, timestep_sec: float) -> int:
 
 def check_settings(path: str, spec: mujoco.MjSpec) -> None:
     """
-    Let pass what a robot can stand and drive in.
+    Check that a robot can stand and drive in the world.
 
     :raises WorldError: if the world switches off what it needs, or changes its weight.
     """

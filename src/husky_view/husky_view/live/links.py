@@ -69,10 +69,7 @@ class SimulatorQuery:
 
 def _world_and_robots(answer: GetParameters.Response) -> tuple[str, tuple[RobotStart, ...]]:
     world, x, y, yaw, robots = answer.values
-    lines = [line.split() for line in robots.string_array_value if line.strip()]
-    starts = tuple(
-        RobotStart(name=name, x=float(a), y=float(b), yaw=float(c)) for name, a, b, c in lines
-    )
+    starts = tuple(RobotStart.parse(line) for line in robots.string_array_value if line.strip())
     one = RobotStart(x=_number(x), y=_number(y), yaw=_number(yaw))
     return world.string_value or str(default_worlds() / 'playpen.xml'), starts or (one,)
 

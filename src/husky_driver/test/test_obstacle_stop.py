@@ -1,0 +1,118 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+from husky_course.route import plan_route, smooth_curve
+from husky_course.waypoints import parse_course
+from husky_driver.checks.path_scan import FRONT_M, LASER_X_M, look_along, Scan, Sighting
+from husky_driver.drive.drive import Drive
+from husky_driver.motion import Odometry
+from husky_driver.obstacle_stop import ObstacleStop
+import pytest
+
+BEAMS, FIRST = 721, -math.pi / 2
+STEP = math.pi / 720
+LINE = smooth_curve([(0.0, 0.0), (10.0, 0.0)])
+
+
+def scan_of(*points: tuple[float, float]) -> list[float]:
+    """Return the ranges of a laser at the origin's robot that sees only these places."""
+    ranges = [math.inf] * BEAMS
+    for x, y in points:
+        beam = round((math.atan2(y, x - LASER_X_M) - FIRST) / STEP)
+        ranges[beam] = math.hypot(x - LASER_X_M, y)
+    return ranges
+
+
+def seen(ranges: list[float], speed_m_s: float = 0.8) -> Sighting | None:
+    return look_along(Scan(0.0, ranges, FIRST, STEP), (0.0, 0.0, 0.0), LINE, 0.0, speed_m_s)
+
+
+def test_a_free_path_is_not_seen() -> None:
+    assert seen([math.inf] * BEAMS) is None
+    assert seen([math.nan] * BEAMS) is None
+    assert seen([0.0] * BEAMS) is None
+
+
+def test_something_on_the_path_blocks_it_and_is_described() -> None:
+    found = seen(scan_of((1.2, 0.0), (1.2, 0.1), (1.25, 0.2), (1.2, -0.9)))
+    assert found is not None
+    assert found.ahead_m == pytest.approx(1.2 - FRONT_M, abs=0.01)
+    assert (found.x_m, found.y_m) == pytest.approx((1.2, 0.0), abs=0.01)
+    assert found.width_m == pytest.approx(0.2, abs=0.02)
+    assert str(found) == (
+        'something 0.2 m wide stands on the path, 0.71 m ahead near (1.20, 0.00)'
+    )
+
+
+def test_what_stands_beside_the_path_does_not_block_it() -> None:
+    assert seen(scan_of((1.0, 0.6), (1.0, -0.6))) is None
+    assert seen(scan_of((1.0, 0.3))) is not None
+
+
+def test_it_looks_only_as_far_as_it_needs_to_stop() -> None:
+    assert seen(scan_of((1.4, 0.0)), speed_m_s=0.2) is None
+    assert seen(scan_of((1.4, 0.0)), speed_m_s=1.0) is not None
+
+
+def test_a_wall_beside_a_bend_does_not_block_the_bend() -> None:
+    bend = smooth_curve([(0, 0), (1, 0), (1.7, 0.7), (1.7, 2)])
+    wall = scan_of(*[(2.3, y / 20) for y in range(-10, 20)])
+    assert look_along(Scan(0.0, wall, FIRST, STEP), (0, 0, 0), bend, 0.0, 0.6) is None
+
+
+def scan_at(time_sec: float, *points: tuple[float, float]) -> Scan:
+    return Scan(time_sec, scan_of(*points), FIRST, STEP)
+
+
+def driving() -> Drive:
+    """Return a drive along the x axis that stands at its start, on its first leg."""
+    drive = Drive(plan_route(parse_course('speed: 0.7\nwaypoints: [[0, 0], [10, 0]]')))
+    drive.step(Odometry(9.98, 0.0, 0.0, 0.0, 0.0, 0.0))
+    return drive
+
+
+def test_it_stands_before_the_first_scan_and_at_an_obstacle() -> None:
+    stop, drive = ObstacleStop(), driving()
+    assert stop.update(10.0) == ''
+    assert stop.holds
+    stop.add_scan(scan_at(10.0), drive)
+    assert (stop.update(10.1), stop.holds) == ('', False)
+    stop.add_scan(scan_at(10.2, (0.65, 0.0)), drive)
+    assert stop.update(10.2).startswith('stopping: something 0.0 m wide stands on the path')
+    assert (stop.update(10.3), stop.holds) == ('', True)
+    stop.add_scan(scan_at(10.4), drive)
+    assert stop.update(10.4) == 'the way is free: driving on'
+    assert not stop.holds
+
+
+def test_a_standing_robot_looks_as_far_as_one_that_drives() -> None:
+    stop, drive, ahead = ObstacleStop(), driving(), (1.2, 0.0)
+    stop.update(10.0)
+    stop.add_scan(scan_at(10.0, ahead), drive)
+    assert stop.update(10.0).startswith('stopping: ')
+    stop.add_scan(scan_at(10.1), drive)
+    stop.update(10.1)
+    stop.add_scan(scan_at(10.2, ahead), drive)  # it may drive, but stands: 0 m/s
+    assert (stop.update(10.2), stop.holds) == ('', False)
+
+
+def test_without_scans_the_robot_stands() -> None:
+    stop, waiting = ObstacleStop(), Drive(plan_route(parse_course('waypoints: [[0, 0], [9, 0]]')))
+    stop.update(10.0)
+    stop.add_scan(scan_at(10.0, (0.65, 0.0)), waiting)  # not on its way yet: no obstacle
+    assert (stop.update(10.9), stop.holds) == ('', False)
+    assert 'no scan comes on front/scan' in stop.update(11.1)
+    assert stop.holds
+    stop.add_scan(scan_at(11.2), waiting)
+    assert stop.update(11.2) == 'the way is free: driving on'
+    assert stop.update(1.0) == ''  # the simulator was reset
+    assert stop.holds
+
+
+def test_it_waits_a_minute_and_no_longer() -> None:
+    stop = ObstacleStop()
+    for tenth in range(610):
+        stop.update(tenth / 10)
+        assert (stop.complaint != '') == (tenth >= 600)
+    assert stop.complaint.startswith('stood for 60 s: standing: no scan comes')

@@ -1,0 +1,109 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of a simulation: those of every robot, and the clock."""
+
+from collections.abc import Callable
+
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+
+from husky_sim.messages.messages import ClockMessage, packed_messages
+from husky_sim.messages.packed_message import proven_form
+from husky_sim.ros.robot_topics import QOS, RobotTopics
+from husky_sim.simulation import Simulation
+
+
+class SimulationTopics:
+    """
+    Publishes what a control period has changed, and takes the commands.
+
+    :param on_command: called after every command was taken.
+    :param on_commander: called with a topic of commands when a publisher of it comes or goes, and
+        with how many there were at the same time.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        *,
+        on_command: Callable[[], None],
+        on_commander: Callable[[str, int], None],
+    ) -> None:
+        self._node = node
+        self._simulation = simulation
+        self._form = proven_form(packed_messages(), node.get_logger())
+        many = len(simulation.robots) > 1
+        self._robots = [
+            RobotTopics(
+                node,
+                simulation,
+                robot,
+                f'{robot.name}/' if many else '',
+                on_command,
+                self._form,
+                on_commander=on_commander,
+            )
+            for robot in simulation.robots
+        ]
+        self._by_name = {topics.robot.name: topics for topics in self._robots}
+        self._clock = node.create_publisher(Clock, '/clock', QOS)
+        self._clock_message = ClockMessage()
+
+    @property
+    def own_topics(self) -> list[str]:
+        """Return the topics that the simulator alone should publish."""
+        odometry = [name for topics in self._robots for name in topics.odometry_topics]
+        return [self._clock.topic_name, *odometry]
+
+    @property
+    def command_topics(self) -> list[str]:
+        """Return the topics that one driver a robot should publish."""
+        return [topics.command_subscription.topic_name for topics in self._robots]
+
+    @property
+    def has_drivers(self) -> bool:
+        """Whether every robot's odometry has a subscription, and its commands a publisher."""
+        return all(topics.has_driver() for topics in self._robots)
+
+    @property
+    def commanded(self) -> bool:
+        """Whether every robot was commanded since the last `forget_commands`."""
+        return all(topics.commanded for topics in self._robots)
+
+    def forget_commands(self) -> None:
+        """Wait for a new command for every robot."""
+        for topics in self._robots:
+            topics.commanded = False
+
+    def publish(self) -> None:
+        """Publish a control period, first the odometry for the driver."""
+        stamp = divmod(self._simulation.time_ns, 1_000_000_000)
+        for topics in self._robots:
+            topics.publish_filtered(stamp)
+        self._clock_message.pack(stamp)
+        self._clock.publish(self._form(self._clock_message))
+        for topics in self._robots:
+            topics.publish_rest(stamp)
+        for touch in self._simulation.touches:
+            self._by_name[touch.robot].publish_collision(touch)
+
+    def warn_of_timeouts(self) -> None:
+        """Log which robots have just begun to stop because no command came."""
+        for robot in self._simulation.robots:
+            if robot.command_timed_out:
+                timeout_sec = robot.controller.config.command_timeout_sec
+                self._node.get_logger().warning(
+                    f'{robot.name}: no command for {timeout_sec:g} s '
+                    '(command_timeout_sec); stopping'
+                )
+
+    def warn_of_other_types(self) -> None:
+        """Log which publishers of commands have another message type, each once."""
+        for topics in self._robots:
+            topics.warn_of_other_types(self._node)
+
+    def close(self) -> None:
+        """Release what the node does not own; may be called twice."""
+        for topics in self._robots:
+            topics.close()
