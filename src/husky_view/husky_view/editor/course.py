@@ -19,11 +19,8 @@ from husky_course.robot import RobotStart
 from husky_course.route import Leg, plan_route
 from husky_course.waypoints import Course, parse_course, Waypoint
 import numpy as np
-import numpy.typing as npt
 
-from husky_view.picture.geometry import to_world
-
-Array = npt.NDArray[np.float64]
+from husky_view.picture.geometry import Array, to_world
 
 UNDO_STEPS = 100
 NEAR_M = 0.3

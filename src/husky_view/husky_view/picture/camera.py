@@ -6,10 +6,9 @@ import contextlib
 import math
 
 import numpy as np
-import numpy.typing as npt
 import viser
 
-Array = npt.NDArray[np.float64]
+from husky_view.picture.geometry import Array
 
 FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
 PRESETS = (FREE, FOLLOW, TOP)
