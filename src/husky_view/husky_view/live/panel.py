@@ -12,7 +12,7 @@ import viser
 
 from husky_view.live.links import SimulatorControl
 from husky_view.live.teleop import HOLD_HZ, Teleop
-from husky_view.picture.camera import PRESETS
+from husky_view.picture.camera import add_camera_buttons
 from husky_view.picture.page import Direction, figures_html, legend_html, RELEASE, STOP
 from husky_view.server import ActionQueue
 
@@ -44,7 +44,6 @@ class Panel:
         self._server = server
         self._simulator = simulator
         self._later = later = actions.put
-        self._choose_camera = choose_camera
         self._paused = False
         self._stopped = False
         gui = server.gui
@@ -56,8 +55,7 @@ class Panel:
         self._time.on_click(lambda event: self._on_time(event.target.value))
         factors = gui.add_button_group('Speed', tuple(FACTORS))
         factors.on_click(lambda event: self._on_factor(FACTORS[event.target.value]))
-        camera = gui.add_button_group('Camera', PRESETS)
-        camera.on_click(lambda event: self._on_camera(event.client, event.target.value))
+        add_camera_buttons(gui, actions.put, choose_camera)
         if len(robots) > 1:
             robot = gui.add_dropdown('Robot', tuple(robots))
             robot.on_update(
@@ -93,10 +91,6 @@ class Panel:
 
     def _on_factor(self, factor: float) -> None:
         self._later(lambda: self._simulator.set_factor(factor))
-
-    def _on_camera(self, client: viser.ClientHandle | None, preset: str) -> None:
-        if client is not None:
-            self._later(lambda: self._choose_camera(client, preset))
 
     def show_stopped(self, stopped: bool) -> None:
         """Show whether the emergency stop is pressed."""
