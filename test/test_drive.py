@@ -78,7 +78,7 @@ def test_the_central_barrier_is_driven_round_without_a_touch(
     assert average_m_s >= 0.75 * load_course(str(course)).speed_m_s
 
 
-def test_a_course_through_the_central_barrier_reports_the_collision(
+def test_a_course_through_the_barrier_reports_the_collision(
     nodes: SpunNodes, tmp_path: Path
 ) -> None:
     course = tmp_path / 'through.yaml'
@@ -103,7 +103,7 @@ def test_a_course_through_the_central_barrier_reports_the_collision(
     assert {collision.obstacle for collision in report.collisions} == {'jersey_barrier_15'}
 
 
-def test_with_the_laser_on_it_stops_before_what_no_map_knows_and_drives_on_when_it_is_gone(
+def test_the_laser_stops_it_until_an_unmapped_box_is_gone(
     nodes: SpunNodes, tmp_path: Path
 ) -> None:
     world, course, record = (tmp_path / name for name in ('w.xml', 'c.yaml', 'run.record'))

@@ -69,7 +69,7 @@ def test_drive_refuses_a_bad_file_before_anything_starts(
     assert 'Traceback' not in run.output
 
 
-def test_the_same_file_gives_the_same_run_also_on_a_loaded_machine(
+def test_the_same_file_gives_the_same_run_on_a_loaded_machine(
     processes: Processes, tmp_path: Path
 ) -> None:
     hashes = set()

@@ -121,7 +121,7 @@ def _save_picture(terminal: Terminal, workspace: Path) -> None:
         (workspace / 'graph.png').write_bytes(urlopen(page[1] + 'graph.png', timeout=20).read())
 
 
-def test_a_terminal_that_only_sources_a_workspace_knows_ros_and_the_lab(
+def test_a_terminal_that_sources_a_workspace_knows_the_lab(
     home: Path, processes: Processes
 ) -> None:
     workspace = DOCS.parent / 'install' / 'setup.bash'

@@ -31,7 +31,8 @@ def test_mypy_strict_finds_nothing(tmp_path: Path) -> None:
     mypy = [sys.executable, '-m', 'mypy', '--cache-dir', str(tmp_path)]
     # One call for each folder of tests: every one of them has a module called conftest.
     packages = [path.parent for path in sorted(ROOT.glob('src/*/package.xml'))]
-    sources = [ROOT / 'underlay' / 'src', *(path / path.name for path in packages)]
+    distributions = [path.parent for path in sorted(ROOT.glob('underlay/*/package.xml'))]
+    sources = [path / path.name for path in (*distributions, *packages)]
     tests = [ROOT / 'underlay' / 'test', *(path / 'test' for path in packages)]
     launch_files = sorted(ROOT.glob('src/*/launch/*.py'))
     ours = [ROOT / 'test', ROOT / 'benchmark']

@@ -32,7 +32,7 @@ def test_the_publisher_logs_ten_hellos_a_second(processes: Processes) -> None:
     assert '[INFO]' in publisher.lines[0]
 
 
-def test_two_subscribers_with_names_of_their_own_hear_two_publishers(processes: Processes) -> None:
+def test_two_named_subscribers_hear_two_publishers(processes: Processes) -> None:
     subscribers = [run(processes, 'subscriber') for _ in range(2)]
     for _ in range(2):
         run(processes, 'publisher')

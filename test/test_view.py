@@ -40,7 +40,7 @@ def page(lab: Lab) -> Page:
 
 
 @pytest.mark.timeout(120)
-def test_the_page_shows_the_time_that_passes_and_a_legend_without_an_error(page: Page) -> None:
+def test_the_page_shows_passing_time_and_a_legend(page: Page) -> None:
     expect(number(page, 'time')).not_to_have_text(number(page, 'time').inner_text())
     expect(page.locator('body')).to_contain_text('true trail', use_inner_text=True)
     assert errors(page) == []
@@ -156,7 +156,7 @@ def test_the_pad_turns_the_robot_and_the_stop_button_holds_it(lab: Lab, page: Pa
 
 
 @pytest.mark.timeout(120)
-def test_a_page_that_is_reloaded_while_a_key_is_held_stops_the_robot_and_works(lab: Lab) -> None:
+def test_a_page_reloaded_with_a_key_held_stops_the_robot(lab: Lab) -> None:
     page = lab.open()
     page.keyboard.down('ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
@@ -169,7 +169,7 @@ def test_a_page_that_is_reloaded_while_a_key_is_held_stops_the_robot_and_works(l
 
 
 @pytest.mark.timeout(120)
-def test_a_page_that_dies_while_its_pad_is_held_stops_the_robot(lab: Lab) -> None:
+def test_a_page_that_dies_with_its_pad_held_stops_the_robot(lab: Lab) -> None:
     page = lab.open()
     button(page, '▼').hover()
     page.mouse.down()
@@ -181,7 +181,7 @@ def test_a_page_that_dies_while_its_pad_is_held_stops_the_robot(lab: Lab) -> Non
 
 
 @pytest.mark.timeout(120)
-def test_a_phone_shows_the_scene_above_the_panel_and_can_stop_the_robot(lab: Lab) -> None:
+def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab) -> None:
     page = lab.open(*PHONE)
     expect(button(page, 'STOP')).to_be_in_viewport(ratio=1.0)
     left, top, width = page.evaluate(PANEL)
@@ -196,9 +196,7 @@ def test_a_phone_shows_the_scene_above_the_panel_and_can_stop_the_robot(lab: Lab
 
 
 @pytest.mark.timeout(120)
-def test_the_page_says_that_the_simulator_is_gone_and_goes_on_with_the_next(
-    lab: Lab, page: Page
-) -> None:
+def test_the_page_goes_on_with_the_next_simulator(lab: Lab, page: Page) -> None:
     wait_until(lambda: lab.time_sec > 1.0, timeout_sec=15.0, what='a second of this run')
     lab.simulator.close()
     expect(page.locator('[data-trouble]')).to_contain_text('is gone')
@@ -210,7 +208,7 @@ def test_the_page_says_that_the_simulator_is_gone_and_goes_on_with_the_next(
 
 
 @pytest.mark.timeout(120)
-def test_of_a_simulator_with_other_robots_the_page_is_made_anew(lab: Lab, page: Page) -> None:
+def test_the_page_is_made_anew_for_other_robots(lab: Lab, page: Page) -> None:
     lab.simulator.close()
     lab.start_simulator('alpha 0 0 0', 'beta -3 0 0')
     page.get_by_label('Robot', exact=True).wait_for()

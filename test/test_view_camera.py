@@ -99,7 +99,7 @@ def distance(ones: Array, others: Array) -> float:
 
 
 @pytest.mark.timeout(60)
-def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scene: Scene) -> None:
+def test_a_camera_follows_as_far_off_as_a_person_sets_it(scene: Scene) -> None:
     scene.choose(FOLLOW)
     scene.driving = True
     scene.wait(lambda: scene.at[0] > 1.0, 'a camera that goes along')
@@ -121,7 +121,7 @@ def test_a_camera_follows_at_its_distance_and_a_person_may_zoom_and_turn_it(scen
 
 
 @pytest.mark.timeout(60)
-def test_free_leaves_the_camera_where_it_is_and_top_looks_down(scene: Scene) -> None:
+def test_free_leaves_the_camera_alone_and_top_looks_down(scene: Scene) -> None:
     scene.choose(FOLLOW)
     scene.driving = False
     scene.wait(lambda: distance(scene.at, scene.robot) < 0.002, 'a camera at the robot')

@@ -56,7 +56,7 @@ def distances(ones: Sequence[Place], others: Sequence[Place]) -> float:
 
 
 @pytest.mark.timeout(180)
-def test_what_is_clicked_and_dragged_is_saved_and_passes_the_check(
+def test_what_is_clicked_and_dragged_is_saved_and_valid(
     lab: Lab, page: Page, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for count, place in enumerate(PLACES, start=1):

@@ -76,9 +76,7 @@ def red(png: bytes) -> int:
 
 
 @pytest.mark.timeout(180)
-def test_a_drive_shows_its_path_and_its_trails_in_the_colours_of_the_legend(
-    lab: Lab, pictures: Path
-) -> None:
+def test_a_drive_shows_path_and_trail_in_the_legends_colours(lab: Lab, pictures: Path) -> None:
     driver = lab.drive(COURSE)
     wait_until(
         lambda: lab.truth.pose.pose.position.x > 3.2,

@@ -24,7 +24,7 @@ def stamp_sec(clock: Clock) -> float:
 
 
 @pytest.mark.timeout(60)
-def test_a_launch_with_viewer_serves_the_page_on_the_loopback_alone(processes: Processes) -> None:
+def test_a_launch_serves_the_page_on_the_loopback_alone(processes: Processes) -> None:
     launch = processes.start(
         *('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py'),
         *('viewer:=true', 'viewer_port:=18380'),
@@ -45,7 +45,7 @@ def test_a_launch_with_viewer_serves_the_page_on_the_loopback_alone(processes: P
 
 
 @pytest.mark.timeout(60)
-def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_seconds(
+def test_a_taken_port_gives_the_next_and_ctrl_c_ends_in_2_s(
     processes: Processes,
 ) -> None:
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
@@ -74,7 +74,7 @@ def test_a_taken_port_gives_the_next_one_and_ctrl_c_ends_the_view_within_two_sec
         ('replay', 'libmujoco', signal.SIGINT),
     ],
 )
-def test_an_interrupt_while_a_program_still_loads_ends_it_in_silence(
+def test_an_interrupt_while_a_program_loads_ends_it_silently(
     processes: Processes, program: str, library: str, number: signal.Signals
 ) -> None:
     package = 'husky_sim' if program == 'husky_sim' else 'husky_view'
@@ -129,7 +129,7 @@ def test_a_view_that_hangs_does_not_hold_up_the_physics(
 
 
 @pytest.mark.timeout(60)
-def test_ten_tabs_that_read_nothing_do_not_hold_up_the_physics(
+def test_ten_stalled_tabs_do_not_hold_up_the_physics(
     processes: Processes, nodes: SpunNodes
 ) -> None:
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')

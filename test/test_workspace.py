@@ -30,7 +30,7 @@ def test_colcon_takes_every_package_for_an_ament_python_one(tmp_path: Path) -> N
 
 @pytest.mark.parametrize('install', ['copied', 'symlinked'])
 @pytest.mark.timeout(120)
-def test_a_build_puts_every_package_on_the_ament_prefix_path(tmp_path: Path, install: str) -> None:
+def test_a_build_puts_every_package_on_the_ament_path(tmp_path: Path, install: str) -> None:
     options = ['--symlink-install'] if install == 'symlinked' else []
     bases = ['--build-base', str(tmp_path / 'build'), '--install-base', str(tmp_path / 'install')]
     colcon = ['colcon', '--log-base', str(tmp_path / 'log'), 'build', '--base-paths', 'src']

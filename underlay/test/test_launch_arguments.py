@@ -166,7 +166,7 @@ def test_appending_to_an_environment_variable(
     assert _logged(run_launch(path).output) == ['a:b:c;d']
 
 
-def test_declared_arguments_are_found_also_in_includes_and_groups(
+def test_arguments_are_found_also_in_includes_and_groups(
     python_launch_file: LaunchFile,
 ) -> None:
     inner = python_launch_file(INNER, 'inner.launch.py')

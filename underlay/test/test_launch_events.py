@@ -116,7 +116,7 @@ def test_a_timer_can_be_cancelled() -> None:
     assert timer.is_canceled
 
 
-def test_own_events_reach_own_handlers_until_these_are_taken_away() -> None:
+def test_own_events_reach_own_handlers_until_unregistered() -> None:
     class Ring(Event):
         name = 'Ring'
 
@@ -256,3 +256,17 @@ def test_loops_repeat_their_actions(python_launch_file: LaunchFile, run_launch: 
     assert [
         line.partition(']: ')[2] for line in launched.lines if 'launch.user' in line
     ] == expected
+
+
+def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_launch: Run) -> None:
+    launched = run_launch(
+        python_launch_file(
+            """
+            CAT,
+            RegisterEventHandler(OnProcessStart(target_action=CAT, on_start=lambda event, _: [
+                EmitEvent(event=ProcessStdin(text=b'typed\\n', **CAT.process_details))])),
+            """,
+            before="CAT = ExecuteProcess(cmd=['head', '-n1'], output='screen')",
+        )
+    )
+    assert '[head-1] typed' in launched.lines

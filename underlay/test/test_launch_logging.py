@@ -24,7 +24,7 @@ def _run(*actions: Any, debug: bool = False) -> int:
     return service.run()
 
 
-def test_the_log_folder_is_named_after_time_host_and_process_and_linked(tmp_path: Path) -> None:
+def test_the_log_folder_is_named_after_time_host_and_process(tmp_path: Path) -> None:
     _run(LogInfo(msg='hello'))
     folder = Path(launch_config.log_dir)
     assert folder.parent == tmp_path / 'ros_log'

@@ -9,15 +9,11 @@ import re
 from typing import Any
 
 from launch import LaunchContext, LaunchDescription, LaunchService
-from launch.substitutions import LaunchConfiguration, TextSubstitution
-from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, Node, SetParameter
+from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes
 from launch_ros.descriptions import ComposableNode
-from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 from launch_ros.utilities import (
-    evaluate_parameters,
     make_namespace_absolute,
-    normalize_parameters,
     prefix_namespace,
 )
 import pytest
@@ -276,44 +272,3 @@ def test_packages_are_found_and_their_parts(ros_package: Path) -> None:
 )
 def test_namespaces_are_joined(base: str | None, namespace: str | None, result: str) -> None:
     assert make_namespace_absolute(prefix_namespace(base, namespace)) == result
-
-
-def test_parameter_values_keep_or_get_their_types(launch_environment: None) -> None:
-    del launch_environment
-    context = LaunchContext()
-    context.launch_configurations['x'] = '1'
-    x = LaunchConfiguration('x')
-    given = {
-        'plain': '1',
-        'yaml': x,
-        'joined': [x, '.5'],
-        'list': [[x], [x, '0']],
-        'typed': ParameterValue(x, value_type=bool),
-        'typed_list': ParameterValue([x, 'a'], value_type=str),
-        'text': [TextSubstitution(text='a'), TextSubstitution(text='b')],
-        'path': Path('/a'),
-        'bytes': b'x',
-    }
-    (values,) = evaluate_parameters(context, normalize_parameters([given]))
-    assert values == {
-        'plain': '1',
-        'yaml': 1,
-        'joined': 1.5,
-        'list': [1, 10],
-        'typed': True,
-        'typed_list': '1a',
-        'text': 'ab',
-        'path': '/a',
-        'bytes': b'x',
-    }
-
-
-@pytest.mark.parametrize('parameters', ['file.yaml', {'a': 1}, [5], [{'a': None}], [{'a': {1}}]])
-def test_wrong_parameters_are_refused_when_written(parameters: Any) -> None:
-    with pytest.raises(TypeError):
-        Node(package='a', executable='b', parameters=parameters)
-
-
-def test_set_parameter_refuses_what_no_parameter_can_have() -> None:
-    with pytest.raises(TypeError, match='Unexpected type for parameter value None'):
-        SetParameter('a', None)

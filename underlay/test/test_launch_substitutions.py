@@ -49,7 +49,7 @@ def _perform(context: LaunchContext, value: Any) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(value))
 
 
-def test_launch_configuration_may_have_a_default_of_substitutions(context: LaunchContext) -> None:
+def test_a_configuration_may_default_to_substitutions(context: LaunchContext) -> None:
     context.launch_configurations['known'] = 'value'
     assert _perform(context, LaunchConfiguration('known')) == 'value'
     default = LaunchConfiguration('other', default=['a-', LaunchConfiguration('known')])
@@ -57,7 +57,7 @@ def test_launch_configuration_may_have_a_default_of_substitutions(context: Launc
     assert _perform(context, LaunchConfiguration('number', default=5)) == '5'
 
 
-def test_an_unknown_launch_configuration_is_refused_with_the_nearest(
+def test_an_unknown_configuration_is_refused_with_the_nearest(
     context: LaunchContext,
 ) -> None:
     context.launch_configurations['speed'] = '1'

@@ -19,8 +19,6 @@ import pytest
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent.parent
-SOURCES = HERE.parent.parent / 'src'
-sys.path.insert(0, str(SOURCES))
 
 
 @dataclass(frozen=True)
@@ -84,7 +82,7 @@ class Processes:
 
 @contextmanager
 def own_domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    """Move this process and its children to a domain that nobody uses."""
+    """Move this process and its children to a domain that is not in use."""
     with OwnDomain() as domain:
         _set_environment(monkeypatch, domain.number)
         yield domain.number
@@ -94,7 +92,6 @@ def _set_environment(monkeypatch: pytest.MonkeyPatch, domain_id: int) -> None:
     monkeypatch.setenv('ROS_DOMAIN_ID', str(domain_id))
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
-    monkeypatch.setenv('PYTHONPATH', str(SOURCES))
     monkeypatch.setenv('PYTHONUNBUFFERED', '1')
     for name in ('ROS_STATIC_PEERS', 'ROS_LOCALHOST_ONLY'):
         monkeypatch.delenv(name, raising=False)
@@ -193,5 +190,4 @@ def installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callab
             monkeypatch.setenv('AMENT_PREFIX_PATH', f'{prefix}{os.pathsep}{others}')
         return prefix
 
-    monkeypatch.setenv('PYTHONPATH', str(SOURCES))
     return install

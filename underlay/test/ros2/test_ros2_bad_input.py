@@ -12,9 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
-from ros2cli import arguments, interfaces, params
-from ros2cli.command import launch
+from ros2cli import arguments, interfaces
 from ros2cli.errors import CommandError
+from ros2launch.command import launch
+from ros2param import params
 
 MESSAGES = (
     'std_msgs/msg/String',
@@ -132,4 +133,4 @@ def test_odd_words_are_refused_in_few_lines(
     answer = ros2(*words)
     assert answer.status in (1, 2), answer
     assert 0 < len(answer.err.splitlines()[-1]) < 500
-    assert 'ROS2CLI_TRACEBACK' not in answer.err, 'an error that nobody expected'
+    assert 'ROS2CLI_TRACEBACK' not in answer.err, 'an unexpected error'

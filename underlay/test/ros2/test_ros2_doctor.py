@@ -120,7 +120,7 @@ def test_nodes_in_another_domain(
     assert hint.err.startswith('hint: domain ')
 
 
-def test_a_workspace_that_is_not_built_not_sourced_or_out_of_date(
+def test_a_workspace_not_built_not_sourced_or_out_of_date(
     ros2: Callable[..., Any], tmp_path: Path, domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     source = tmp_path / 'src'
@@ -143,7 +143,7 @@ def test_a_workspace_that_is_not_built_not_sourced_or_out_of_date(
     prefixes = [str(tmp_path / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
     monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
     (modules,) = tmp_path.glob('install/mine/lib/python3*/site-packages')
-    monkeypatch.setenv('PYTHONPATH', f'{os.environ["PYTHONPATH"]}{os.pathsep}{modules}')
+    monkeypatch.setenv('PYTHONPATH', f'{os.environ.get("PYTHONPATH", "")}{os.pathsep}{modules}')
     assert not [x for x in ros2('doctor', folder=tmp_path).lines if '(workspace)' in x]
 
     (source / 'mine' / 'mine' / 'hello.py').write_text('def main():\n    print("changed")\n')
@@ -157,13 +157,13 @@ def test_a_workspace_that_is_not_built_not_sourced_or_out_of_date(
 
 
 def test_nodes_on_another_machine() -> None:
-    from ros2cli.diagnosis import places
-    from ros2cli.rtps.participant import Participant
-    from ros2cli.settings import Settings
+    from ros2_diagnosis import places
+    from rtps_graph.participant import Participant
+    from rtps_graph.settings import Settings
 
     near = Participant(b'a' * 12, '127.0.0.1', 7410, 7411)
     far = Participant(b'b' * 12, '192.0.2.77', 7410, 7411)
-    assert places.elsewhere([near, far], places.own_addresses()) == ['192.0.2.77']
+    assert places.on_other_hosts([near, far], places.own_addresses()) == ['192.0.2.77']
     finding = places.range_finding(Settings(0, 'LOCALHOST', ()), ['192.0.2.77'])
     assert '1 ROS process of domain 0 on other machines (192.0.2.77) cannot be reached' in str(
         finding

@@ -9,8 +9,7 @@ import contextlib
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
-from ros2cli import graph, names
-from ros2cli.rtps import host, wire
+from rtps_graph import graph, host, names, wire
 
 PREFIX = bytes(range(12))
 READER, WRITER = wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER

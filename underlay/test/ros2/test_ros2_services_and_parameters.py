@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""`ros2 service` and `ros2 param` beside a node that has both."""
+"""`ros2 service` and `ros2 param` with a node that has both."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ def test_echo_ends_at_its_timeout(ros2: Callable[..., Any]) -> None:
     ],
 )
 @pytest.mark.usefixtures('world')
-def test_echo_refuses_in_words(
+def test_echo_names_what_it_refuses(
     ros2: Callable[..., Any], words: tuple[str, ...], message: str
 ) -> None:
     answer = ros2('topic', 'echo', *words)
@@ -146,7 +146,7 @@ def test_a_header_gets_the_time_when_it_asks_for_it(ros2: Callable[..., Any]) ->
     ],
 )
 @pytest.mark.usefixtures('domain')
-def test_pub_refuses_in_words(
+def test_pub_names_what_it_refuses(
     ros2: Callable[..., Any], words: tuple[str, ...], status: int, message: str
 ) -> None:
     answer = ros2('topic', 'pub', '/x', *words)

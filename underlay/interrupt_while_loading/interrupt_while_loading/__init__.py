@@ -1,0 +1,109 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Ctrl-C while a program still loads ends it with one line instead of a traceback.
+
+Python imports this at its start (interrupt_while_loading.pth). A node imports ROS for half a
+second; interrupted there, Python would print a traceback of its imports. Once a function of the
+program runs, an interrupt is a KeyboardInterrupt as always. Where the program does not catch it,
+or what rclpy raises for it, the program ends without a traceback too.
+
+Where Python is started with SIGINT blocked (`env --block-signal=INT`), the signal waits until
+this module has set its handler, so that none is lost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import contextlib
+import os
+import signal
+import sys
+from types import FrameType, TracebackType
+
+_RUNPY = ('<frozen runpy>', 'runpy.py')
+_ENTRY_POINT_LOADERS = ('importlib_load_entry_point', 'load_entry_point')
+
+
+_print_uncaught = sys.excepthook
+_was_interrupted = False
+
+
+def install() -> None:
+    """Handle SIGINT as described above, unless it is ignored as in a shell's background job."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _on_interrupt)
+        sys.excepthook = _on_uncaught
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+
+
+def takes_blocked_interrupt(executable: str) -> bool:
+    """Tell whether an executable is a script of this Python, which comes by here."""
+    try:
+        with open(executable, 'rb') as file:  # noqa: PTH123 -- pathlib takes its time
+            head = file.read(1024).split(b'\n')
+    except OSError:
+        return False
+    # The Python stands in the second line where the first one of a script cannot hold its path.
+    interpreter = os.fsencode(sys.executable)
+    return head[0].startswith(b'#!') and any(interpreter in line for line in head[:2])
+
+
+def _on_interrupt(number: int, frame: FrameType | None) -> None:
+    if not _loads(frame):
+        global _was_interrupted  # noqa: PLW0603 -- a signal handler has no other place
+        _was_interrupted = True
+        signal.default_int_handler(number, frame)
+    leave(number, frame)
+
+
+def leave(number: int, _: FrameType | None) -> None:
+    """Handle SIGINT: say so in one line, and let it end this process."""
+    # The children of a launch are silent.
+    with contextlib.suppress(OSError):  # no terminal, or that of another session
+        if os.tcgetpgrp(2) == os.getpgrp():
+            os.write(2, b'\ninterrupted\n')
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
+
+
+def _on_uncaught(
+    kind: type[BaseException], error: BaseException, trace: TracebackType | None
+) -> None:
+    with contextlib.suppress(KeyboardInterrupt):
+        # rclpy shuts down in another thread, so that either error may come first.
+        if not _was_interrupted or not any(map(_is_of_interrupt, _chain(error))):
+            _print_uncaught(kind, error, trace)
+
+
+def _is_of_interrupt(error: BaseException) -> bool:
+    return isinstance(error, KeyboardInterrupt) or type(error).__module__.startswith('rclpy.')
+
+
+def _chain(error: BaseException | None) -> Iterator[BaseException]:
+    while error is not None:
+        yield error
+        error = error.__cause__ or error.__context__
+
+
+def _loads(frame: FrameType | None) -> bool:
+    if hasattr(sys, 'ps1'):
+        return False  # Python is interactive
+    frames = list(_outermost_first(frame))
+    for each in frames:
+        code = each.f_code
+        if 'importlib' in code.co_filename or code.co_name in _ENTRY_POINT_LOADERS:
+            return True
+        if code.co_name != '<module>' and not code.co_filename.endswith(_RUNPY):
+            return False
+    # Nothing but the main script itself: one that a package manager wrote has no suffix.
+    return not (frames and frames[-1].f_code.co_filename.endswith('.py'))
+
+
+def _outermost_first(frame: FrameType | None) -> Iterator[FrameType]:
+    if frame is not None:
+        yield from _outermost_first(frame.f_back)
+        yield frame
+
+
+install()

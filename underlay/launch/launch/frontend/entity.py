@@ -1,0 +1,53 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a markup launch file is made of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+class Entity:
+    """Base of one element of a markup launch file."""
+
+    @property
+    def type_name(self) -> str:
+        """Name of the element, as 'node'."""
+        raise NotImplementedError
+
+    @property
+    def parent(self) -> Entity | None:
+        raise NotImplementedError
+
+    @property
+    def children(self) -> list[Entity]:
+        raise NotImplementedError
+
+    @property
+    def location(self) -> tuple[str, int] | None:
+        """File and line, where they are known."""
+        return None
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Refuse attributes and children that no parser has read.
+
+        :raises ValueError: names the attributes and elements that nothing knows.
+        """
+        raise NotImplementedError
+
+    def get_attr(
+        self,
+        name: str,
+        *,
+        data_type: Any = str,
+        optional: bool = False,
+        can_be_str: bool = True,
+    ) -> Any:
+        """Return an attribute, or the elements of that name for ``List[Entity]``.
+
+        :param can_be_str: text that does not mean the type, as a substitution, is returned as it
+            is.
+        :raises AttributeError: it is missing and not optional.
+        :raises TypeError: it is not of the type.
+        """
+        raise NotImplementedError

@@ -1,0 +1,265 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs launch descriptions."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Coroutine, Iterable
+import logging
+import signal
+import threading
+import traceback
+from typing import Any
+
+from .event import Event
+from .event_handlers import OnIncludeLaunchDescription, OnShutdown
+from .events import IncludeLaunchDescription, Shutdown
+from .launch_context import LaunchContext
+from .launch_description import LaunchDescription
+from .launch_description_entity import LaunchDescriptionEntity
+from .logging import get_logger, launch_config, log_launch_config
+from .source_location import attach_location, describe_error
+from .utilities import normalize_to_list_of_entities, visit_all_entities_and_collect_futures
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
+
+
+class LaunchService:
+    """Visits launch descriptions and processes events until nothing is left to do.
+
+    :param argv: for access by the entities.
+    :param noninteractive: no user at a terminal: SIGINT is sent on to the children.
+    :param debug: log tracebacks and debug messages.
+    """
+
+    def __init__(
+        self,
+        *,
+        argv: Iterable[str] | None = None,
+        noninteractive: bool = False,
+        debug: bool = False,
+    ) -> None:
+        launch_config.level = logging.DEBUG if debug else logging.INFO
+        self.__debug = debug
+        self.__logger = get_logger('launch')
+        log_launch_config(logger=self.__logger)
+        self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.__context.register_event_handler(OnIncludeLaunchDescription())
+        self.__context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
+        self.__futures: list[asyncio.Future[None]] = []
+        self.__lock = threading.RLock()
+        self.__loop: asyncio.AbstractEventLoop | None = None
+        self.__wakeup: asyncio.Event | None = None
+        self.__shutting_down = False
+        self.__shutdown_when_idle = True
+        self.__sigint_received = False
+        self.__return_code = 0
+
+    @property
+    def context(self) -> LaunchContext:
+        return self.__context
+
+    @property
+    def event_loop(self) -> asyncio.AbstractEventLoop | None:
+        """The loop the service runs in, None while it does not run."""
+        return self.__loop
+
+    @property
+    def task(self) -> asyncio.Task[Any] | None:
+        return None if self.__loop is None else asyncio.current_task(self.__loop)
+
+    # ---- from any thread ----
+
+    def emit_event(self, event: Event) -> Coroutine[Any, Any, None] | None:
+        """Emit an event, from any thread; where the service does not run, for when it does."""
+        with self.__lock:
+            if self.__loop is None:
+                self.__context.emit_event_sync(event)
+            else:
+                self.__loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
+        return None
+
+    def include_launch_description(
+        self, launch_description: LaunchDescription
+    ) -> Coroutine[Any, Any, None] | None:
+        """Visit a launch description; from any thread, before or while the service runs."""
+        return self.emit_event(IncludeLaunchDescription(launch_description))
+
+    def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
+        """End everything, so that run() returns; from any thread.
+
+        Does nothing where the service does not run.
+        """
+        del force_sync
+        with self.__lock:
+            if self.__loop is not None:
+                self.__loop.call_soon_threadsafe(
+                    self.__begin_shutdown, 'LaunchService.shutdown() called', False
+                )
+        return None
+
+    # ---- running ----
+
+    def run(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run until everything has ended.
+
+        Handles SIGINT, SIGTERM and SIGQUIT where it is called from the main thread.
+
+        :param shutdown_when_idle: end as soon as nothing runs and no event is left.
+        :return: 0, or 1 where launching failed.
+        """
+        return asyncio.run(self.run_async(shutdown_when_idle=shutdown_when_idle))
+
+    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run in the loop of the caller; see :meth:`run`."""
+        with self.__lock:
+            if self.__loop is not None:
+                raise RuntimeError('LaunchService cannot be run multiple times concurrently.')
+            self.__loop = asyncio.get_running_loop()
+        self.__loop.set_debug(self.__debug)
+        self.__wakeup = asyncio.Event()
+        self.__shutdown_when_idle = shutdown_when_idle
+        self.__shutting_down = self.__sigint_received = False
+        self.__return_code = 0
+        self.__context._set_is_shutdown(False)
+        self.__context._set_asyncio_loop(self.__loop)
+        self.__context._wake = self.__wakeup.set
+        previous = self.__install_signal_handlers(self.__loop)
+        try:
+            await self.__run_to_the_end()
+        finally:
+            self.__restore_signal_handlers(self.__loop, previous)
+            with self.__lock:
+                self.__loop = None
+                self.__context._wake = None
+                self.__context._set_asyncio_loop(None)
+        return self.__return_code
+
+    async def __run_to_the_end(self) -> None:
+        while True:
+            try:
+                await self.__run_loop()
+            except asyncio.CancelledError:
+                self.__begin_shutdown('the launch was cancelled', False)
+                await self.__run_loop()
+                raise
+            except Exception as error:
+                text = 'Caught exception in launch (see debug for traceback): '
+                self.__logger.debug(traceback.format_exc())
+                self.__logger.error(text + describe_error(error))
+                self.__return_code = 1
+                self.__begin_shutdown(text + str(error), False)
+            else:
+                return
+
+    async def __run_loop(self) -> None:
+        """Process events and wait for what is under way; return when all has ended."""
+        assert self.__wakeup is not None
+        while True:
+            self.__wakeup.clear()
+            while self.__context._event_queue:
+                self.__process_event(self.__context._event_queue.popleft())
+                await asyncio.sleep(0)
+            if self.__is_idle():
+                if self.__shutting_down:
+                    return
+                if self.__shutdown_when_idle:
+                    self.__begin_shutdown('idle', False)
+                    continue
+            await self.__wakeup.wait()
+
+    def __is_idle(self) -> bool:
+        """Return whether nothing is under way; raise what went wrong in what is done."""
+        self.__watch(self.__context._completion_futures)
+        self.__context._completion_futures.clear()
+        done = [future for future in self.__futures if future.done()]
+        self.__futures = [future for future in self.__futures if not future.done()]
+        for future in done:
+            if not future.cancelled() and future.exception() is not None:
+                raise future.exception()  # type: ignore[misc]
+        return not self.__futures and not self.__context._event_queue
+
+    def __watch(self, futures: Iterable[asyncio.Future[None]]) -> None:
+        for future in futures:
+            self.__futures.append(future)
+            future.add_done_callback(self.__wake)
+
+    def __wake(self, _future: asyncio.Future[None]) -> None:
+        if self.__wakeup is not None:
+            self.__wakeup.set()
+
+    def __process_event(self, event: Event) -> None:
+        """Let every handler have the event, and raise the first error then.
+
+        What goes wrong in one handler does not keep the others from ending their processes.
+        """
+        self.__logger.debug(f"processing event: '{event}'")
+        first_error: Exception | None = None
+        for handler in tuple(self.__context._event_handlers):
+            if not handler.matches(event):
+                continue
+            self.__context._push_locals()
+            try:
+                self.__visit(handler.handle(event, self.__context))
+            except Exception as error:
+                attach_location(error, handler)
+                first_error = first_error or error
+            finally:
+                self.__context._pop_locals()
+        if first_error is not None:
+            raise first_error
+
+    def __visit(self, entities: Any) -> None:
+        if entities is None:
+            return
+        if isinstance(entities, LaunchDescriptionEntity):
+            entities = [entities]
+        known = [entity for entity in entities if entity is not None]
+        for entity in normalize_to_list_of_entities(known):
+            pairs = visit_all_entities_and_collect_futures(entity, self.__context)
+            self.__watch(future for _, future in pairs)
+
+    # ---- the end ----
+
+    def __on_shutdown(self, event: Event, context: LaunchContext) -> None:
+        del event, context
+        self.__shutting_down = True
+        self.__context._set_is_shutdown(True)
+
+    def __begin_shutdown(self, reason: str, due_to_sigint: bool) -> None:
+        if not self.__shutting_down:
+            self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
+        self.__shutting_down = True
+        self.__context._set_is_shutdown(True)
+
+    def __on_sigint(self) -> None:
+        text = 'user interrupted with ctrl-c (SIGINT)'
+        if self.__sigint_received:
+            self.__logger.warning(f'{text} again, ignoring...')
+            return
+        self.__sigint_received = True
+        self.__logger.warning(text)
+        self.__begin_shutdown('ctrl-c (SIGINT)', True)
+
+    def __on_termination(self, number: signal.Signals) -> None:
+        """End the children before the launch; upstream leaves them running."""
+        self.__logger.warning(f'received {number.name}: shutting down launched system')
+        self.__begin_shutdown(number.name, False)
+
+    def __install_signal_handlers(self, loop: asyncio.AbstractEventLoop) -> dict[int, Any]:
+        if threading.current_thread() is not threading.main_thread():
+            return {}
+        previous: dict[int, Any] = {number: signal.getsignal(number) for number in _SIGNALS}
+        loop.add_signal_handler(signal.SIGINT, self.__on_sigint)
+        for number in (signal.SIGTERM, signal.SIGQUIT):
+            loop.add_signal_handler(number, self.__on_termination, number)
+        return previous
+
+    @staticmethod
+    def __restore_signal_handlers(
+        loop: asyncio.AbstractEventLoop, previous: dict[int, Any]
+    ) -> None:
+        for number, handler in previous.items():
+            loop.remove_signal_handler(number)
+            signal.signal(number, handler)

@@ -1,0 +1,123 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Publishers and subscriptions of one topic that never connect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rtps_graph import names
+from rtps_graph.graph import Endpoint, Graph, Qos, Role
+
+from ros2_diagnosis.finding import Finding
+
+
+def check_types(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
+    """Find topics whose publishers and subscriptions have different types."""
+    for name, types in graph.topics().items():
+        if len(types) < 2 or topic not in (None, name):
+            continue
+        publishers = graph.with_role(Role.PUBLISHER, name)
+        subscriptions = graph.with_role(Role.SUBSCRIPTION, name)
+        for publisher, subscription in _pairs(publishers, subscriptions):
+            if publisher.type != subscription.type:
+                yield Finding(
+                    name,
+                    f'{_node(graph, publisher)} publishes {publisher.type}, but '
+                    f'{_node(graph, subscription)} subscribes to {subscription.type}, so that '
+                    'nothing arrives',
+                    f'use one type in both, or another topic name '
+                    f'(`ros2 topic info -v {name}` shows them)',
+                )
+        if not (publishers and subscriptions):
+            yield Finding(
+                name,
+                f'has several types: {", ".join(types)}',
+                'give the topics different names, or use one type',
+            )
+
+
+def check_qos(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
+    """Find publishers that offer less than a subscription of the same topic requests."""
+    for name in graph.topics():
+        if topic not in (None, name):
+            continue
+        publishers = graph.with_role(Role.PUBLISHER, name)
+        subscriptions = graph.with_role(Role.SUBSCRIPTION, name)
+        for publisher, subscription in _pairs(publishers, subscriptions):
+            if publisher.type != subscription.type:
+                continue
+            for offered, requested, mend in incompatibilities(publisher.qos, subscription.qos):
+                yield Finding(
+                    name,
+                    f'{_node(graph, publisher)} offers {offered}, but '
+                    f'{_node(graph, subscription)} requests {requested}, so that nothing arrives',
+                    mend,
+                )
+
+
+def incompatibilities(offered: Qos, requested: Qos) -> Iterator[tuple[str, str, str]]:
+    """Yield what is offered, what is requested and what to do, for each policy that does not fit.
+
+    The rules are those of DDS 1.4, 2.2.3 ("requested / offered").
+    """
+    if requested.reliable and not offered.reliable:
+        yield (
+            'BEST_EFFORT',
+            'RELIABLE',
+            'subscribe with `reliability=ReliabilityPolicy.BEST_EFFORT` '
+            '(`qos_profile_sensor_data`), or publish with RELIABLE',
+        )
+    if requested.transient_local and not offered.transient_local:
+        yield (
+            'VOLATILE',
+            'TRANSIENT_LOCAL',
+            'subscribe with `durability=DurabilityPolicy.VOLATILE`, or publish with '
+            'TRANSIENT_LOCAL',
+        )
+    if _is_longer(offered.deadline_ns, requested.deadline_ns):
+        yield (
+            f'deadline {_seconds(offered.deadline_ns)}',
+            f'deadline {_seconds(requested.deadline_ns)}',
+            'request a longer deadline, or offer a shorter one',
+        )
+    if requested.manual_liveliness and not offered.manual_liveliness:
+        yield (
+            'AUTOMATIC liveliness',
+            'MANUAL_BY_TOPIC liveliness',
+            'subscribe with `liveliness=LivelinessPolicy.AUTOMATIC`',
+        )
+    if _is_longer(offered.liveliness_lease_ns, requested.liveliness_lease_ns):
+        yield (
+            f'liveliness lease {_seconds(offered.liveliness_lease_ns)}',
+            f'liveliness lease {_seconds(requested.liveliness_lease_ns)}',
+            'request a longer lease, or offer a shorter one',
+        )
+
+
+def _pairs(
+    publishers: list[Endpoint], subscriptions: list[Endpoint]
+) -> Iterator[tuple[Endpoint, Endpoint]]:
+    """Yield every pair of different kinds once: twenty equal subscribers have one fault."""
+    seen = set()
+    for publisher in publishers:
+        for subscription in subscriptions:
+            kind = (publisher.type, publisher.qos, subscription.type, subscription.qos)
+            if kind not in seen:
+                seen.add(kind)
+                yield publisher, subscription
+
+
+def _node(graph: Graph, endpoint: Endpoint) -> str:
+    name = graph.node_of(endpoint).full_name
+    return 'a `ros2` command' if name.startswith(f'/{names.COMMAND_NODE}') else name
+
+
+def _is_longer(offered_ns: int | None, requested_ns: int | None) -> bool:
+    if requested_ns is None:
+        return False
+    return offered_ns is None or offered_ns > requested_ns
+
+
+def _seconds(nanoseconds: int | None) -> str:
+    return 'infinite' if nanoseconds is None else f'{nanoseconds * 1e-9:g} s'

@@ -1,0 +1,93 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes that get in each other's way, wait for a clock, or do not answer."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from rtps_graph import names
+from rtps_graph.graph import Graph, Node, Role
+
+from ros2_diagnosis.finding import Finding
+
+_CLOCK = '/clock'
+# Topics of which one robot has one publisher: two would contradict each other.
+_SINGLE_PUBLISHER_ENDS = (
+    'odometry/filtered',
+    'ground_truth/odom',
+    'husky_velocity_controller/odom',
+    'cmd_vel',
+)
+_END_ONE = 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID'
+
+
+def check_names(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that share a name."""
+    competing = {node.full_name for _, nodes in _competing_publishers(graph) for node in nodes}
+    for name, number in Counter(node.full_name for node in graph.nodes).items():
+        if number > 1:
+            yield Finding(
+                name,
+                f'{number} nodes have this name, so that parameters and services reach only one '
+                'of them',
+                # Another name would not help those that publish the same.
+                _END_ONE
+                if name in competing
+                else 'end one (Ctrl-C in its terminal), or start it with '
+                f'`--ros-args -r __node:={name.rpartition("/")[2]}_2`',
+            )
+
+
+def check_publishers(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that publish what only one may; all topics of the same nodes in one line."""
+    topics: dict[tuple[str, ...], list[str]] = {}
+    for topic, nodes in _competing_publishers(graph):
+        topics.setdefault(tuple(sorted(map(_shown_name, nodes))), []).append(topic)
+    for publishers, shared in topics.items():
+        yield Finding(
+            ', '.join(shared),
+            f'{len(publishers)} nodes publish this: {", ".join(publishers)}, so that they '
+            'contradict each other',
+            _END_ONE,
+        )
+
+
+def _competing_publishers(graph: Graph) -> Iterator[tuple[str, list[Node]]]:
+    for topic in graph.topics():
+        if topic == _CLOCK or topic.endswith(_SINGLE_PUBLISHER_ENDS):
+            found = map(graph.node_of, graph.with_role(Role.PUBLISHER, topic))
+            nodes = list({id(node): node for node in found}.values())  # two may look alike
+            if len(nodes) > 1:
+                yield topic, nodes
+
+
+def _shown_name(node: Node) -> str:
+    is_command = node.full_name.startswith(f'/{names.COMMAND_NODE}')
+    return 'a `ros2` command' if is_command else node.full_name
+
+
+def check_clock(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that use simulation time while nothing publishes the clock."""
+    waiting = sorted(
+        {graph.node_of(e).full_name for e in graph.with_role(Role.SUBSCRIPTION, _CLOCK)}
+    )
+    if waiting and not graph.with_role(Role.PUBLISHER, _CLOCK):
+        yield Finding(
+            ', '.join(waiting),
+            f'use_sim_time is true, but nobody publishes {_CLOCK}, so that its time stands still '
+            'at 0 and its timers never fire',
+            f'start the simulator, or run `ros2 param set {waiting[0]} use_sim_time false`',
+        )
+
+
+def check_silent(graph: Graph, domain_id: int) -> Iterator[Finding]:
+    """Find processes of this machine that are in the domain, but do not answer."""
+    for port in graph.silent_ports:
+        yield Finding(
+            f'domain {domain_id}',
+            f'the process that listens at UDP port {port} does not answer, its nodes are not '
+            'shown and get no messages',
+            f'it is stopped (Ctrl-Z) or hangs: `fg` continues it, `fuser -k {port}/udp` ends it',
+        )

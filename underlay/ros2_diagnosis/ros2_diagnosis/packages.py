@@ -1,0 +1,188 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Installed packages, their executables and files, and why one cannot be found."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import re
+
+from ros2_diagnosis import nearest, PackageError
+
+LAUNCH_SUFFIXES = (
+    '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
+    '_launch.py', '_launch.xml', '_launch.yaml', '_launch.yml',
+)  # fmt: skip
+
+_INDEX = 'share/ament_index/resource_index/packages'
+_PACKAGE_NAME = re.compile(r'<name>\s*([^<\s]+)\s*</name>')
+
+
+def prefixes() -> list[Path]:
+    return [Path(p) for p in os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep) if p]
+
+
+def installed() -> dict[str, Path]:
+    """Map every package on AMENT_PREFIX_PATH to the first prefix that has it."""
+    found: dict[str, Path] = {}
+    for prefix in prefixes():
+        try:
+            names = sorted(path.name for path in (prefix / _INDEX).iterdir())
+        except OSError:
+            continue
+        for name in names:
+            if not name.startswith('.'):
+                found.setdefault(name, prefix)
+    return found
+
+
+def prefix_of(package: str) -> Path:
+    """Return the prefix of a package.
+
+    :raises PackageError: it is not there; the message says why and what to do.
+    """
+    known = installed()
+    if package not in known:
+        raise PackageError(f"Package '{package}' not found: {why_missing(package)}")
+    return known[package]
+
+
+def share_of(package: str) -> Path:
+    return prefix_of(package) / 'share' / package
+
+
+def executables(package: str) -> list[Path]:
+    """List the executables of a package in the order of their paths."""
+    folder = prefix_of(package) / 'lib' / package
+    found: list[Path] = []
+    for root, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith('.'))
+        found.extend(
+            Path(root, name) for name in sorted(files) if os.access(Path(root, name), os.X_OK)
+        )
+    return found
+
+
+def find_executable(package: str, name: str) -> Path:
+    """Return the executable of a package.
+
+    :raises PackageError: there is none of this name, or more than one.
+    """
+    known = executables(package)
+    matching = [path for path in known if path.name == name]
+    if len(matching) == 1:
+        return matching[0]
+    if matching:
+        choices = ', '.join(str(path) for path in matching)
+        raise PackageError(
+            f"Multiple executables named '{name}' in package '{package}': {choices}; "
+            'call one of them by its path'
+        )
+    source = source_of(package)
+    if source is not None and _declares(source, name):
+        workspace = workspace_of(source)
+        raise PackageError(
+            f"No executable found: '{name}' is declared in {source / 'setup.py'}, but package "
+            f"'{package}' was built before that; run `colcon build --packages-select {package}` "
+            f'in {workspace}'
+        )
+    if not known:
+        raise PackageError(
+            f"No executable found: package '{package}' has none; a Python node needs a line "
+            "under 'console_scripts' in its setup.py, then `colcon build`"
+        )
+    raise PackageError(
+        f"No executable found: package '{package}' has no '{name}'"
+        f'{nearest.hint(name, (path.name for path in known))}'
+    )
+
+
+def launch_files(share: Path) -> list[Path]:
+    """List what looks like a launch file below a folder."""
+    return [
+        p for p in sorted(share.rglob('*')) if p.name.endswith(LAUNCH_SUFFIXES) and p.is_file()
+    ]
+
+
+def why_missing(package: str) -> str:
+    """Say why a package is not on AMENT_PREFIX_PATH, and what to do."""
+    if not prefixes():
+        return 'AMENT_PREFIX_PATH is empty: no ROS is sourced in this terminal'
+    workspace = workspace_of(Path.cwd())
+    if workspace is not None:
+        built = built_prefix(workspace, package)
+        if built is not None:
+            return (
+                f'it is built in {workspace}, but not sourced in this terminal; '
+                f'run `source {workspace}/install/setup.bash`'
+            )
+        source = source_in(workspace, package)
+        if source is not None:
+            return (
+                f'it is in {source}, but not built; run `colcon build --packages-select '
+                f'{package}` in {workspace}, then `source {workspace}/install/setup.bash`'
+            )
+    near = nearest.hint(package, installed(), at_most=0)
+    if near:
+        return f'no such package is sourced or installed{near}'
+    return (
+        'it is neither sourced nor installed; `ros2 pkg list` shows what is, and a workspace of '
+        'your own needs `colcon build` and `source install/setup.bash`'
+    )
+
+
+# Workspaces
+
+
+def workspace_of(path: Path) -> Path | None:
+    """Return the colcon workspace that a folder lies in: the nearest one with src or install."""
+    for folder in (path, *path.parents):
+        if (folder / 'install' / 'setup.bash').is_file() or any(sources_in(folder / 'src')):
+            return folder
+    return None
+
+
+def sources_in(folder: Path, *, depth: int = 4) -> dict[str, Path]:
+    """Map the packages whose sources lie below a folder to where they lie."""
+    found: dict[str, Path] = {}
+    if not folder.is_dir():
+        return found
+    manifest = folder / 'package.xml'
+    if manifest.is_file():
+        match = _PACKAGE_NAME.search(manifest.read_text(encoding='utf-8', errors='replace'))
+        return {match[1]: folder} if match else {}
+    if depth == 0 or (folder / 'COLCON_IGNORE').exists():
+        return found
+    for child in sorted(folder.iterdir()):
+        if child.is_dir() and not child.name.startswith('.'):
+            found |= sources_in(child, depth=depth - 1)
+    return found
+
+
+def source_in(workspace: Path, package: str) -> Path | None:
+    return sources_in(workspace / 'src').get(package)
+
+
+def source_of(package: str) -> Path | None:
+    """Return where the sources of an installed package lie, if it comes from a workspace."""
+    prefix = installed().get(package)
+    if prefix is None:
+        return None
+    workspace = workspace_of(prefix)
+    return source_in(workspace, package) if workspace is not None else None
+
+
+def built_prefix(workspace: Path, package: str) -> Path | None:
+    for prefix in (workspace / 'install' / package, workspace / 'install'):
+        if (prefix / _INDEX / package).exists():
+            return prefix
+    return None
+
+
+def _declares(source: Path, executable: str) -> bool:
+    try:
+        text = (source / 'setup.py').read_text(encoding='utf-8')
+    except OSError:
+        return False
+    return re.search(rf"""['"]\s*{re.escape(executable)}\s*=""", text) is not None

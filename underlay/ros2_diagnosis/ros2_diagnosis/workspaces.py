@@ -1,0 +1,103 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Workspaces that are not built, not sourced, or changed since they were built."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+import sys
+
+from ros2_diagnosis import packages
+from ros2_diagnosis.finding import Finding
+
+_SETTINGS = ('setup.py', 'setup.cfg', 'package.xml')
+
+
+def check_workspaces(folder: Path) -> Iterator[Finding]:
+    """Look at the workspace that a folder lies in, and at those that are sourced."""
+    here = packages.workspace_of(folder)
+    if here is not None:
+        yield from check_built_and_sourced(here)
+    for package, prefix in packages.installed().items():
+        yield from check_changed(package, prefix)
+
+
+def print_hints(package: str) -> None:
+    """Tell on stderr where a package that is about to run is not what its sources say."""
+    prefix = packages.installed().get(package)
+    if prefix is not None:
+        for finding in check_changed(package, prefix):
+            print(f'hint: {finding}', file=sys.stderr)
+
+
+def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
+    installed = packages.installed()
+    setup = workspace / 'install' / 'setup.bash'
+    unbuilt = [
+        name
+        for name in packages.sources_in(workspace / 'src')
+        if packages.built_prefix(workspace, name) is None
+    ]
+    if unbuilt:
+        yield Finding(
+            ', '.join(sorted(unbuilt)),
+            f'not built yet in {workspace}, so that `ros2 run` does not find it',
+            f'run `colcon build` in {workspace}, then `source {setup}`',
+        )
+    unsourced = [
+        name
+        for name in packages.sources_in(workspace / 'src')
+        if name not in unbuilt and name not in installed
+    ]
+    if unsourced:
+        yield Finding(
+            ', '.join(sorted(unsourced)),
+            f'built in {workspace}, but not sourced in this terminal',
+            f'`source {setup}`',
+        )
+
+
+def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
+    """Compare the sources of a package with what was built of them."""
+    workspace = packages.workspace_of(prefix)
+    source = packages.source_in(workspace, package) if workspace is not None else None
+    if workspace is None or source is None:
+        return
+    changed = changed_file(package, prefix, source, workspace / 'build' / package)
+    if changed is not None:
+        yield Finding(
+            package,
+            f'{changed} has changed since the package was built, so that the old one runs',
+            f'run `colcon build --packages-select {package}` in {workspace}',
+        )
+
+
+def changed_file(package: str, prefix: Path, source: Path, build: Path) -> Path | None:
+    """Return the first file that differs from its installed copy; None where all is current."""
+    for folder, target in _copied_folders(package, prefix, source):
+        for path in sorted(folder.rglob('*')):
+            if not path.is_file() or '__pycache__' in path.parts:
+                continue
+            copy = target / path.relative_to(folder)
+            if copy.is_file():
+                if copy.resolve() != path.resolve() and copy.read_bytes() != path.read_bytes():
+                    return path
+            elif path.suffix == '.py' and target.is_dir() and folder.name == package:
+                return path
+    # colcon writes this file at the end of each build.
+    built = build / 'colcon_build.rc'
+    for name in _SETTINGS:
+        path = source / name
+        if path.is_file() and built.is_file() and path.stat().st_mtime > built.stat().st_mtime:
+            return path
+    return None
+
+
+def _copied_folders(package: str, prefix: Path, source: Path) -> Iterator[tuple[Path, Path]]:
+    for target in prefix.glob(f'lib/python3*/site-packages/{package}'):
+        yield source / package, target
+    share = prefix / 'share' / package
+    for name in ('launch', 'config', 'worlds', 'urdf', 'params', 'msg', 'srv'):
+        if (source / name).is_dir() and (share / name).is_dir():
+            yield source / name, share / name

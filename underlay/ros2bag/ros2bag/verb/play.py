@@ -1,0 +1,177 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+import time
+from typing import Any
+
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from ros2cli import discovery, interfaces
+from ros2cli.arguments import nonnegative_float, positive_float
+from ros2cli.errors import CommandError, UsageError
+from ros2cli.node.direct import command_node, CommandNode
+from ros2cli.verb import VerbExtension
+from rosgraph_msgs.msg import Clock
+from rtps_graph import names
+from rtps_graph.graph import Role
+
+from ros2bag import reader
+from ros2bag.metadata import BagRecord, TopicRecord
+
+_MATCH_TIMEOUT_SEC = 2.0
+_DEFAULT_CLOCK_HZ = 40.0
+
+
+class PlayVerb(VerbExtension):
+    """Play back ROS data from a bag."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        parser.add_argument('bag_path', type=Path, help='Bag to open')
+        parser.add_argument(
+            '-s',
+            '--storage',
+            choices=['mcap'],
+            default='mcap',
+            help='Storage implementation of bag.',
+        )
+        parser.add_argument(
+            '-r',
+            '--rate',
+            type=positive_float,
+            default=1.0,
+            help='rate at which to play back messages',
+        )
+        parser.add_argument(
+            '--topics',
+            nargs='+',
+            default=[],
+            metavar='topic',
+            help='topics to replay (default: all)',
+        )
+        parser.add_argument(
+            '-l',
+            '--loop',
+            action='store_true',
+            help='enables loop playback when playing a bagfile',
+        )
+        parser.add_argument(
+            '--remap', '-m', nargs='+', default=[], help='list of topics to be remapped: old:=new'
+        )
+        parser.add_argument(
+            '--clock',
+            type=positive_float,
+            nargs='?',
+            const=_DEFAULT_CLOCK_HZ,
+            metavar='Hz',
+            help='Publish to /clock at this rate, to act as a ROS Time Source (default: off)',
+        )
+        parser.add_argument(
+            '-d',
+            '--delay',
+            type=nonnegative_float,
+            default=0.0,
+            help='Sleep N seconds before play',
+        )
+        parser.add_argument(
+            '--start-offset',
+            type=nonnegative_float,
+            default=0.0,
+            help='Start the playback player this many seconds into the bag file.',
+        )
+        parser.add_argument(
+            '--disable-keyboard-controls', action='store_true', help='Accepted: there are none.'
+        )
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        bag = reader.read_record(args.bag_path)
+        chosen = _chosen(bag, args.topics)
+        remaps = _remaps(args.remap)
+        with command_node(args, name='rosbag2_player') as node:
+            publishers = {}
+            for topic in chosen:
+                publishers[topic.name] = _publisher(
+                    node, topic, remaps.get(topic.name, topic.name)
+                )
+            clock = node.node.create_publisher(Clock, '/clock', 10) if args.clock else None
+            _wait_for_subscriptions(node, list(publishers.values()))
+            node.spin_until(lambda: False, args.delay)
+            while True:
+                _play(node, args, bag, publishers, clock)
+                if not args.loop:
+                    break
+            for publisher in publishers.values():
+                if publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE:
+                    publisher.wait_for_all_acked()
+
+
+def _play(
+    node: CommandNode,
+    args: argparse.Namespace,
+    bag: BagRecord,
+    publishers: dict[str, Any],
+    clock: Any,
+) -> None:
+    first_ns = bag.start_ns + int(args.start_offset * 1e9)
+    start = time.monotonic()
+    tick_sec = 1.0 / args.clock if args.clock else None
+    next_tick = 0.0
+    for message in reader.messages(args.bag_path, publishers):
+        if message.time_ns < first_ns:
+            continue
+        due = (message.time_ns - first_ns) * 1e-9 / args.rate
+        while (left := due - (time.monotonic() - start)) > 0:
+            if tick_sec is not None and time.monotonic() - start >= next_tick:
+                _publish_clock(clock, first_ns + int((time.monotonic() - start) * 1e9 * args.rate))
+                next_tick += tick_sec
+            # Sleeping is exact; the executor serves what little there is besides.
+            time.sleep(min(left, 0.01))
+            if left > 0.01:
+                node.spin_once(0.0)
+        publishers[message.topic].publish(message.data)
+
+
+def _publish_clock(publisher: Any, now_ns: int) -> None:
+    msg = Clock()
+    msg.clock.sec, msg.clock.nanosec = divmod(now_ns, 10**9)
+    publisher.publish(msg)
+
+
+def _publisher(node: CommandNode, topic: TopicRecord, name: str) -> Any:
+    qos = QoSProfile(depth=1000)
+    if not topic.reliable:
+        qos.reliability = ReliabilityPolicy.BEST_EFFORT
+    if topic.transient_local:
+        qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
+    return node.node.create_publisher(interfaces.message(topic.type), name, qos)
+
+
+def _wait_for_subscriptions(node: CommandNode, publishers: list[Any]) -> None:
+    """Wait until the subscriptions that exist are matched, so that they get the first message."""
+    graph = discovery.read_graph()
+    wanted = {p.topic_name: len(graph.with_role(Role.SUBSCRIPTION, p.topic_name))
+              for p in publishers}  # fmt: skip
+    node.spin_until(
+        lambda: all(p.get_subscription_count() >= wanted[p.topic_name] for p in publishers),
+        _MATCH_TIMEOUT_SEC,
+    )
+
+
+def _chosen(bag: BagRecord, wanted: list[str]) -> list[TopicRecord]:
+    known = {topic.name: topic for topic in bag.topics}
+    for name in map(names.expand, wanted):
+        if name not in known:
+            raise CommandError(f"The bag has no topic '{name}'; it has {', '.join(known)}")
+    return [known[names.expand(name)] for name in wanted] if wanted else list(known.values())
+
+
+def _remaps(rules: list[str]) -> dict[str, str]:
+    found = {}
+    for rule in rules:
+        old, separator, new = rule.partition(':=')
+        if not (old and separator and new):
+            raise UsageError(f"'{rule}' is no remapping: old_topic:=new_topic")
+        found[names.expand(old)] = names.expand(new)
+    return found

@@ -1,0 +1,118 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+# PYTHON_ARGCOMPLETE_OK
+"""The `ros2` command line: find the command and the verb, import only these, run them."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Sequence
+import contextlib
+import os
+import signal
+import sys
+import threading
+
+from interrupt_while_loading import leave
+from ros2_diagnosis import PackageError
+
+from ros2cli.command import add_subparsers_on_demand, CommandExtension, CommandLineParser
+from ros2cli.errors import CommandError
+
+_BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run `ros2` with the given words (default: those of the process); return its exit status."""
+    try:
+        return _run(list(sys.argv[1:] if argv is None else argv))
+    except KeyboardInterrupt:
+        return int(signal.SIGINT)
+
+
+@contextlib.contextmanager
+def _interrupt_ends() -> Iterator[None]:
+    """While a verb is loaded nothing is open yet: let an interrupt end the process at once."""
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.SIG_IGN and threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, leave)
+    try:
+        yield
+    finally:
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGINT, before)
+
+
+def _read_line(words: Sequence[str]) -> argparse.Namespace:
+    parser = build_parser(_completed_words() if '_ARGCOMPLETE' in os.environ else words)
+    if '_ARGCOMPLETE' in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser, exclude=['-h', '--help'])
+    args = parser.parse_args(words)
+    if not args.use_python_default_buffering:
+        # Whoever reads the output through a pipe wants each line when it is printed.
+        sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    return args
+
+
+def _run(words: Sequence[str]) -> int:
+    try:
+        with _interrupt_ends():
+            args = _read_line(words)
+        command: CommandExtension | None = getattr(args, '_command', None)
+        if command is None:
+            args.parser.print_help()
+            return 0
+        answer = command.main(parser=args._command_parser, args=args)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader (`head`, `less`) has closed the pipe; Python must not flush into it.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _BROKEN_PIPE_STATUS
+    except CommandError as error:
+        print(error, file=sys.stderr)
+        return error.exit_status
+    except PackageError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except Exception as error:
+        # A defect of a verb or of what it runs on: the person still gets one line.
+        if os.environ.get('ROS2CLI_TRACEBACK'):
+            raise
+        text = ' '.join(str(error).split()) or 'no further explanation'
+        print(f'{type(error).__name__}: {text} (ROS2CLI_TRACEBACK=1 shows where)', file=sys.stderr)
+        return 1
+    if isinstance(answer, str):
+        print(answer, file=sys.stderr)
+        return 1
+    return answer or 0
+
+
+def _completed_words() -> list[str]:
+    """Return the words of the line that is being completed, without the last, unfinished one."""
+    line = os.environ.get('COMP_LINE', '')[: int(os.environ.get('COMP_POINT', '0') or 0)]
+    words = line.split(' ')
+    return [word for word in words[1:-1] if word]
+
+
+def build_parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """Build the parser of a line; only what its words name is imported."""
+    parser = CommandLineParser(
+        prog='ros2',
+        description='ros2 is an extensible command-line tool for ROS 2.',
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        '--use-python-default-buffering',
+        action='store_true',
+        help='Do not force line buffering in stdout and instead use the python default buffering',
+    )
+    parser.words = words
+    parser.set_defaults(parser=parser)
+    add_subparsers_on_demand(parser, 'ros2', '_command', 'ros2cli.command', required=False)
+    return parser
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,161 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+import os
+from pathlib import Path
+from typing import Any
+
+from ros2_diagnosis import nearest, packages, workspaces
+from ros2cli import completion
+from ros2cli.command import CommandExtension
+from ros2cli.errors import CommandError
+from ros2cli.settings import settings_from_environment
+
+_SUFFIXES = (*packages.LAUNCH_SUFFIXES, '.py', '.xml', '.yaml', '.yml', '.launch')
+
+
+class LaunchCommand(CommandExtension):
+    """Run a launch file."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        parser.add_argument(
+            '-n',
+            '--noninteractive',
+            action='store_true',
+            help='Run the launch system noninteractively',
+        )
+        parser.add_argument(
+            '-d',
+            '--debug',
+            action='store_true',
+            help='Put the launch system in debug mode, provides more verbose output.',
+        )
+        parser.add_argument(
+            '-p',
+            '--print',
+            '--print-description',
+            dest='print_description',
+            action='store_true',
+            help='Print the launch description to the console without launching it.',
+        )
+        parser.add_argument(
+            '-s',
+            '--show-args',
+            '--show-arguments',
+            dest='show_arguments',
+            action='store_true',
+            help='Show arguments that may be given to the launch file.',
+        )
+        parser.add_argument(
+            '-a',
+            '--show-all-subprocesses-output',
+            action='store_true',
+            help="Show all launched subprocesses' output by overriding their output configuration "
+            'using the OVERRIDE_LAUNCH_PROCESS_OUTPUT envvar.',
+        )
+        parser.add_argument(
+            '--launch-prefix',
+            help='Prefix command, which should go before all executables. Command must be wrapped '
+            'in '
+            "quotes if it contains spaces (e.g. --launch-prefix 'xterm -e gdb -ex run --args').",
+        )
+        parser.add_argument(
+            '--launch-prefix-filter',
+            help='Regex pattern for filtering which executables the --launch-prefix is applied to '
+            'by matching the executable name.',
+        )
+        completion.package(
+            parser.add_argument(
+                'package_name', help='Name of the ROS package which contains the launch file'
+            )
+        )
+        completion.launch_file(
+            parser.add_argument('launch_file_name', nargs='?', help='Name of the launch file')
+        )
+        parser.add_argument(
+            'launch_arguments',
+            nargs='*',
+            help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
+        )
+
+    def main(self, *, parser: argparse.ArgumentParser, args: argparse.Namespace) -> int:
+        path, words = find_launch_file(
+            args.package_name, args.launch_file_name, args.launch_arguments
+        )
+        arguments = parse_launch_arguments(words)
+        try:
+            from ros2launch import launching
+        except ModuleNotFoundError as error:
+            raise CommandError(f"`ros2 launch` needs the module '{error.name}'") from None
+        if args.show_arguments:
+            return launching.print_arguments(path)
+        if args.print_description:
+            return launching.print_description(path)
+        settings_from_environment()  # refuses what a node would take without a word
+        if args.show_all_subprocesses_output:
+            os.environ['OVERRIDE_LAUNCH_PROCESS_OUTPUT'] = 'both'
+        if args.package_name in packages.installed():
+            workspaces.print_hints(args.package_name)
+        if args.launch_prefix:
+            arguments.append(('launch-prefix', args.launch_prefix))
+            arguments.append(('launch-prefix-filter', args.launch_prefix_filter or ''))
+        return launching.launch_file(
+            path, arguments, words, noninteractive=args.noninteractive, debug=args.debug
+        )
+
+
+def find_launch_file(
+    package: str, file_name: str | None, words: Sequence[str]
+) -> tuple[Path, list[str]]:
+    """Tell which file is meant, and which words are left as launch arguments.
+
+    :raises CommandError: there is no such file, package or file in the package.
+    """
+    path = Path(package)
+    is_path = os.sep in package or (path.is_file() and package not in packages.installed())
+    if is_path:
+        if not path.is_file():
+            raise CommandError(f"'{package}' is no file: a launch file or a package is expected")
+        return path, [*([file_name] if file_name is not None else []), *words]
+    if file_name is None and package.endswith(_SUFFIXES):
+        raise CommandError(f"'{package}' is no file in this folder ({Path.cwd()})")
+    share = packages.share_of(package)
+    known = packages.launch_files(share)
+    if file_name is None:
+        raise CommandError(
+            'A launch file name is required in case a package name is given'
+            f"; package '{package}' has {', '.join(sorted(p.name for p in known)) or 'none'}"
+        )
+    matching = [p for p in known if p.name == file_name]
+    matching = matching or [p for p in share.rglob(file_name) if p.is_file()] if file_name else []
+    if not matching:
+        raise CommandError(
+            f"file '{file_name}' was not found in the share directory of package '{package}' "
+            f"which is at '{share}'{nearest.hint(file_name, (p.name for p in known))}"
+        )
+    if len(matching) > 1:
+        raise CommandError(
+            f"file '{file_name}' was found more than once inside the share directory of package "
+            f"'{package}': [{', '.join(repr(str(p)) for p in sorted(matching))}]"
+        )
+    return matching[0], list(words)
+
+
+def parse_launch_arguments(words: Sequence[str]) -> list[tuple[str, str]]:
+    """Split 'name:=value' words; of duplicates the last wins.
+
+    :raises CommandError: a word has another form.
+    """
+    parsed: dict[str, Any] = {}
+    for word in words:
+        name, separator, value = word.partition(':=')
+        if not separator or not name:
+            raise CommandError(
+                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
+            )
+        parsed[name] = value
+    return list(parsed.items())

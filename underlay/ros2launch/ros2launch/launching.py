@@ -1,0 +1,74 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Launch files through the launch package: its service and the declared arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import launch
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from ros2cli.errors import CommandError
+
+
+def launch_service_description(
+    path: Path, arguments: Sequence[tuple[str, str]]
+) -> launch.LaunchDescription:
+    return launch.LaunchDescription(
+        [
+            IncludeLaunchDescription(
+                AnyLaunchDescriptionSource(str(path)), launch_arguments=arguments
+            )
+        ]
+    )
+
+
+def launch_file(
+    path: Path,
+    arguments: Sequence[tuple[str, str]],
+    words: Sequence[str],
+    *,
+    noninteractive: bool,
+    debug: bool,
+) -> int:
+    """Run a launch file to its end; return the exit status."""
+    service = launch.LaunchService(argv=list(words), noninteractive=noninteractive, debug=debug)
+    service.include_launch_description(launch_service_description(path, arguments))
+    return int(service.run())
+
+
+def print_description(path: Path) -> int:
+    print(launch.LaunchIntrospector().format_launch_description(_load(path)))
+    return 0
+
+
+def print_arguments(path: Path) -> int:
+    """Print the arguments that a launch file and what it includes declare."""
+    print("Arguments (pass arguments as '<name>:=<value>'):")
+    declared = _load(path).get_launch_arguments()
+    for argument in declared:
+        print(f"\n    '{argument.name}':")
+        lines = argument.description.splitlines() or ['no description given']
+        for line in lines:
+            print(f'        {line}')
+        if argument.default_value is not None:
+            print(f'        (default: {_shown(argument.default_value)})')
+    if not declared:
+        print('\n  No arguments.')
+    return 0
+
+
+def _shown(substitutions: object) -> str:
+    from launch.utilities import normalize_to_list_of_substitutions
+
+    parts = normalize_to_list_of_substitutions(substitutions)
+    return ' + '.join(part.describe() for part in parts)
+
+
+def _load(path: Path) -> launch.LaunchDescription:
+    try:
+        return AnyLaunchDescriptionSource(str(path)).get_launch_description(launch.LaunchContext())
+    except Exception as error:
+        raise CommandError(f"'{path}' cannot be loaded: {error}") from None

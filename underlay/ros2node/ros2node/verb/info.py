@@ -1,0 +1,65 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2_diagnosis import nearest
+from ros2cli import completion, discovery
+from ros2cli.errors import CommandError
+from ros2cli.verb import VerbExtension
+from rtps_graph import names
+from rtps_graph.graph import Role
+
+
+class InfoVerb(VerbExtension):
+    """Output information about a node."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        discovery.add_arguments(parser)
+        completion.node(
+            parser.add_argument(
+                'node_name', help='Fully qualified node name to request information'
+            )
+        )
+        parser.add_argument(
+            '--include-hidden',
+            action='store_true',
+            help='Display hidden topics, services, and actions as well',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        graph = discovery.read_graph(args)
+        name = names.expand(args.node_name)
+        matching = [node for node in graph.nodes if node.full_name == name]
+        if not matching:
+            known = [node.full_name for node in graph.nodes if not node.is_hidden]
+            raise CommandError(
+                f"Unable to find node '{args.node_name}'{nearest.hint(name, known)}"
+            )
+        if len(matching) > 1:
+            print(
+                f"There are {len(matching)} nodes in the graph with the exact name '{name}'. You "
+                f'are '
+                'seeing information about only one of them.',
+                file=sys.stderr,
+            )
+        node = matching[0]
+        print(name)
+        for title, types in (
+            ('Subscribers', node.having(Role.SUBSCRIPTION)),
+            ('Publishers', node.having(Role.PUBLISHER)),
+            ('Service Servers', node.having(Role.SERVER)),
+            ('Service Clients', node.having(Role.CLIENT)),
+            ('Action Servers', node.action_servers()),
+            ('Action Clients', node.action_clients()),
+        ):
+            print(f'  {title}:')
+            for entry, entry_types in types.items():
+                if args.include_hidden or not names.is_hidden(entry):
+                    print(f'    {entry}: {", ".join(entry_types)}')
+            # Upstream ends an empty list with an empty line.
+            if not any(args.include_hidden or not names.is_hidden(entry) for entry in types):
+                print()

@@ -1,0 +1,41 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2cli import discovery
+from ros2cli.verb import VerbExtension
+
+
+class ListVerb(VerbExtension):
+    """Output a list of available nodes."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        discovery.add_arguments(parser)
+        parser.add_argument(
+            '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
+        )
+        parser.add_argument(
+            '-c',
+            '--count-nodes',
+            action='store_true',
+            help='Only display the number of nodes discovered',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        graph = discovery.read_graph(args)
+        found = [node.full_name for node in graph.nodes if args.all or not node.is_hidden]
+        if args.count_nodes:
+            print(len(found))
+            return
+        if len(set(found)) < len(found):
+            print(
+                'WARNING: Be aware that there are nodes in the graph that share an exact name, '
+                'which can have unintended side effects.',
+                file=sys.stderr,
+            )
+        for name in found:
+            print(name)

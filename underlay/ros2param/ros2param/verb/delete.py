@@ -1,0 +1,32 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from ros2cli.errors import CommandError
+from ros2cli.node.direct import command_node
+from ros2cli.verb import VerbExtension
+
+from ros2param import params
+
+
+class DeleteVerb(VerbExtension):
+    """Delete parameter."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        params.add_arguments(parser)
+        params.add_parameter(parser, 'parameter_name', help='Name of the parameter')
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        node_name = params.find_node(args)
+        unset = ParameterValue(type=ParameterType.PARAMETER_NOT_SET)
+        with command_node(args) as node:
+            parameter = Parameter(name=args.parameter_name, value=unset)
+            (result,) = params.set_values(node, node_name, [parameter])
+        reason = f': {result.reason}' if result.reason else ''
+        if not result.successful:
+            raise CommandError(f'Deleting parameter failed{reason}')
+        print(f'Deleted parameter successfully{reason}')

@@ -1,0 +1,42 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from rcl_interfaces.msg import ParameterType
+from ros2cli.node.direct import command_node
+from ros2cli.verb import VerbExtension
+import yaml
+
+from ros2param import params
+
+
+class DumpVerb(VerbExtension):
+    """Show all of the parameters of a node in a YAML file format."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        params.add_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        node_name = params.find_node(args)
+        with command_node(args) as node:
+            names = params.names_of(node, node_name)
+            values = params.get(node, node_name, names) if names else []
+        tree: dict[str, Any] = {}
+        for name, value in zip(names, values, strict=True):
+            if value.type != ParameterType.PARAMETER_NOT_SET:
+                insert(tree, name, params.to_python(value))
+        print(yaml.dump({node_name: {'ros__parameters': tree}}, default_flow_style=False))
+
+
+def insert(tree: dict[str, Any], name: str, value: Any) -> None:
+    """Put a value in nested dictionaries, one a part of the dotted name."""
+    first, _, rest = name.partition('.')
+    if rest and isinstance(tree.setdefault(first, {}), dict):
+        insert(tree[first], rest, value)
+    else:
+        # A parameter `a` next to `a.b` cannot be nested: the dotted name says the same.
+        tree[name] = value

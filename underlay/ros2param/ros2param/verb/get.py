@@ -1,0 +1,47 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+
+from rcl_interfaces.msg import ParameterType
+from ros2cli.errors import CommandError
+from ros2cli.node.direct import command_node
+from ros2cli.verb import VerbExtension
+
+from ros2param import params
+
+_LABELS = {
+    ParameterType.PARAMETER_BOOL: 'Boolean value is:',
+    ParameterType.PARAMETER_INTEGER: 'Integer value is:',
+    ParameterType.PARAMETER_DOUBLE: 'Double value is:',
+    ParameterType.PARAMETER_STRING: 'String value is:',
+    ParameterType.PARAMETER_BYTE_ARRAY: 'Byte values are:',
+    ParameterType.PARAMETER_BOOL_ARRAY: 'Boolean values are:',
+    ParameterType.PARAMETER_INTEGER_ARRAY: 'Integer values are:',
+    ParameterType.PARAMETER_DOUBLE_ARRAY: 'Double values are:',
+    ParameterType.PARAMETER_STRING_ARRAY: 'String values are:',
+}
+
+
+class GetVerb(VerbExtension):
+    """Get parameter."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        params.add_arguments(parser)
+        params.add_parameter(parser, 'parameter_name', help='Name of the parameter')
+        parser.add_argument('--hide-type', action='store_true', help='Hide the type information')
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        node_name = params.find_node(args)
+        with command_node(args) as node:
+            values = params.get(node, node_name, [args.parameter_name])
+        if not values:
+            raise CommandError('Parameter not set')
+        value = values[0]
+        if value.type == ParameterType.PARAMETER_NOT_SET:
+            print('Parameter not set.')
+            return
+        label = '' if args.hide_type else f'{_LABELS[value.type]} '
+        print(f'{label}{params.to_python(value)}')

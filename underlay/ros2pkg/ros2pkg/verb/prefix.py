@@ -1,0 +1,26 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+
+from ros2_diagnosis import packages
+from ros2cli import completion
+from ros2cli.verb import VerbExtension
+
+
+class PrefixVerb(VerbExtension):
+    """Output the prefix path of a package."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        completion.package(parser.add_argument('package_name', help='The package name'))
+        parser.add_argument(
+            '--share',
+            action='store_true',
+            help='Show share directory of the package, instead of the prefix path',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        share = packages.share_of(args.package_name)
+        print(share if args.share else packages.prefix_of(args.package_name))

@@ -1,0 +1,41 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from xml.etree import ElementTree
+
+from ros2_diagnosis import packages
+from ros2cli import completion
+from ros2cli.errors import CommandError
+from ros2cli.verb import VerbExtension
+
+
+class XmlVerb(VerbExtension):
+    """Output the XML of the package manifest or a specific tag."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        completion.package(parser.add_argument('package_name', help='The package name'))
+        parser.add_argument('-t', '--tag', help='The XML tag to output, e.g. version')
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        manifest = packages.share_of(args.package_name) / 'package.xml'
+        try:
+            text = manifest.read_text(encoding='utf-8')
+        except OSError as error:
+            raise CommandError(f"'{manifest}' cannot be read: {error.strerror}") from None
+        if args.tag is None:
+            print(text, end='')
+            return
+        try:
+            root = ElementTree.fromstring(text)
+        except ElementTree.ParseError as error:
+            raise CommandError(f"'{manifest}' is no XML: {error}") from None
+        found = [element.text or '' for element in root.iter(args.tag)]
+        if not found:
+            raise CommandError(
+                f"No tag '{args.tag}' found in the manifest of '{args.package_name}'"
+            )
+        for value in found:
+            print(value)

@@ -1,0 +1,22 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.command import CommandWithVerbs
+
+
+class ServiceCommand(CommandWithVerbs):
+    """Various service related sub-commands."""
+
+    VERB_GROUP = 'ros2service.verb'
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        parser.add_argument(
+            '--include-hidden-services',
+            action='store_true',
+            help='Consider hidden services as well',
+        )
+        super().add_arguments(parser, cli_name)

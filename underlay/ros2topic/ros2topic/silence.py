@@ -1,0 +1,61 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Why nothing arrives on a topic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import sys
+
+from ros2_diagnosis import connections, nodes
+from ros2_diagnosis.finding import Finding
+from ros2cli import discovery
+from ros2cli.node.direct import CommandNode
+from rtps_graph.graph import Graph, Role
+
+_SILENCE_SEC = 2.0
+
+
+def hint_when_silent(node: CommandNode, topic: str, arrived: Callable[[], bool]) -> None:
+    """Spin until something has arrived; print why not where that takes long."""
+    if not node.spin_until(arrived, _SILENCE_SEC):
+        for finding in why_silent(discovery.read_graph(quiet=True), topic):
+            print(f'hint: {finding}', file=sys.stderr)
+
+
+def hint_when_not_received(topic: str) -> None:
+    """Print why a subscription that exists does not get what this command publishes."""
+    graph = discovery.read_graph(quiet=True)
+    for finding in (
+        *connections.check_types(graph, topic),
+        *connections.check_qos(graph, topic),
+    ):
+        print(f'hint: {finding}', file=sys.stderr)
+
+
+def why_silent(graph: Graph, topic: str) -> list[Finding]:
+    """Explain why a subscription of the topic gets nothing."""
+    publishers = graph.with_role(Role.PUBLISHER, topic)
+    if not publishers:
+        return [
+            Finding(
+                topic,
+                'nobody publishes it',
+                'start the node that does; `ros2 topic list` shows what there is',
+            )
+        ]
+    found = [
+        *connections.check_types(graph, topic),
+        *connections.check_qos(graph, topic),
+        *nodes.check_clock(graph),
+    ]
+    if found:
+        return found
+    names = sorted({graph.node_of(endpoint).full_name for endpoint in publishers})
+    return [
+        Finding(
+            topic,
+            f'{", ".join(names)} has sent nothing for {_SILENCE_SEC:g} s',
+            'it may wait for something itself: look at its terminal, or run `ros2 doctor`',
+        )
+    ]

@@ -1,0 +1,78 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from collections import deque
+import time
+
+from rclpy.clock import Clock
+from rclpy.qos import qos_profile_sensor_data
+from ros2cli import completion, discovery
+from ros2cli.arguments import positive_int
+from ros2cli.node.direct import command_node
+from ros2cli.verb import VerbExtension
+
+from ros2topic import silence, topics
+
+_WINDOW = 100
+_UNITS = ((1e6, 'MB'), (1e3, 'KB'), (1.0, 'B'))
+
+
+class BwVerb(VerbExtension):
+    """Display bandwidth used by topic."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        discovery.add_arguments(parser)
+        completion.topic(
+            parser.add_argument(
+                'topic_name', help='Topic name to monitor for bandwidth utilization'
+            )
+        )
+        parser.add_argument(
+            '--window',
+            '-w',
+            type=positive_int,
+            default=_WINDOW,
+            metavar='WINDOW',
+            help='maximum window size, in # of messages, for calculating rate (default: '
+            '%(default)s)',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        topic = topics.find(args, args.topic_name, wait=True)
+        samples: deque[tuple[float, int]] = deque(maxlen=args.window)
+
+        def on_message(data: bytes) -> None:
+            samples.append((time.monotonic(), len(data)))
+
+        def report() -> None:
+            if len(samples) >= 2:
+                print(describe(list(samples), time.monotonic()))
+
+        with command_node(args) as node:
+            node.node.create_subscription(
+                topic.message_class, topic.name, on_message, qos_profile_sensor_data, raw=True
+            )
+            print(f'Subscribed to [{topic.name}]')
+            node.node.create_timer(1.0, report, clock=Clock())
+            silence.hint_when_silent(node, topic.name, lambda: bool(samples))
+            node.spin_until(lambda: False)
+
+
+def describe(samples: list[tuple[float, int]], now_sec: float) -> str:
+    """Describe what came, as pairs of arrival time and size in bytes."""
+    sizes = [size for _, size in samples]
+    rate = sum(sizes) / max(now_sec - samples[0][0], 1e-9)
+    scale, unit = next((s, u) for s, u in _UNITS if rate >= s or s == 1.0)
+    digits = 0 if unit == 'B' else 2
+
+    def shown(number: float) -> str:
+        return f'{number / scale:.{digits}f} {unit}'
+
+    return (
+        f'{shown(rate)}/s from {len(sizes)} messages\n'
+        f'\tMessage size mean: {shown(sum(sizes) / len(sizes))} '
+        f'min: {shown(min(sizes))} max: {shown(max(sizes))}'
+    )

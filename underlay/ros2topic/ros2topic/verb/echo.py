@@ -1,0 +1,139 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+import sys
+from typing import Any
+
+from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2cli import completion, discovery
+from ros2cli.arguments import nonnegative_float
+from ros2cli.errors import CommandError
+from ros2cli.node.direct import command_node
+from ros2cli.verb import VerbExtension
+
+from ros2topic import expression, printing, qos, silence, topics
+
+
+class EchoVerb(VerbExtension):
+    """Output messages from a topic."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        discovery.add_arguments(parser)
+        completion.topic(
+            parser.add_argument(
+                'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
+            )
+        )
+        completion.message_type(
+            parser.add_argument(
+                'message_type',
+                nargs='?',
+                help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
+            )
+        )
+        qos.add_arguments(parser, verb='subscribe')
+        printing.add_arguments(parser)
+        parser.add_argument(
+            '--field', help='Echo a selected field of a message. Use "." to select sub-fields'
+        )
+        parser.add_argument(
+            '--lost-messages', action='store_true', help='DEPRECATED: Does nothing'
+        )
+        parser.add_argument(
+            '--no-lost-messages', action='store_true', help="Don't report when a message is lost"
+        )
+        parser.add_argument(
+            '--raw', action='store_true', help='Echo the raw binary representation'
+        )
+        parser.add_argument(
+            '--filter',
+            dest='filter_expr',
+            metavar='FILTER',
+            help='Python expression to filter messages that are printed. Expression can use '
+            'Python builtins as well as m (the message).',
+        )
+        parser.add_argument(
+            '--once', action='store_true', help='Print the first message received and then exit.'
+        )
+        parser.add_argument(
+            '--timeout',
+            metavar='N',
+            type=nonnegative_float,
+            help='Set a timeout in seconds for waiting for a message',
+        )
+        parser.add_argument(
+            '--include-message-info',
+            '-i',
+            action='store_true',
+            help='Shows the associated message info.',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        keep = expression.message_filter(args.filter_expr)
+        topic = topics.find(args, args.topic_name, type_name=args.message_type)
+        shown = 0
+        arrived = False
+
+        def on_message(msg: Any, info: Any) -> None:
+            nonlocal shown, arrived
+            arrived = True
+            if (args.once and shown) or not (args.raw or keep(msg)):
+                return
+            if args.include_message_info:
+                print(info)
+            printing.show(_field(msg, args.field) if args.field and not args.raw else msg, args)
+            shown += 1
+
+        with command_node(args) as node:
+            node.node.create_subscription(
+                topic.message_class,
+                topic.name,
+                on_message,
+                qos.profile_for(args, topic.publishers),
+                event_callbacks=SubscriptionEventCallbacks(message_lost=_on_lost(args)),
+                raw=args.raw,
+            )
+            if args.timeout is None:
+                silence.hint_when_silent(node, topic.name, lambda: arrived)
+            if not node.spin_until(lambda: bool(args.once and shown), args.timeout) and not shown:
+                raise CommandError(
+                    f"No message on '{topic.name}' within {args.timeout:g} s; "
+                    f'`ros2 topic info -v {topic.name}` shows who publishes'
+                )
+
+
+def _on_lost(args: argparse.Namespace) -> Callable[[Any], None] | None:
+    if args.no_lost_messages:
+        return None
+
+    def report(status: Any) -> None:
+        print(
+            'A message was lost!!!\n\ttotal count change:'
+            f'{status.total_count_change}\n\ttotal count: {status.total_count}---',
+            file=sys.stderr,
+        )
+
+    return report
+
+
+def _field(msg: Any, path: str) -> Any:
+    value = msg
+    for name in path.split('.'):
+        try:
+            value = getattr(value, name)
+        except AttributeError:
+            raise CommandError(
+                f"Invalid field '{path}': {value.__class__.__name__} has no field "
+                f"'{name}'{_fields_of(value)}"
+            ) from None
+    return value
+
+
+def _fields_of(value: Any) -> str:
+    if not hasattr(value, 'get_fields_and_field_types'):
+        return ''
+    return f'; there is {", ".join(value.get_fields_and_field_types())}'

@@ -1,0 +1,170 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+import time
+from typing import Any
+
+from rclpy.event_handler import PublisherEventCallbacks
+from rclpy.publisher import Publisher
+from rclpy.qos import qos_policy_name_from_kind
+from ros2cli import completion, discovery, interfaces
+from ros2cli.arguments import nonnegative_float, nonnegative_int, positive_float, yaml_mapping
+from ros2cli.errors import UsageError
+from ros2cli.node.direct import command_node, CommandNode
+from ros2cli.verb import VerbExtension
+
+from ros2topic import qos, silence, topics
+
+
+class PubVerb(VerbExtension):
+    """Publish a message to a topic."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        completion.topic(
+            parser.add_argument(
+                'topic_name', help="Name of the ROS topic to publish to (e.g. '/chatter')"
+            )
+        )
+        completion.message_type(
+            parser.add_argument(
+                'message_type', help="Type of the ROS message (e.g. 'std_msgs/String')"
+            )
+        )
+        values = parser.add_argument(
+            'values',
+            nargs='?',
+            default='{}',
+            help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
+            'otherwise the message will be published with default values',
+        )
+        completion.values(values, 'message_type')
+        parser.add_argument(
+            '-r',
+            '--rate',
+            metavar='N',
+            type=positive_float,
+            default=1.0,
+            help='Publishing rate in Hz (default: 1)',
+        )
+        parser.add_argument(
+            '-p',
+            '--print',
+            metavar='N',
+            type=nonnegative_int,
+            default=1,
+            help='Only print every N-th published message (default: 1)',
+        )
+        group = parser.add_mutually_exclusive_group()
+        group.add_argument(
+            '-1', '--once', action='store_true', help='Publish one message and exit'
+        )
+        group.add_argument(
+            '-t',
+            '--times',
+            type=nonnegative_int,
+            default=0,
+            help='Publish this number of times and then exit',
+        )
+        parser.add_argument(
+            '-w',
+            '--wait-matching-subscriptions',
+            type=nonnegative_int,
+            help='Wait until finding the specified number of matching subscriptions. Defaults to '
+            '1 when using "-1"/"--once"/"--times", otherwise defaults to 0.',
+        )
+        parser.add_argument(
+            '--max-wait-time-secs',
+            type=positive_float,
+            help='This sets the maximum wait time in seconds if --wait-matching-subscriptions is '
+            'set. By default, this flag is not set meaning the subscriber will wait endlessly.',
+        )
+        parser.add_argument(
+            '--keep-alive',
+            metavar='N',
+            type=nonnegative_float,
+            default=0.1,
+            help='Keep publishing node alive for N seconds after the last msg (default: 0.1)',
+        )
+        parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
+        qos.add_arguments(parser, verb='publish')
+        discovery.add_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        times = 1 if args.once else args.times
+        wanted = args.wait_matching_subscriptions
+        if wanted is None:
+            wanted = 1 if times else 0
+        if args.max_wait_time_secs is not None and wanted == 0:
+            raise UsageError(
+                '--max-wait-time-secs is only allowed with --wait-matching-subscriptions'
+            )
+        message_class = interfaces.message(args.message_type)
+        msg = message_class()
+        stamps = interfaces.populate(
+            msg, yaml_mapping(args.values), expand_header_auto=True, expand_time_now=True
+        )
+        with command_node(args, name=args.node_name) as node:
+            publisher = node.node.create_publisher(
+                message_class,
+                topics.checked_name(args.topic_name),
+                qos.profile(args),
+                event_callbacks=PublisherEventCallbacks(incompatible_qos=_on_incompatible_qos),
+            )
+            silence.hint_when_not_received(publisher.topic_name)
+            if _wait_for_subscriptions(node, publisher, wanted, args.max_wait_time_secs):
+                _publish(node, publisher, msg, stamps, times, args)
+
+
+def _wait_for_subscriptions(
+    node: CommandNode, publisher: Publisher, wanted: int, timeout_sec: float | None
+) -> bool:
+    end = time.monotonic() + (timeout_sec or float('inf'))
+    while publisher.get_subscription_count() < wanted:
+        if time.monotonic() >= end:
+            print(
+                f'Timed out waiting for subscribers: Expected {wanted} subs but only got '
+                f'{publisher.get_subscription_count()} subs'
+            )
+            return False
+        print(f'Waiting for at least {wanted} matching subscription(s)...')
+        left = min(1.0, end - time.monotonic())
+        node.spin_until(lambda: publisher.get_subscription_count() >= wanted, left)
+    return True
+
+
+def _publish(
+    node: CommandNode,
+    publisher: Publisher,
+    msg: Any,
+    stamps: list[Callable[..., None]],
+    times: int,
+    args: argparse.Namespace,
+) -> None:
+    count = 0
+
+    def publish() -> None:
+        nonlocal count
+        if times and count >= times:
+            return
+        now = node.node.get_clock().now().to_msg()
+        for set_stamp in stamps:
+            set_stamp(now)
+        count += 1
+        if args.print and count % args.print == 0:
+            print(f'publishing #{count}: {msg!r}\n')
+        publisher.publish(msg)
+
+    print('publisher: beginning loop')
+    publish()
+    node.node.create_timer(1.0 / args.rate, publish)
+    node.spin_until(lambda: bool(times and count >= times))
+    node.spin_until(lambda: False, args.keep_alive)
+
+
+def _on_incompatible_qos(event: object) -> None:
+    name = qos_policy_name_from_kind(event.last_policy_kind)  # type: ignore[attr-defined]
+    print(f'Incompatible QoS Policy detected: {name}')

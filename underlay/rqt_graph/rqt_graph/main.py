@@ -1,0 +1,127 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Show which nodes talk to which over which topics."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+import signal
+import sys
+import threading
+import webbrowser
+
+from ros2cli.discovery import read_graph
+from ros2cli.errors import CommandError
+
+from rqt_graph.picture import draw_png, draw_svg
+from rqt_graph.selection import select, View
+
+PICTURES = {'.svg': draw_svg, '.png': draw_png}
+
+
+def parse_arguments(argv: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog='rqt_graph',
+        description=f'{__doc__} Without --output it is shown live in the browser, on this '
+        'computer only.',
+    )
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=_output_file,
+        metavar='FILE',
+        help='write the picture to this .svg or .png file and end',
+    )
+    parser.add_argument(
+        '--view',
+        choices=[view.value for view in View],
+        default=View.ACTIVE.value,
+        help='active: topics with a publisher and a subscriber; all: every topic (%(default)s)',
+    )
+    parser.add_argument(
+        '--debug', action='store_true', help='show /rosout, /parameter_events, /clock and so on'
+    )
+    parser.add_argument('--port', type=_port, help='port of the page; default: a free one')
+    for ignored in ('--force-discover', '--clear-config', '--standalone', '-t'):
+        parser.add_argument(ignored, action='store_true', help=argparse.SUPPRESS)
+    return parser.parse_args(_without_ros_arguments(argv))
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Write the picture, or show it until Ctrl-C."""
+    args = parse_arguments(sys.argv[1:] if argv is None else argv)
+    try:
+        if args.output is not None:
+            return _write(args)
+        return _show(args)
+    except KeyboardInterrupt:
+        return 0  # Ctrl-C is how the page ends
+    except CommandError as error:
+        print(f'rqt_graph: {error}', file=sys.stderr)
+        return error.exit_status
+    except OSError as error:
+        print(f'rqt_graph: {error.strerror}: {error.filename or "the port"}', file=sys.stderr)
+        return 2
+
+
+def _write(args: argparse.Namespace) -> int:
+    drawing = select(read_graph(), View(args.view), debug=args.debug)
+    draw = PICTURES[args.output.suffix.lower()]
+    args.output.write_bytes(draw(drawing))
+    print(f'wrote {args.output}')
+    return 0
+
+
+def _show(args: argparse.Namespace) -> int:
+    from rqt_graph.server import serve_somewhere
+
+    try:
+        server = serve_somewhere(args.port)
+    except OSError:
+        raise CommandError(
+            f'--port {args.port} is taken: leave it out to get a free one'
+        ) from None
+    # Whatever ends it ends it as Ctrl-C does.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    suffix = ''.join((f'?view={args.view}', '&debug=shown' if args.debug else ''))
+    address = server.address + (suffix if suffix != '?view=active' else '')
+    print(f'rqt_graph: the live graph is at {address} (Ctrl-C ends it)', flush=True)
+    if os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'):
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    with server:
+        server.serve_forever(poll_interval=0.2)
+    return 0
+
+
+def _output_file(text: str) -> Path:
+    path = Path(text)
+    if path.suffix.lower() not in PICTURES:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is refused: the name must end in .svg or .png, for example graph.svg"
+        )
+    if not path.parent.is_dir():
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is refused: there is no folder '{path.parent}'; make it first"
+        )
+    return path
+
+
+def _port(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= 65535:
+        raise argparse.ArgumentTypeError(f"'{text}' is refused: a port is from 1 to 65535")
+    return int(text)
+
+
+def _without_ros_arguments(argv: list[str]) -> list[str]:
+    """Drop what is for a node: there is none here that could be renamed."""
+    if '--ros-args' not in argv:
+        return argv
+    start = argv.index('--ros-args')
+    rest = argv[start:]
+    return argv[:start] + (rest[rest.index('--') + 1 :] if '--' in rest else [])
+
+
+if __name__ == '__main__':
+    sys.exit(main())

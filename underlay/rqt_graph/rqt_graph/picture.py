@@ -1,0 +1,114 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Draw by Graphviz's `dot`, as rqt_graph does; pygraphviz's wheel contains it.
+
+In the SVG the group of a shape has the shape's key as id, that of an arrow 'START>END'; a note is
+the title of the link inside the group.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+import functools
+import os
+from typing import Any
+
+import pygraphviz  # type: ignore[import-untyped]
+
+from rqt_graph.selection import Drawing, Kind, Shape
+
+EMPTY = 'No nodes are running in this domain.'
+_PIXELS_PER_INCH = 144
+_INK, _SOFT = '#16202c', '#5b6878'
+_FAULTY = {'fillcolor': '#fde2e0', 'color': '#b3261e'}
+_LOOKS = {
+    Kind.NODE: {'shape': 'ellipse', 'style': 'filled', 'fillcolor': '#dbe9fb', 'color': '#2563ae'},
+    Kind.TOPIC: {
+        'shape': 'box',
+        'style': 'filled,rounded',
+        'fillcolor': '#fdf1d3',
+        'color': '#a87411',
+    },
+}
+
+
+def draw_svg(drawing: Drawing) -> bytes:
+    """Return an SVG document, which may also be put into a page."""
+    return _draw(_graph(drawing), 'svg')
+
+
+def draw_png(drawing: Drawing) -> bytes:
+    """Return a PNG file, two pixels a point."""
+    graph = _graph(drawing)
+    graph.graph_attr['dpi'] = str(_PIXELS_PER_INCH)
+    return _draw(graph, 'png')
+
+
+@functools.cache
+def _load_fonts() -> None:
+    """Let fontconfig read its files with stderr closed.
+
+    The wheel's fontconfig is older than the files of many systems, and warns of each element in
+    them that it does not know.
+    """
+    stderr, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    try:
+        pygraphviz.AGraph('graph { a }').draw(format='svg', prog='dot')
+    finally:
+        os.dup2(stderr, 2)
+        os.close(stderr)
+        os.close(nowhere)
+
+
+def _draw(graph: Any, picture_format: str) -> bytes:
+    _load_fonts()
+    picture: bytes = graph.draw(format=picture_format, prog='dot')
+    return picture
+
+
+def _graph(drawing: Drawing) -> Any:
+    """Put the graph together, from left to right; the same drawing always in the same way."""
+    graph = pygraphviz.AGraph(
+        directed=True,
+        rankdir='LR',
+        nodesep='0.35',
+        ranksep='0.65',
+        outputorder='nodesfirst',
+        bgcolor='white',
+        pad='0.25',
+    )
+    font = {'fontname': 'DejaVu Sans,Verdana,Noto Sans,sans-serif', 'fontsize': '14'}
+    graph.node_attr.update(**font, fontcolor=_INK, penwidth='1.5', height='0.53', width='1.1')
+    graph.edge_attr.update(color=_SOFT, penwidth='1.5', arrowsize='0.9')
+    if not drawing.shapes:
+        graph.add_node('empty', label=EMPTY, shape='plaintext', fontcolor=_SOFT)
+    for shape in drawing.shapes:
+        graph.add_node(shape.key, **_attributes(shape))
+    for arrow in drawing.arrows:
+        note = ' to '.join(key.partition(':')[2] for key in (arrow.start, arrow.end))
+        graph.add_edge(arrow.start, arrow.end, id=f'{arrow.start}>{arrow.end}', tooltip=note)
+    counts = Counter(shape.namespace for shape in drawing.shapes)
+    for number, namespace in enumerate(sorted(n for n in counts if n and counts[n] > 1)):
+        graph.add_subgraph(
+            [shape.key for shape in drawing.shapes if shape.namespace == namespace],
+            f'cluster_{number}',
+            tooltip=f'namespace {namespace}',
+            margin='14',
+            style='filled,rounded,dashed',
+            fillcolor='#f6f8fa',
+            color='#c3ccd6',
+        )
+    return graph
+
+
+def _attributes(shape: Shape) -> dict[str, str]:
+    look = _LOOKS[shape.kind] | (_FAULTY if shape.faulty else {})
+    names = ['topic'] * (shape.kind is Kind.TOPIC) + ['faulty'] * shape.faulty
+    return {
+        **look,
+        'label': shape.name,
+        'id': shape.key,
+        'class': ' '.join(names),  # behind 'node', as Graphviz calls every shape
+        'tooltip': shape.note,
+    }

@@ -1,0 +1,228 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The graph of a domain: its nodes, and the topics, services and actions that they have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+import enum
+import struct
+
+from rtps_graph import names, wire
+from rtps_graph.participant import Participant
+
+NODE_NAME_UNKNOWN = '_NODE_NAME_UNKNOWN_'
+NODE_NAMESPACE_UNKNOWN = '_NODE_NAMESPACE_UNKNOWN_'
+_FEEDBACK = '/_action/feedback'
+_INFINITE_SEC = 0x7FFFFFFF
+
+
+class Role(enum.Enum):
+    PUBLISHER = 'PUBLISHER'
+    SUBSCRIPTION = 'SUBSCRIPTION'
+    SERVER = 'SERVER'
+    CLIENT = 'CLIENT'
+
+
+@dataclass(frozen=True)
+class Qos:
+    """What discovery tells of an endpoint's quality of service; None stands for infinite."""
+
+    reliable: bool
+    transient_local: bool
+    deadline_ns: int | None
+    lifespan_ns: int | None
+    manual_liveliness: bool
+    liveliness_lease_ns: int | None
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A publisher, a subscription, or a half of a service server or client."""
+
+    guid: bytes
+    role: Role
+    name: str  # of the topic or service
+    type: str
+    type_hash: str
+    qos: Qos
+
+
+@dataclass
+class Node:
+    name: str
+    namespace: str
+    endpoints: list[Endpoint] = field(default_factory=list)
+
+    @property
+    def full_name(self) -> str:
+        return names.full_node_name(self.namespace, self.name)
+
+    @property
+    def is_hidden(self) -> bool:
+        return names.is_hidden(self.full_name)
+
+    def having(self, role: Role) -> dict[str, list[str]]:
+        """Map the names of its topics or services of this role to their types."""
+        return types_by_name(e for e in self.endpoints if e.role is role)
+
+    def action_servers(self) -> dict[str, list[str]]:
+        return _actions(self.having(Role.PUBLISHER))
+
+    def action_clients(self) -> dict[str, list[str]]:
+        return _actions(self.having(Role.SUBSCRIPTION))
+
+
+@dataclass
+class Graph:
+    """Everything that was announced in a domain at one moment."""
+
+    nodes: list[Node]
+    endpoints: list[Endpoint]
+    silent_ports: tuple[int, ...] = ()
+
+    def topics(self) -> dict[str, list[str]]:
+        return types_by_name(
+            e for e in self.endpoints if e.role in (Role.PUBLISHER, Role.SUBSCRIPTION)
+        )
+
+    def services(self) -> dict[str, list[str]]:
+        return types_by_name(e for e in self.endpoints if e.role in (Role.SERVER, Role.CLIENT))
+
+    def actions(self) -> dict[str, list[str]]:
+        return _actions(self.topics())
+
+    def with_role(self, role: Role, name: str) -> list[Endpoint]:
+        return [e for e in self.endpoints if e.role is role and e.name == name]
+
+    def node_of(self, endpoint: Endpoint) -> Node:
+        for node in self.nodes:
+            if any(e.guid == endpoint.guid for e in node.endpoints):
+                return node
+        return Node(NODE_NAME_UNKNOWN, NODE_NAMESPACE_UNKNOWN)
+
+
+def types_by_name(endpoints: Iterable[Endpoint]) -> dict[str, list[str]]:
+    found: dict[str, set[str]] = {}
+    for endpoint in endpoints:
+        found.setdefault(endpoint.name, set()).add(endpoint.type)
+    return {name: sorted(found[name]) for name in sorted(found)}
+
+
+def _actions(topics: dict[str, list[str]]) -> dict[str, list[str]]:
+    return {
+        name.removesuffix(_FEEDBACK): [t.removesuffix('_FeedbackMessage') for t in types]
+        for name, types in topics.items()
+        if name.endswith(_FEEDBACK)
+    }
+
+
+def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ()) -> Graph:
+    """Put the graph together from what the participants announced."""
+    graph = Graph([], [], tuple(sorted(silent_ports)))
+    for participant in participants:
+        endpoints: dict[bytes, Endpoint] = {}
+        for found, written in ((participant.writers, True), (participant.readers, False)):
+            for guid, values in found.items():
+                endpoint = _endpoint(guid, values, written)
+                if endpoint is not None:
+                    endpoints[guid] = endpoint
+        graph.endpoints.extend(e for e in endpoints.values() if e.name != '')
+        for namespace, name, guids in _nodes(participant.graph_sample):
+            known = [endpoints[guid] for guid in guids if guid in endpoints]
+            graph.nodes.append(Node(name, namespace, known))
+    graph.nodes.sort(key=lambda node: node.full_name)
+    graph.endpoints.sort(key=lambda endpoint: endpoint.guid)
+    return graph
+
+
+def _endpoint(guid: bytes, values: dict[int, list[bytes]], written: bool) -> Endpoint | None:
+    prefix, name = names.ros_topic(_string(values, wire.PID_TOPIC_NAME))
+    dds_type = _string(values, wire.PID_TYPE_NAME)
+    if prefix == names.TOPIC:
+        role = Role.PUBLISHER if written else Role.SUBSCRIPTION
+    elif prefix in (names.REQUEST, names.REPLY):
+        # A service is shown once: by the half that carries the requests.
+        if prefix == names.REPLY:
+            return None
+        role = Role.CLIENT if written else Role.SERVER
+    else:
+        return None
+    is_topic = prefix == names.TOPIC
+    type_name = names.ros_type(dds_type) if is_topic else names.service_type(dds_type)
+    return Endpoint(guid, role, name, type_name, _type_hash(values), _qos(values, written))
+
+
+def _string(values: dict[int, list[bytes]], pid: int) -> str:
+    for value in values.get(pid, ()):
+        (length,) = struct.unpack_from('<I', value)
+        return value[4 : 4 + length].rstrip(b'\0').decode(errors='replace')
+    return ''
+
+
+def _type_hash(values: dict[int, list[bytes]]) -> str:
+    for item in _user_data(values).split(';'):
+        if item.startswith('typehash='):
+            return item.removeprefix('typehash=')
+    return 'INVALID'
+
+
+def _user_data(values: dict[int, list[bytes]]) -> str:
+    for value in values.get(wire.PID_USER_DATA, ()):
+        return value[4:].rstrip(b'\0').decode(errors='replace')
+    return ''
+
+
+def _qos(values: dict[int, list[bytes]], written: bool) -> Qos:
+    def number(pid: int, default: int) -> int:
+        for value in values.get(pid, ()):
+            return int(struct.unpack_from('<I', value)[0])
+        return default
+
+    def duration_ns(pid: int, at: int = 0) -> int | None:
+        for value in values.get(pid, ()):
+            sec, fraction = struct.unpack_from('<iI', value, at)
+            return None if sec == _INFINITE_SEC else sec * 10**9 + (fraction * 10**9 >> 32)
+        return None
+
+    return Qos(
+        # Where it is not told, a writer is reliable and a reader is not (DDS 1.4, 2.2.3.14).
+        reliable=number(wire.PID_RELIABILITY, 2 if written else 1) == 2,
+        transient_local=number(wire.PID_DURABILITY, 0) >= 1,
+        deadline_ns=duration_ns(wire.PID_DEADLINE),
+        lifespan_ns=duration_ns(wire.PID_LIFESPAN),
+        manual_liveliness=number(wire.PID_LIVELINESS, 0) == 2,
+        liveliness_lease_ns=duration_ns(wire.PID_LIVELINESS, 4),
+    )
+
+
+def _nodes(sample: bytes | None) -> list[tuple[str, str, list[bytes]]]:
+    """Read rmw_dds_common/msg/ParticipantEntitiesInfo: namespace, name and GUIDs of each node."""
+    if sample is None:
+        return []
+    body, at = sample[4:], 16  # behind the encapsulation header: the participant's own GID
+    order = '<' if sample[1] & 1 else '>'
+
+    def count() -> int:
+        nonlocal at
+        at += -at % 4
+        at += 4
+        return int(struct.unpack_from(order + 'I', body, at - 4)[0])
+
+    def text() -> str:
+        nonlocal at
+        length = count()
+        at += length
+        return body[at - length : at].rstrip(b'\0').decode(errors='replace')
+
+    found = []
+    for _ in range(count()):
+        namespace, name = text(), text()
+        guids: list[bytes] = []
+        for _ in ('readers', 'writers'):
+            length = count()
+            guids.extend(body[at + 16 * i : at + 16 * i + 16] for i in range(length))
+            at += 16 * length
+        found.append((namespace, name, guids))
+    return found

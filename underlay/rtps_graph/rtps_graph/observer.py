@@ -1,0 +1,241 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read the discovery data of a ROS domain, completely and at once.
+
+A participant of Fast DDS needs 0.2 s to 3 s to know the others: it announces itself before it
+listens, so that answers are lost and come again only with the next periodic announcement. The
+observer here listens first, knows from the kernel how many participants there are, and asks
+again after milliseconds. It joins the domain as a participant that has one reader, the one of
+`ros_discovery_info`, in which every ROS process tells the nodes that it holds.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import socket
+import struct
+import time
+
+from rtps_graph import announcements, host, wire
+from rtps_graph.participant import Participant, Samples
+
+_RETRY_SEC = 0.03
+
+
+class Observer:
+    """One reading of a domain; close it, or use it as a context manager.
+
+    :param subnet: ask other hosts too, by multicast; they cannot be counted, so that a reading
+        then also waits for a while without news.
+    """
+
+    def __init__(
+        self, *, domain_id: int, subnet: bool = False, static_peers: tuple[str, ...] = ()
+    ) -> None:
+        self.domain_id = domain_id
+        self.participants: dict[bytes, Participant] = {}
+        self.unanswered: set[int] = set()  # ports of this host's participants that kept silent
+        self._subnet = subnet
+        self._static_peers = static_peers
+        self._prefix = bytes((0, 0)) + os.urandom(10)
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
+        self._socket.bind(('0.0.0.0' if subnet or static_peers else '127.0.0.1', 0))
+        self._news_sec = 0.0
+
+    def __enter__(self) -> Observer:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        if self._socket.fileno() < 0:
+            return
+        removal = announcements.removal(self._prefix)
+        for participant in self.participants.values():
+            self._send(removal, participant.address, participant.discovery_port)
+        self._socket.close()
+
+    def observe(self, *, timeout_sec: float, settle_sec: float = 0.3) -> bool:
+        """Read until everything is known; False where `timeout_sec` passed before that.
+
+        :param settle_sec: how long nothing new may come before other hosts count as complete.
+        """
+        start = self._news_sec = time.monotonic()
+        retry = 0.0
+        while (now := time.monotonic()) < start + timeout_sec:
+            if now >= retry:
+                expected = host.participant_ports(self.domain_id)
+                self._ask_again(expected)
+                retry = now + _RETRY_SEC
+            counted = expected is not None and not self._subnet and not self._static_peers
+            if self._is_complete(expected) and (counted or now - self._news_sec >= settle_sec):
+                return True
+            self._receive(retry - time.monotonic())
+        return False
+
+    def _is_complete(self, expected: set[int] | None) -> bool:
+        answered = {p.discovery_port for p in self.participants.values()}
+        self.unanswered = (expected or set()) - answered
+        return not self.unanswered and all(p.complete for p in self.participants.values())
+
+    # Asking
+
+    def _ask_again(self, expected: set[int] | None) -> None:
+        announcement = announcements.participant(
+            self._prefix, self._addresses(), self._socket.getsockname()[1]
+        )
+        answered = {p.discovery_port for p in self.participants.values()}
+        ports = host.discovery_ports(self.domain_id) if expected is None else expected
+        for port in set(ports) - answered:
+            self._send(announcement, '127.0.0.1', port)
+        for peer in self._static_peers:
+            for port in host.discovery_ports(self.domain_id)[:32]:
+                self._send(announcement, peer, port)
+        if self._subnet:
+            port = host.multicast_port(self.domain_id)
+            self._send(announcement, host.MULTICAST_ADDRESS, port)
+        for participant in self.participants.values():
+            if not participant.complete:
+                self._ask_participant(participant)
+
+    def _ask_participant(self, participant: Participant) -> None:
+        self._acknowledge(participant, wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER)
+        self._acknowledge(participant, wire.SUBSCRIPTIONS_READER, wire.SUBSCRIPTIONS_WRITER)
+        if not participant.knows_observer:
+            self._offer_graph_reader(participant)
+        writer = participant.graph_writer()
+        if writer is not None and participant.graph_sample is None:
+            self._acknowledge(participant, announcements.GRAPH_READER, writer[12:])
+
+    def _acknowledge(self, participant: Participant, reader: bytes, writer: bytes) -> None:
+        samples = self._samples(participant, writer)
+        missing = samples.missing if samples.last is not None else {1}
+        base = min(missing) if missing else (samples.last or 0) + 1
+        samples.acknowledgements += 1
+        message = wire.header(self._prefix) + wire.info_destination(participant.prefix)
+        message += wire.acknack(
+            reader, writer, base=base, missing=missing, count=samples.acknowledgements
+        )
+        graph = samples is participant.graph
+        port = participant.data_port if graph else participant.discovery_port
+        self._send(message, participant.address, port)
+
+    def _addresses(self) -> list[str]:
+        addresses = ['127.0.0.1']
+        if self._subnet or self._static_peers:
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+                try:
+                    # Sends nothing: asks the kernel which interface it would take.
+                    probe.connect((host.MULTICAST_ADDRESS, 9))
+                    addresses.insert(0, probe.getsockname()[0])
+                except OSError:
+                    pass
+        return addresses
+
+    def _offer_graph_reader(self, participant: Participant) -> None:
+        participant.graph.acknowledgements += 1
+        message = announcements.graph_reader(
+            self._prefix, participant.prefix, participant.graph.acknowledgements
+        )
+        self._send(message, participant.address, participant.discovery_port)
+
+    def _send(self, message: bytes, address: str, port: int) -> None:
+        # Asked again in a moment; and a host that cannot be reached has no nodes to show.
+        with contextlib.suppress(OSError):
+            self._socket.sendto(message, (address, port))
+
+    # Reading
+
+    def _receive(self, timeout_sec: float) -> None:
+        self._socket.settimeout(max(timeout_sec, 0.001))
+        try:
+            datagram, (address, _) = self._socket.recvfrom(65536)
+        except OSError:
+            return
+        for message in wire.parse(datagram, own_prefix=self._prefix):
+            try:
+                self._on_submessage(message, address)
+            except (ValueError, struct.error):
+                continue  # A sample of something that is not ROS; the rest still counts.
+
+    def _on_submessage(self, message: wire.Submessage, address: str) -> None:
+        if message.kind == wire.DATA and message.writer_id == wire.SPDP_WRITER:
+            self._on_participant(message, address)
+            return
+        participant = self.participants.get(message.source)
+        if participant is None:
+            return
+        if message.kind == wire.ACKNACK:
+            if message.writer_id == wire.SUBSCRIPTIONS_WRITER and message.first > 1:
+                participant.knows_observer = True
+            return
+        samples = self._samples(participant, message.writer_id)
+        if message.kind == wire.HEARTBEAT:
+            samples.first, samples.last = message.first, message.last
+            if message.reader_id != wire.UNKNOWN_ENTITY or samples is not participant.graph:
+                self._answer_heartbeat(participant, message)
+        elif message.kind == wire.GAP:
+            samples.received.update(range(message.first, message.last), message.irrelevant)
+        elif message.kind == wire.DATA and message.first not in samples.received:
+            samples.received.add(message.first)
+            self._news_sec = time.monotonic()
+            self._on_sample(participant, message)
+
+    def _answer_heartbeat(self, participant: Participant, message: wire.Submessage) -> None:
+        readers = {
+            wire.PUBLICATIONS_WRITER: wire.PUBLICATIONS_READER,
+            wire.SUBSCRIPTIONS_WRITER: wire.SUBSCRIPTIONS_READER,
+        }
+        graph = participant.graph_writer()
+        if graph is not None:
+            readers[graph[12:]] = announcements.GRAPH_READER
+        if message.writer_id in readers:
+            self._acknowledge(participant, readers[message.writer_id], message.writer_id)
+
+    def _on_participant(self, message: wire.Submessage, address: str) -> None:
+        if message.disposed:
+            self.participants.pop(message.source, None)
+            return
+        if message.source in self.participants or message.source == self._prefix:
+            return
+        values = wire.parameters(message.payload)
+        discovery = _udp_port(values.get(wire.PID_METATRAFFIC_UNICAST_LOCATOR, []))
+        data = _udp_port(values.get(wire.PID_DEFAULT_UNICAST_LOCATOR, []))
+        if discovery is None or data is None:
+            return
+        participant = Participant(message.source, address, discovery, data)
+        self.participants[message.source] = participant
+        self._news_sec = time.monotonic()
+        self._ask_participant(participant)
+
+    def _on_sample(self, participant: Participant, message: wire.Submessage) -> None:
+        if message.writer_id in (wire.PUBLICATIONS_WRITER, wire.SUBSCRIPTIONS_WRITER):
+            published = message.writer_id == wire.PUBLICATIONS_WRITER
+            endpoints = participant.writers if published else participant.readers
+            values = wire.parameters(message.payload)
+            (guid, *_) = (
+                values.get(wire.PID_ENDPOINT_GUID) or values.get(wire.PID_KEY_HASH) or [b'']
+            )
+            if message.disposed:
+                endpoints.pop(guid, None)
+            elif guid:
+                endpoints[guid] = values
+        elif message.payload and not message.disposed:
+            participant.graph_sample = message.payload
+
+    def _samples(self, participant: Participant, writer_id: bytes) -> Samples:
+        if writer_id == wire.PUBLICATIONS_WRITER:
+            return participant.publications
+        if writer_id == wire.SUBSCRIPTIONS_WRITER:
+            return participant.subscriptions
+        return participant.graph
+
+
+def _udp_port(locators: list[bytes]) -> int | None:
+    for locator in locators:
+        if len(locator) >= 24 and struct.unpack_from('<i', locator)[0] == wire.LOCATOR_UDP_V4:
+            return int(struct.unpack_from('<I', locator, 4)[0])
+    return None

@@ -1,3 +1,0 @@
-# Copyright 2026 The Husky Playpen Lab authors
-# SPDX-License-Identifier: Apache-2.0
-"""Various action related sub-commands."""
