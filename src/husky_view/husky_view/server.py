@@ -4,6 +4,7 @@
 
 from collections.abc import Callable
 from contextlib import redirect_stdout
+import errno
 import io
 from queue import Empty, SimpleQueue
 import socket
@@ -39,10 +40,8 @@ def free_port(host: str, port: int) -> int:
             trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 trial.bind((host, candidate))
-            except PermissionError:
-                continue
             except OSError as error:
-                if error.errno in (98, 48):  # EADDRINUSE of Linux, of BSD
+                if error.errno in (errno.EADDRINUSE, errno.EACCES, errno.EPERM):
                     continue
                 raise AddressError(f'viewer_host={host!r}: {error.strerror}') from error
             return candidate

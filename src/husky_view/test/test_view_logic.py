@@ -191,15 +191,15 @@ def test_undo_reverts_one_change_and_a_drag_as_a_whole() -> None:
     edited = EditableCourse()
     edited.add(0.0, 0.0)
     edited.add(1.0, 0.0)
-    before = edited.state
+    before = edited.course
     edited.begin_move(1)
     for x in (1.2, 1.4, 1.6):
         edited.move(1, x, 0.0)
-    assert edited.state.points[1].x == 1.6
+    assert edited.course.waypoints[1].x_m == 1.6
     edited.undo()
-    assert edited.state == before
+    assert edited.course == before
     edited.undo()
-    assert len(edited.state.points) == 1
+    assert len(edited.course.waypoints) == 1
     assert edited.nearest(0.2, 0.1) == 0
     assert edited.nearest(0.5, 0.0) is None
 
@@ -211,11 +211,11 @@ def test_a_saved_course_is_what_the_driver_reads(tmp_path: Path) -> None:
     for x, y in ((0.0, 0.0), (1.234, -0.004), (2.5, 1.0)):
         edited.add(x, y)
     edited.set(speed_m_s=0.7, loop=True)
-    file = course.save(edited.state, tmp_path, 'mine')
+    file = course.save(edited.course, tmp_path, 'mine')
     read = load_course(file)
     assert [(p.x_m, p.y_m) for p in read.waypoints] == [(0.0, 0.0), (1.23, 0.0), (2.5, 1.0)]
     assert (read.speed_m_s, read.loop) == (0.7, True)
-    assert course.load(file) == edited.state
+    assert course.load(file) == edited.course
 
 
 def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> None:
@@ -226,8 +226,8 @@ def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> N
     )
     edited = EditableCourse()
     edited.load(course.load(file))
-    assert course.load(course.save(edited.state, tmp_path, 'again')) == edited.state
-    assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in edited.state.text()
+    assert course.load(course.save(edited.course, tmp_path, 'again')) == edited.course
+    assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in course.text_of(edited.course)
 
 
 @pytest.mark.parametrize('name', ['', '../evil', 'a/b', '.hidden', 'x' * 70, 'ä'])
@@ -236,7 +236,7 @@ def test_a_name_outside_of_the_folder_is_not_saved(tmp_path: Path, name: str) ->
     edited.add(0.0, 0.0)
     edited.add(1.0, 0.0)
     with pytest.raises(course.CourseRefused, match='letters, digits'):
-        course.save(edited.state, tmp_path, name)
+        course.save(edited.course, tmp_path, name)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -245,7 +245,7 @@ def test_the_preview_has_no_clearance_inside_the_barrier() -> None:
     edited = EditableCourse()
     edited.add(0.0, 0.0)
     edited.add(5.0, 0.0)
-    found = course.preview(edited.state, RobotStart(), simulation.world.obstacles)
+    found = course.preview(edited.course, RobotStart(), simulation.world.obstacles)
     assert found.clearance_m[0] > 0.5
     assert found.clearance_m.min() == 0.0
     assert json.dumps(found.line[-1].tolist()) == '[5.0, 0.0]'

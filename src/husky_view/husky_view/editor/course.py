@@ -13,17 +13,15 @@ from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
 import re
+from typing import Any
 
 from husky_course.outline import clearances, Outline
 from husky_course.robot import RobotStart
 from husky_course.route import Leg, plan_route
 from husky_course.waypoints import Course, parse_course, Waypoint
 import numpy as np
-import numpy.typing as npt
 
-from husky_view.picture.geometry import to_world
-
-Array = npt.NDArray[np.float64]
+from husky_view.picture.geometry import Array, to_world
 
 UNDO_STEPS = 100
 NEAR_M = 0.3
@@ -31,112 +29,71 @@ NEAR_M = 0.3
 
 NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9_-]{0,60}')
 EVERY = 5  # of the driver's samples, 2 cm apart
+_EMPTY = Course(name='', waypoints=())
 
 
 class CourseRefused(Exception):
     """An edited course that is invalid, or a file that cannot be read or written."""
 
 
-@dataclass(frozen=True)
-class Point:
-    """
-    A waypoint in the frame odom; x and y in whole centimetres, as they are written.
-
-    :param more: other fields of the file, as name and text: kept as they are.
-    """
-
-    x: float
-    y: float
-    more: tuple[tuple[str, str], ...] = ()
-
-    def __str__(self) -> str:
-        if not self.more:
-            return f'[{self.x:.2f}, {self.y:.2f}]'
-        more = ''.join(f', {name}: {text}' for name, text in self.more)
-        return f'{{x: {self.x:.2f}, y: {self.y:.2f}{more}}}'
-
-
-@dataclass(frozen=True)
-class CourseState:
-    """An edited course at one moment."""
-
-    points: tuple[Point, ...] = ()
-    speed_m_s: float = 0.5
-    tolerance_m: float = 0.25
-    loop: bool = False
-    corners: str = 'smooth'
-
-    def text(self) -> str:
-        """Return the waypoint file."""
-        corners = '' if self.corners == 'smooth' else f'corners: {self.corners}\n'
-        return (
-            '# Made with the editor of the view.\n'
-            'frame: odom         # metres, x forward and y left of where the Husky starts\n'
-            f'speed: {self.speed_m_s:<12g} # m/s along the path, up to 1.0\n'
-            f'tolerance: {self.tolerance_m:<8g} # m, how near counts as reached\n'
-            f'loop: {"true " if self.loop else "false"}         '
-            '# true: come back to the first waypoint\n'
-            f'{corners}waypoints:\n' + ''.join(f'  - {point}\n' for point in self.points)
-        )
-
-
 @dataclass
 class EditableCourse:
     """A course with a selected waypoint, whose changes can be undone."""
 
-    state: CourseState = field(default_factory=CourseState)
+    course: Course = _EMPTY
     selected: int | None = None
-    _past: list[CourseState] = field(default_factory=list)
+    _past: list[Course] = field(default_factory=list)
 
-    def _change(self, state: CourseState, *, select: int | None) -> None:
-        self._past = [*self._past[1 - UNDO_STEPS :], self.state]
-        self.state = state
+    def _change(self, *, select: int | None = None, **changes: Any) -> None:
+        self._past = [*self._past[1 - UNDO_STEPS :], self.course]
+        self.course = replace(self.course, **changes)
         self.selected = select
 
     def add(self, x: float, y: float) -> None:
         """Append a waypoint and select it."""
-        points = (*self.state.points, Point(_rounded(x), _rounded(y)))
-        self._change(replace(self.state, points=points), select=len(points) - 1)
+        waypoints = self.course.waypoints
+        added = Waypoint(_rounded(x), _rounded(y))
+        self._change(waypoints=(*waypoints, added), select=len(waypoints))
 
     def begin_move(self, number: int) -> None:
         """Begin a drag, which is undone as a whole."""
-        self._change(self.state, select=number)
+        self._change(select=number)
 
     def move(self, number: int, x: float, y: float) -> None:
         """Move a waypoint."""
-        points = list(self.state.points)
-        points[number] = replace(points[number], x=_rounded(x), y=_rounded(y))
-        self.state = replace(self.state, points=tuple(points))
+        waypoints = list(self.course.waypoints)
+        waypoints[number] = replace(waypoints[number], x_m=_rounded(x), y_m=_rounded(y))
+        self.course = replace(self.course, waypoints=tuple(waypoints))
 
     def delete_selected(self) -> None:
         """Remove the selected waypoint, or else the last one."""
-        points = list(self.state.points)
-        if points:
-            del points[self.selected if self.selected is not None else -1]
-            self._change(replace(self.state, points=tuple(points)), select=None)
+        waypoints = list(self.course.waypoints)
+        if waypoints:
+            del waypoints[self.selected if self.selected is not None else -1]
+            self._change(waypoints=tuple(waypoints))
 
     def clear(self) -> None:
         """Remove all waypoints."""
-        self._change(replace(self.state, points=()), select=None)
+        self._change(waypoints=())
 
     def set(self, *, speed_m_s: float, loop: bool) -> None:
         """Change what holds for the whole course."""
-        state = replace(self.state, speed_m_s=speed_m_s, loop=loop)
-        self._change(state, select=self.selected)
+        self._change(select=self.selected, speed_m_s=speed_m_s, loop=loop)
 
-    def load(self, state: CourseState) -> None:
+    def load(self, course: Course) -> None:
         """Replace the whole course."""
-        self._change(state, select=None)
+        self._change()
+        self.course = course
 
     def undo(self) -> None:
         """Undo the last change."""
         if self._past:
-            self.state = self._past.pop()
+            self.course = self._past.pop()
             self.selected = None
 
     def nearest(self, x: float, y: float) -> int | None:
         """Return the waypoint that a click means, if any."""
-        distances = [math.hypot(p.x - x, p.y - y) for p in self.state.points]
+        distances = [math.hypot(p.x_m - x, p.y_m - y) for p in self.course.waypoints]
         if not distances or min(distances) > NEAR_M:
             return None
         return distances.index(min(distances))
@@ -144,6 +101,32 @@ class EditableCourse:
 
 def _rounded(length_m: float) -> float:
     return round(length_m, 2) + 0.0  # no -0.0
+
+
+def text_of(course: Course) -> str:
+    """Return the waypoint file of a course."""
+    corners = '' if course.corners == 'smooth' else f'corners: {course.corners}\n'
+    return (
+        '# Made with the editor of the view.\n'
+        'frame: odom         # metres, x forward and y left of where the Husky starts\n'
+        f'speed: {course.speed_m_s:<12g} # m/s along the path, up to 1.0\n'
+        f'tolerance: {course.tolerance_m:<8g} # m, how near counts as reached\n'
+        f'loop: {"true " if course.loop else "false"}         '
+        '# true: come back to the first waypoint\n'
+        f'{corners}waypoints:\n' + ''.join(map(_entry_of, course.waypoints))
+    )
+
+
+def _entry_of(waypoint: Waypoint) -> str:
+    x, y = f'{waypoint.x_m:.2f}', f'{waypoint.y_m:.2f}'
+    fields = {
+        'speed': waypoint.speed_m_s,
+        'yaw': waypoint.yaw_rad,
+        'dwell': waypoint.dwell_sec or None,
+    }
+    more = ''.join(f', {name}: {value:g}' for name, value in fields.items() if value is not None)
+    more += ', reverse: true' if waypoint.reverse else ''
+    return f'  - {{x: {x}, y: {y}{more}}}\n' if more else f'  - [{x}, {y}]\n'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,13 +137,13 @@ class Preview:
     clearance_m: Array  # (n,)
 
 
-def preview(state: CourseState, start: RobotStart, obstacles: Sequence[Outline]) -> Preview:
+def preview(course: Course, start: RobotStart, obstacles: Sequence[Outline]) -> Preview:
     """
     Plan the driver's path through a course.
 
     :raises CourseRefused: if the driver would refuse it.
     """
-    poses = _path(_parsed(state.text(), 'the draft'))
+    poses = _path(_parsed(text_of(course), 'the draft'))
     poses[:, :2] = to_world(start, poses[:, :2])
     poses[:, 2] += start.yaw
     return Preview(line=poses[:, :2], clearance_m=clearances(poses, obstacles))
@@ -192,35 +175,18 @@ def _read(file: Path) -> Course:
         raise CourseRefused(f'{file}: {error.strerror}') from error
 
 
-def load(file: Path) -> CourseState:
+def load(file: Path) -> Course:
     """
-    Read a waypoint file to edit it.
+    Read a waypoint file to edit it; its waypoints are rounded to whole centimetres.
 
     :raises CourseRefused: if the driver would refuse it.
     """
     course = _read(file)
-    return CourseState(
-        points=tuple(_point(waypoint) for waypoint in course.waypoints),
-        speed_m_s=course.speed_m_s,
-        tolerance_m=course.tolerance_m,
-        loop=course.loop,
-        corners=course.corners,
+    waypoints = tuple(
+        replace(each, x_m=_rounded(each.x_m), y_m=_rounded(each.y_m), line=0)
+        for each in course.waypoints
     )
-
-
-def _point(waypoint: Waypoint) -> Point:
-    fields = (
-        ('speed', waypoint.speed_m_s),
-        ('yaw', waypoint.yaw_rad),
-        ('dwell', waypoint.dwell_sec or None),
-        ('reverse', waypoint.reverse or None),
-    )
-    more = tuple(
-        (name, 'true' if value is True else f'{value:g}')
-        for name, value in fields
-        if value is not None
-    )
-    return Point(round(waypoint.x_m, 2), round(waypoint.y_m, 2), more)
+    return replace(course, name='', waypoints=waypoints)
 
 
 def path_of(file: Path) -> tuple[Array, Array]:
@@ -234,7 +200,7 @@ def path_of(file: Path) -> tuple[Array, Array]:
     return _path(course)[:, :2], waypoints
 
 
-def save(state: CourseState, folder: Path, name: str) -> Path:
+def save(course: Course, folder: Path, name: str) -> Path:
     """
     Write a course as NAME.yaml, whole or not at all.
 
@@ -242,7 +208,7 @@ def save(state: CourseState, folder: Path, name: str) -> Path:
     """
     if not NAME.fullmatch(name):
         raise CourseRefused(f'name {name!r}: letters, digits, _ and - are allowed, 1 to 61')
-    text = state.text()
+    text = text_of(course)
     _parsed(text, f'{name}.yaml')
     file = folder / f'{name}.yaml'
     part = folder / f'.{name}.yaml.part'

@@ -13,17 +13,14 @@ from typing import Any
 
 from husky_sim.world import World
 import numpy as np
-import numpy.typing as npt
 import viser
 
 from husky_view.editor import course
 from husky_view.picture import palette
-from husky_view.picture.geometry import on_ground, to_odom, to_world
+from husky_view.picture.geometry import Array, on_ground, to_odom, to_world
 from husky_view.picture.marks import add_line, lifted, NumberedDiscs
 from husky_view.picture.scene import ABOVE_GROUND_M
 from husky_view.server import ActionQueue
-
-Array = npt.NDArray[np.float64]
 
 NEW = '(new)'
 UNDO, DELETE, CLEAR = 'Undo', 'Delete', 'Clear'
@@ -61,7 +58,7 @@ class Editor:
         drive: Callable[[Path], None],
         notify: Callable[[str, str, bool], None],
     ) -> None:
-        self._course = course.EditableCourse()
+        self._edited = course.EditableCourse()
         self._server = server
         self._later = actions.put
         self._world = world
@@ -101,7 +98,7 @@ class Editor:
         self._edit.on_update(lambda event: later(lambda: self._set_editing(event.target.value)))
         change = gui.add_button_group('Change', (UNDO, DELETE, CLEAR))
         change.on_click(lambda event: later(lambda: self._on_change(event.target.value)))
-        self._speed = gui.add_slider('Speed, m/s', 0.1, 1.0, 0.1, self._course.state.speed_m_s)
+        self._speed = gui.add_slider('Speed, m/s', 0.1, 1.0, 0.1, self._edited.course.speed_m_s)
         self._loop = gui.add_checkbox('Back to the first (loop)', False)
         for element in (self._speed, self._loop):
             element.on_update(lambda event: event.client and later(self._on_settings))
@@ -127,11 +124,11 @@ class Editor:
 
     def _click(self, place: Array) -> None:
         x, y = to_odom(self._start, place[None])[0]
-        meant = self._course.nearest(x, y)
+        meant = self._edited.nearest(x, y)
         if meant is None:
-            self._course.add(x, y)
+            self._edited.add(x, y)
         else:
-            self._course.selected = meant
+            self._edited.selected = meant
         self._show()
 
     def _on_drag(self, event: Any) -> None:
@@ -143,31 +140,31 @@ class Editor:
         self._later(lambda: self._drag(phase, number, place))
 
     def _drag(self, phase: str, number: int | None, place: Array | None) -> None:
-        if phase == 'start' and number is not None and number < len(self._course.state.points):
+        if phase == 'start' and number is not None and number < len(self._edited.course.waypoints):
             self._dragged = number
-            self._course.begin_move(number)
+            self._edited.begin_move(number)
         if self._dragged is not None and place is not None:
-            self._course.move(self._dragged, *to_odom(self._start, place[None])[0])
+            self._edited.move(self._dragged, *to_odom(self._start, place[None])[0])
             self._show()
         if phase == 'end':
             self._dragged = None
 
     def _on_change(self, word: str) -> None:
-        edited = self._course
+        edited = self._edited
         {UNDO: edited.undo, DELETE: edited.delete_selected, CLEAR: edited.clear}[word]()
         self._show_settings()
         self._show()
 
     def _on_settings(self) -> None:
-        self._course.set(speed_m_s=float(self._speed.value), loop=bool(self._loop.value))
+        self._edited.set(speed_m_s=float(self._speed.value), loop=bool(self._loop.value))
         self._show()
 
     def _open(self, name: str) -> None:
         if name == NEW:
-            self._course.clear()
+            self._edited.clear()
         else:
             try:
-                self._course.load(course.load(self._folder / f'{name}.yaml'))
+                self._edited.load(course.load(self._folder / f'{name}.yaml'))
             except course.CourseRefused as error:
                 self._notify(f'{name} cannot be edited', str(error), True)
                 return
@@ -178,22 +175,22 @@ class Editor:
         self._show()
 
     def _show_settings(self) -> None:
-        self._speed.value = round(self._course.state.speed_m_s, 1)
-        self._loop.value = self._course.state.loop
+        self._speed.value = round(self._edited.course.speed_m_s, 1)
+        self._loop.value = self._edited.course.loop
 
     def _show(self) -> None:
         self._server.scene.remove_by_name(_PATH)
         if not self._editing:
             self._discs.show(np.zeros((0, 3)))
             return
-        points = np.array([(p.x, p.y) for p in self._course.state.points]).reshape(-1, 2)
-        place = self._course.selected
+        points = np.array([(p.x_m, p.y_m) for p in self._edited.course.waypoints]).reshape(-1, 2)
+        place = self._edited.selected
         self._discs.show(
             lifted(to_world(self._start, points), self._height_m),
             highlighted=slice(0) if place is None else slice(place, place + 1),
         )
         try:
-            found = course.preview(self._course.state, self._start, self._world.obstacles)
+            found = course.preview(self._edited.course, self._start, self._world.obstacles)
         except course.CourseRefused as error:
             few = len(points) < 2
             self._say('two waypoints make a course' if few else str(error), palette.SCARCE)
@@ -224,7 +221,7 @@ class Editor:
 
     def _save(self) -> Path | None:
         try:
-            file = course.save(self._course.state, self._folder, self._name.value.strip())
+            file = course.save(self._edited.course, self._folder, self._name.value.strip())
         except course.CourseRefused as error:
             self._notify('Not saved', str(error), True)
             return None

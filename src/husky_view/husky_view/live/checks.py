@@ -10,9 +10,8 @@ from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
 import mujoco
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from husky_view.picture.geometry import Array
 
 SILENCE_SEC = 1.5
 """A simulator that was silent for so long is gone; it publishes at 30 Hz, paused or not."""

@@ -17,7 +17,6 @@ from husky_course.robot import RobotStart
 from husky_sim.world import default_worlds
 from nav_msgs.msg import Path
 import numpy as np
-import numpy.typing as npt
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.node import Node
@@ -29,6 +28,7 @@ from std_msgs.msg import Bool, UInt32
 from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_view.live.checks import FARTHEST_M
+from husky_view.picture.geometry import Array
 from husky_view.picture.picture import Picture
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -86,26 +86,24 @@ class SimulatorControl:
     Controls a running simulator. Nothing here blocks.
 
     :param refused: called with what could not be done and why.
+    :param closing: destroys the clients.
     """
 
-    def __init__(self, node: Node, name: str, refused: Callable[[str, str], None]) -> None:
+    def __init__(
+        self, node: Node, name: str, refused: Callable[[str, str], None], closing: ExitStack
+    ) -> None:
         self._name = name
         self._refused = refused
-        self._closing = ExitStack()
-        self._set, self._pause, self._step, self._reset = (
-            self._client(node, kind, service)
-            for kind, service in (
-                (SetParameters, 'set_parameters'),
-                (SetBool, 'pause'),
-                (Trigger, 'step'),
-                (Empty, 'reset'),
-            )
-        )
 
-    def _client(self, node: Node, kind: Any, service: str) -> Any:
-        client = node.create_client(kind, f'{self._name}/{service}')
-        self._closing.callback(node.destroy_client, client)
-        return client
+        def create_client(kind: Any, service: str) -> Any:
+            client = node.create_client(kind, f'{name}/{service}')
+            closing.callback(node.destroy_client, client)
+            return client
+
+        self._set = create_client(SetParameters, 'set_parameters')
+        self._pause = create_client(SetBool, 'pause')
+        self._step = create_client(Trigger, 'step')
+        self._reset = create_client(Empty, 'reset')
 
     def pause(self, paused: bool) -> None:
         """Pause, or go on."""
@@ -143,10 +141,6 @@ class SimulatorControl:
 
         client.call_async(request).add_done_callback(on_done)
 
-    def close(self) -> None:
-        """Destroy the clients; may be called twice."""
-        self._closing.close()
-
 
 class RobotLink:
     """
@@ -155,6 +149,7 @@ class RobotLink:
     :param place: of the robot in the world.
     :param namespace: empty, or with a slash at its end.
     :param invalid: called with what came that is invalid; it is not drawn.
+    :param closing: destroys the publishers and subscriptions.
     """
 
     def __init__(
@@ -164,6 +159,7 @@ class RobotLink:
         place: int,
         namespace: str,
         invalid: Callable[[str], None],
+        closing: ExitStack,
     ) -> None:
         self._node = node
         self._invalid = invalid
@@ -171,15 +167,14 @@ class RobotLink:
         self._place = place
         self._robot = picture.robots[place]
         self._scan: LaserScan | None = None  # since the last frame
-        self._waypoints: npt.NDArray[np.float64] = np.zeros((0, 2))
+        self._waypoints: Array = np.zeros((0, 2))
         self.waypoints_left: int | None = None
         self._topic = f'{namespace}husky_velocity_controller/cmd_vel'
         self._commands: Publisher[Twist] | None = None  # only while the page drives
         self._driven_sec = 0.0
-        self._closing = ExitStack()
         self._stops = node.create_publisher(Bool, f'{namespace}e_stop', LATCHED)
-        self._closing.callback(node.destroy_publisher, self._stops)
-        self._closing.callback(self._end_commands)
+        closing.callback(node.destroy_publisher, self._stops)
+        closing.callback(self._end_commands)
         for kind, topic, callback, qos in (
             (DiagnosticStatus, 'collisions', self._on_collision, 10),
             (Path, 'path', self._on_path, LATCHED),
@@ -189,11 +184,7 @@ class RobotLink:
             (LaserScan, 'front/scan', self._on_scan, NEWEST),
         ):
             subscription = node.create_subscription(kind, f'{namespace}{topic}', callback, qos)
-            self._closing.callback(node.destroy_subscription, subscription)
-
-    def close(self) -> None:
-        """Destroy the publishers and subscriptions; may be called twice."""
-        self._closing.close()
+            closing.callback(node.destroy_subscription, subscription)
 
     def drive(self, speed_m_s: float, yaw_rate_rad_s: float, *, now_sec: float) -> None:
         """Send a velocity command, as any teleop does."""

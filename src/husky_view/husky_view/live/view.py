@@ -20,7 +20,7 @@ from husky_view.editor.editor import Editor
 from husky_view.live.checks import RealTimeFactor, SceneCheck, SimulatorMonitor, State
 from husky_view.live.driver_process import DRIVER, DriverProcess
 from husky_view.live.links import RobotLink, SimulatorControl, SimulatorQuery
-from husky_view.live.panel import Controls, Figures, Panel
+from husky_view.live.panel import Panel
 from husky_view.picture.picture import Picture
 from husky_view.server import ActionQueue
 
@@ -69,17 +69,30 @@ class LiveView:
         self._figures_due_sec = 0.0
         self._actions = ActionQueue()
         self._driver = DriverProcess()
+        self._closing = ExitStack()
         self._picture = Picture(server, world)
-        self._control = SimulatorControl(node, query.name, self._on_refused)
+        self._control = SimulatorControl(node, query.name, self._on_refused, self._closing)
         many = len(world.robots) > 1
         self._links = [
             RobotLink(
-                node, self._picture, place, f'{robot.name}/' if many else '', self._on_invalid
+                node,
+                self._picture,
+                place,
+                f'{robot.name}/' if many else '',
+                self._on_invalid,
+                self._closing,
             )
             for place, robot in enumerate(world.robots)
         ]
-        robots = [robot.name for robot in world.robots]
-        self._panel = Panel(server, self._actions, self._controls(), robots=robots)
+        self._panel = Panel(
+            server,
+            self._actions,
+            self._control,
+            robots=[robot.name for robot in world.robots],
+            stop=self._on_stop,
+            choose_robot=self._on_choose_robot,
+            choose_camera=self._picture.choose_camera,
+        )
         self._editor = Editor(
             server,
             self._actions,
@@ -89,26 +102,12 @@ class LiveView:
             drive=self._on_drive_file,
             notify=self._panel.notify,
         )
-        self._closing = ExitStack()
         self._create_entities()
-
-    def _controls(self) -> Controls:
-        return Controls(
-            pause=self._control.pause,
-            step=self._control.step,
-            reset=self._control.reset,
-            set_factor=self._control.set_factor,
-            stop=self._on_stop,
-            choose_robot=self._on_choose_robot,
-            choose_camera=self._picture.choose_camera,
-        )
 
     def _create_entities(self) -> None:
         node, steady = self._node, Clock(clock_type=ClockType.STEADY_TIME)
-        for close in (self._editor.close, self._control.close, self._driver.end):
-            self._closing.callback(close)
-        for link in self._links:
-            self._closing.callback(link.close)
+        self._closing.callback(self._editor.close)
+        self._closing.callback(self._driver.end)
         scenes = node.create_subscription(
             Float64MultiArray, f'{self._query.name}/scene', self._on_scene, QOS
         )
@@ -165,7 +164,7 @@ class LiveView:
             state = self._monitor.state(now_sec=now)
             self._panel.show_warning(self._warning(state, now))
             if self._scene is not None:
-                self._panel.show(self._figures(self._scene, state))
+                self._show_figures(self._scene, state)
             if state is State.ANOTHER_WORLD:
                 self._look_for_another_world()
         self._server.flush()
@@ -183,10 +182,10 @@ class LiveView:
             self._node.get_logger().info(f'another simulation runs now: {world.path}')
             self.next_world.set_result(world)
 
-    def _figures(self, scene: Scene, state: State) -> Figures:
+    def _show_figures(self, scene: Scene, state: State) -> None:
         robot = self._picture.robots[self._driven]
         unknown = scene.paused or state is State.GONE
-        return Figures(
+        self._panel.show(
             time_sec=float(scene.time_sec[-1]),
             real_time_factor=None if unknown else self._factor.value,
             paused=scene.paused,

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The camera of each tab: free, following a robot, or looking down on the playpen."""
 
+from collections.abc import Callable
 import contextlib
 import math
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import viser
 
-Array = npt.NDArray[np.float64]
+from husky_view.picture.geometry import Array
 
 FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
 PRESETS = (FREE, FOLLOW, TOP)
@@ -162,3 +163,18 @@ class Cameras:
             client = clients.get(client_id)
             if client is not None and camera.step(robot, now_sec=now_sec):
                 self._look(client, camera.at + camera.offset, camera.at)
+
+
+def add_camera_buttons(
+    gui: viser.GuiApi,
+    later: Callable[[Callable[[], None]], None],
+    choose: Callable[[viser.ClientHandle, str], None],
+) -> None:
+    """Add the presets to a panel; `later` is given the call of `choose` for the tab clicked in."""
+    buttons = gui.add_button_group('Camera', PRESETS)
+
+    @buttons.on_click
+    def _(event: Any) -> None:
+        client, preset = event.client, event.target.value
+        if client is not None:
+            later(lambda: choose(client, preset))

@@ -13,9 +13,9 @@ import trimesh
 import viser
 
 from husky_view.picture import palette
+from husky_view.picture.geometry import Array
 from husky_view.picture.palette import Rgb
 
-Array = npt.NDArray[np.float64]
 Colors = Rgb | npt.NDArray[np.uint8]
 
 THICKNESS_PX = 3.0

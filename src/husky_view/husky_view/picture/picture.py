@@ -12,16 +12,13 @@ from husky_course.robot import RobotStart
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
 import numpy as np
-import numpy.typing as npt
 import viser
 
 from husky_view.picture import palette
 from husky_view.picture.camera import Cameras
-from husky_view.picture.geometry import distance_to_line, to_world
+from husky_view.picture.geometry import Array, distance_to_line, to_world
 from husky_view.picture.marks import add_line, CollisionMarks, lifted, NumberedDiscs, Trail
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
-
-Array = npt.NDArray[np.float64]
 
 _X, _ODOM_X, _YAW = TRACK.index('x'), TRACK.index('odom_x'), TRACK.index('yaw')
 _SPEED = TRACK.index('speed_m_s')

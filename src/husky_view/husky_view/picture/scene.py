@@ -6,10 +6,9 @@ from husky_sim.world import World
 from mjviser import ViserMujocoScene
 import mujoco
 import numpy as np
-import numpy.typing as npt
 import viser
 
-Array = npt.NDArray[np.float64]
+from husky_view.picture.geometry import Array
 
 GROUND = (176, 174, 168)
 GROUND_LINES = (160, 158, 152)

@@ -9,7 +9,7 @@ from typing import Any
 from husky_course.record import Collision
 import viser
 
-from husky_view.picture.camera import PRESETS
+from husky_view.picture.camera import add_camera_buttons
 from husky_view.picture.page import figures_html, legend_html
 from husky_view.server import ActionQueue
 
@@ -71,7 +71,6 @@ class ReplayPanel:
     ) -> None:
         self._playback = playback
         self._later = actions.put
-        self._choose_camera = choose_camera
         gui = server.gui
         self._figures = gui.add_html('')
         self._play = gui.add_button_group('Time', (PAUSE, RESTART))
@@ -82,8 +81,7 @@ class ReplayPanel:
         self._slider.on_update(self._on_slider)
         factor = gui.add_button_group('Speed', tuple(FACTORS))
         factor.on_click(lambda event: self._on_factor(FACTORS[event.target.value]))
-        camera = gui.add_button_group('Camera', PRESETS)
-        camera.on_click(lambda event: self._on_camera(event.client, event.target.value))
+        add_camera_buttons(gui, actions.put, choose_camera)
         with gui.add_folder(f'Collisions: {len(collisions)}'):
             for collision in collisions[:MOST_BUTTONS]:
                 button = gui.add_button(
@@ -111,10 +109,6 @@ class ReplayPanel:
 
     def _on_factor(self, factor: float) -> None:
         self._later(lambda: setattr(self._playback, 'factor', factor))
-
-    def _on_camera(self, client: viser.ClientHandle | None, preset: str) -> None:
-        if client is not None:
-            self._later(lambda: self._choose_camera(client, preset))
 
     def _jumper(self, time_sec: float) -> Callable[[Any], None]:
         def jump() -> None:

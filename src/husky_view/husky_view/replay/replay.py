@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plays a recorded run in the browser. Needs no ROS."""
 
-import argparse
 from collections.abc import Sequence
 import os
 from pathlib import Path
@@ -12,6 +11,7 @@ import time
 from typing import NoReturn
 
 from husky_course.record import RecordRefused
+from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import TRACK
 from husky_sim.world import load_world
@@ -28,7 +28,6 @@ from husky_view.server import ActionQueue, address_of, AddressError, close_serve
 WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
 PANEL_HZ = 10.0
-BAD_INPUT = 2
 
 _ODOM_X, _SPEED = TRACK.index('odom_x'), TRACK.index('speed_m_s')
 
@@ -106,16 +105,9 @@ class Replay:
         )
 
 
-class _Parser(argparse.ArgumentParser):
-    """Refuses with one line instead of the whole usage."""
-
-    def error(self, message: str) -> NoReturn:
-        self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
-
-
 def main(args: Sequence[str] | None = None) -> int:
     """Replay a run until interrupted."""
-    parser = _Parser(prog='replay', description=__doc__, allow_abbrev=False)
+    parser = Parser(prog='replay', description=__doc__, allow_abbrev=False)
     parser.add_argument('record', help="the record of a run, or the folder of its report's")
     parser.add_argument('--host', default='127.0.0.1', help='address to serve the page at')
     parser.add_argument('--port', type=int, default=8080, help='port; the next free one if taken')
