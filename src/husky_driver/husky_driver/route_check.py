@@ -18,7 +18,7 @@ GROUP = 'husky_driver.route_check'
 
 
 class RouteCheck(Protocol):
-    """Looks along a route; see husky_grader.world_check."""
+    """Looks along a route; see husky_grader.playpen."""
 
     def __call__(self, route: Route, *, world: str, start: Pose) -> Survey:
         """Return what is near the route."""

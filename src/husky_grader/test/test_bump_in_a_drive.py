@@ -5,7 +5,7 @@ import math
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_driver.checks import Bump, forward_acceleration
-from husky_grader.run.rehearsal import drive_route
+from husky_grader.run.in_process import drive_route
 import pytest
 
 NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it

@@ -13,8 +13,8 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.check import main as check
 from husky_grader.grade import main as grade
-from husky_grader.run.rehearsal import drive_route
-from husky_grader.scoring.scoring import score
+from husky_grader.run.in_process import drive_route
+from husky_grader.scoring.report import score
 import pytest
 
 THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'

@@ -10,7 +10,7 @@ from husky_course.record import Collision, COLUMNS, Disturbance, Record, RecordR
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_grader.scoring.alignment import projected
-from husky_grader.scoring.scoring import score
+from husky_grader.scoring.report import score
 import numpy as np
 import pytest
 

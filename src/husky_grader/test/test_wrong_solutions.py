@@ -17,8 +17,8 @@ from husky_course.waypoints import Course, load_course, parse_course
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_grader.grade import main as grade
-from husky_grader.run.rehearsal import drive_with
-from husky_grader.scoring.scoring import Report, score
+from husky_grader.run.in_process import drive_with
+from husky_grader.scoring.report import Report, score
 import pytest
 
 Turn = Callable[[float, float], tuple[float, float]]

@@ -19,7 +19,7 @@ from husky_view.live.pace import Pace
 from husky_view.picture.pad import Direction, HELD_SEC, Pad, STOPS
 from husky_view.picture.planar import distance_to_line, on_ground, to_odom, to_world
 from husky_view.replay.playback import Playback
-from husky_view.replay.run import load_run, Poser
+from husky_view.replay.run import load_run, RunScenes
 from husky_view.server import AddressError, free_port
 import numpy as np
 import pytest
@@ -131,10 +131,10 @@ def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> Non
     written = record(tmp_path / 'run.record')
     run = load_run(str(tmp_path))
     assert run.duration_sec == 2.0
-    assert run.entry_at(0.999) == 49
+    assert run.row_at(0.999) == 49
     world = Simulation(SimulationConfig(world=run.world, robots=run.robots)).world
-    poser = Poser(run, world)
-    scene = poser.scene(10, 60, paused=True)
+    scenes = RunScenes(run, world)
+    scene = scenes.scene(10, 60, paused=True)
     assert scene.time_sec[-1] == pytest.approx(1.2)
     base = int(world.model.joint('husky/base_joint').qposadr[0])
     x, y, yaw = written.rows[60, 0, 1:4]
@@ -158,14 +158,14 @@ def test_a_replay_moves_what_was_pushed_and_a_jump_puts_it_back(tmp_path: Path) 
     recorder.close()
     run = load_run(str(tmp_path))
     assert list(run.pushed) == ['Dumpster_0'], 'what nothing touched takes room'
-    poser = Poser(run, simulation.world)
+    scenes = RunScenes(run, simulation.world)
     np.testing.assert_allclose(
-        poser.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
+        scenes.scene(0, 150, paused=False).qpos[dumpster], went, atol=2.0 * MOVED
     )
-    assert poser.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
+    assert scenes.scene(0, 5, paused=False).qpos[dumpster].tolist() == stood.tolist()
     gone = replace(run, pushed={'Gone': run.pushed['Dumpster_0']})
     with pytest.raises(RecordRefused, match=r"'Gone' was pushed, but .* has no such loose body"):
-        Poser(gone, simulation.world)
+        RunScenes(gone, simulation.world)
 
 
 def test_a_replay_begins_with_the_first_command_as_the_report_does(tmp_path: Path) -> None:

@@ -11,9 +11,8 @@ from threading import Event
 import time
 from typing import Any, NoReturn
 
-from husky_course.record import RecordRefused
+from husky_course.record import Record, RecordRefused
 from husky_sim.errors import SimulatorError
-from husky_sim.scene_topic import TRACK
 from husky_sim.world import load_world
 import numpy as np
 import viser
@@ -24,7 +23,7 @@ from husky_view.picture.picture import Picture
 from husky_view.picture.planar import to_world
 from husky_view.replay.playback import Playback
 from husky_view.replay.replay_panel import ReplayPanel, SLIDER_HZ
-from husky_view.replay.run import load_run, Poser, Run
+from husky_view.replay.run import load_run, RunScenes
 from husky_view.server import address_of, AddressError, close_server, open_server
 from husky_view.work import Work
 
@@ -36,7 +35,7 @@ BAD_INPUT = 2
 class Replay:
     """A run on the page."""
 
-    def __init__(self, server: viser.ViserServer, run: Run) -> None:
+    def __init__(self, server: viser.ViserServer, run: Record) -> None:
         """
         Put the run's world on the page.
 
@@ -47,7 +46,7 @@ class Replay:
         self._run = run
         world = load_world(run.world, run.robots)
         self._picture = Picture(server, world)
-        self._poser = Poser(run, world)
+        self._scenes = RunScenes(run, world)
         self.playback = Playback(run.duration_sec)
         self._work = Work()
         self._panel = ReplayPanel(
@@ -72,14 +71,14 @@ class Replay:
         self._work.do()
         playback, run = self.playback, self._run
         jumped = playback.step(wall_sec)
-        entry = run.entry_at(playback.time_sec)
+        entry = run.row_at(playback.time_sec)
         if jumped:
             self._picture.clear()
             self._picture.time_sec = 0.0
             self._shown = self._told = 0
         if jumped or entry != self._shown:
             self._picture.show(
-                self._poser.scene(min(self._shown, entry), entry, paused=not playback.playing)
+                self._scenes.scene(min(self._shown, entry), entry, paused=not playback.playing)
             )
             self._shown = entry
         self._show_collisions(now_sec)
@@ -99,13 +98,15 @@ class Replay:
             self._told += 1
 
     def _show_figures(self, entry: int) -> None:
-        robot = self._run.track[entry, self._picture.followed]
-        odom = TRACK.index('odom_x')
-        start = self._run.robots[self._picture.followed]
-        believed = to_world(start, robot[None, odom : odom + 2])[0]
+        followed = self._picture.followed
+        names = ('x', 'y', 'odom_x', 'odom_y', 'speed_m_s')
+        x, y, odom_x, odom_y, speed_m_s = (
+            float(self._run.column(followed, name)[entry]) for name in names
+        )
+        believed = to_world(self._run.robots[followed], np.array([[odom_x, odom_y]]))[0]
         self._panel.show(
-            speed_m_s=float(robot[TRACK.index('speed_m_s')]),
-            drift_m=float(np.hypot(*(believed - robot[:2]))),
+            speed_m_s=speed_m_s,
+            drift_m=float(np.hypot(*(believed - (x, y)))),
             collisions=self._told,
         )
 

@@ -31,7 +31,8 @@ class Step:
     why: str
 
     @property
-    def passed(self) -> bool:
+    def is_full(self) -> bool:
+        """Whether it got every point."""
         return self.points >= self.most
 
 
@@ -70,7 +71,7 @@ def package_step(workspace: Path, package: str, most: float) -> Step:
 
 
 def driver_package(workspace: Path) -> str:
-    """Return the package with the driving in it: husky_driver, as in the sheet, or another."""
+    """Return the package that drives: husky_driver, as in the sheet, or one with follow_path."""
     packages = _packages(workspace)
     others = (name for name in packages if list(packages[name].glob('**/follow_path.py')))
     return 'husky_driver' if 'husky_driver' in packages else next(others, 'husky_driver')

@@ -12,8 +12,8 @@ import time
 from husky_course.record import read_record
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_grader.run.rehearsal import drive_route
-from husky_grader.scoring.scoring import score
+from husky_grader.run.in_process import drive_route
+from husky_grader.scoring.report import score
 import pytest
 
 

@@ -1,21 +1,23 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write the report on a run: report.json, report.html and path.png."""
+"""The files of a report (report.json, report.html and path.png), and its summary as text."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 import json
 from pathlib import Path
 from typing import Any
 
-from husky_grader.report.atomic_file import replacing
 from husky_course.printable import printable
-from husky_grader.report.report_html import page
-from husky_course.record import RunRecord
-from husky_grader.report.map import run_scene
-from husky_grader.scoring.scoring import Report
+from husky_course.record import Run
 from husky_course.route import Route
+
+from husky_grader.report.map import run_map, write_picture
+from husky_grader.report.page import page
+from husky_grader.scoring.report import Report
 
 REPORT_FILES = ('report.json', 'report.html', 'path.png')
 JSON_KEYS = (
@@ -51,16 +53,14 @@ def is_report(content: object) -> bool:
     )
 
 
-def write_report(folder: Path, report: Report, run: RunRecord, route: Route) -> None:
+def write_report(folder: Path, report: Report, run: Run, route: Route) -> None:
     """Write the three files, each whole or not at all."""
-    from husky_grader.report.map_png import draw  # matplotlib takes its time
-
     folder.mkdir(parents=True, exist_ok=True)
-    scene = run_scene(run, route, report)
+    scene = run_map(run, route, report)
     _write(folder / 'report.json', json.dumps(as_json(report), indent=2) + '\n')
     _write(folder / 'report.html', page(report, run, scene))
     with replacing(folder / 'path.png') as part:
-        draw(scene, part)
+        write_picture(scene, part)
 
 
 def summary(report: Report) -> str:
@@ -87,3 +87,14 @@ def summary(report: Report) -> str:
 def _write(path: Path, text: str) -> None:
     with replacing(path) as part:
         part.write_text(text, encoding='utf-8')
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Give the name of a file to write; it takes the place of `path`, unless something fails."""
+    part = path.with_name(f'.{path.stem}.part{path.suffix}')
+    try:
+        yield part
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)

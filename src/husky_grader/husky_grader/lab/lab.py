@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, replace
+from dataclasses import asdict
 import json
 from pathlib import Path
 import shutil
@@ -13,8 +13,7 @@ import shutil
 from husky_course.record import read_run
 from husky_course.route import Route
 
-from husky_grader.lab.lab_graph import publisher_step, subscriber_step
-from husky_grader.lab.lab_steps import (
+from husky_grader.lab.file_steps import (
     build_step,
     driver_package,
     failed,
@@ -24,9 +23,10 @@ from husky_grader.lab.lab_steps import (
     Step,
     workspace_step,
 )
-from husky_grader.report.report import write_report
+from husky_grader.lab.graph_steps import publisher_step, subscriber_step
+from husky_grader.report.files import write_report
 from husky_grader.run.live import drive_live
-from husky_grader.scoring.scoring import judge
+from husky_grader.scoring.report import judge
 
 POINTS = {
     **{'workspace': 5.0, 'topic_demo': 10.0, 'driver': 5.0, 'build': 15.0},
@@ -103,9 +103,7 @@ def _drive_step(
         real_time_factor=real_time_factor,
     )
     run = read_run(live.record)
-    report = judge(run, route)
-    if not report.passed:
-        report = replace(report, reasons=(*live.notes, *report.reasons))
+    report = live.with_notes(judge(run, route))
     write_report(folder / 'drive', report, run, route)
     why = '; '.join(report.reasons) if report.reasons else f'{report.course} passed'
     return Step('drive', most, most * report.score / 100.0, why)
