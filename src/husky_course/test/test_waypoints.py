@@ -8,7 +8,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from husky_course.route import DriveLimits, plan_route, plan_speeds
-from husky_course.waypoints.waypoint_file import Course, load_course, parse_course
+from husky_course.waypoints.course import Course
+from husky_course.waypoints.schema import schema_text
+from husky_course.waypoints.waypoint_file import load_course, parse_course
 from husky_course.waypoints.yaml_tree import FileRefused, Problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -147,6 +149,12 @@ def test_a_link_to_nothing_is_not_said_to_be_meant(tmp_path: Path) -> None:
 def schema(courses: Path) -> Any:
     text = (courses.parent / 'waypoints.schema.json').read_text()
     return jsonschema.Draft202012Validator(json.loads(text))
+
+
+def test_the_schema_is_made_from_the_table(courses: Path) -> None:
+    file = courses.parent / 'waypoints.schema.json'
+    command = './lab exec python3 -m husky_course.waypoints.schema > config/waypoints.schema.json'
+    assert file.read_text() == schema_text(), f'run: {command}'
 
 
 def test_the_schema_for_editors_accepts_every_course_of_the_lab(

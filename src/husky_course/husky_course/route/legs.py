@@ -16,7 +16,7 @@ from itertools import pairwise
 import math
 
 from husky_course.route.path import Curve, Point, smooth_curve
-from husky_course.waypoints.waypoint_file import Course, Waypoint
+from husky_course.waypoints.course import Course, Waypoint
 
 SHARP_CORNER_RAD = math.radians(3.0)  # straighter than this needs no stop
 # Found by driving random courses in the empty world: with these, 500 of 500 end, at most 5 cm off
