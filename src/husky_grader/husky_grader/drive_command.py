@@ -20,8 +20,8 @@ from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.domains import DomainError, OwnDomain
 
 from husky_grader import check, grade
-from husky_grader.grading import keep_course
 from husky_grader.playpen import default_course
+from husky_grader.report.files import keep_course
 
 START_SEC = 90.0  # simulated time in which the driver must have begun
 

@@ -14,10 +14,8 @@ from husky_course.record import FILE_NAME, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 
-from husky_grader.report.files import as_json, replacing, summary, write_report
+from husky_grader.report.files import keep_course, summary, write_report
 from husky_grader.scoring.report import judge
-
-COURSE_FILE = 'waypoints.yaml'
 
 
 @dataclass(frozen=True)
@@ -66,14 +64,6 @@ def grade_file(
     report = judge(run, route, wall_time_sec=time.monotonic() - begun)
     if drive.failure:
         report = replace(report, reasons=(*report.reasons, f'gave up: {drive.failure}'))
-    write_report(folder, report, run, route)
+    text = summary(report)
     keep_course(Path(file), folder)
-    return Grade(file, as_json(report), summary(report))
-
-
-def keep_course(file: Path, folder: Path) -> None:
-    """Keep the file beside the record of its run, for `./lab view`."""
-    kept = folder / COURSE_FILE
-    if not (kept.exists() and kept.samefile(file)):
-        with replacing(kept) as part:
-            part.write_bytes(file.read_bytes())
+    return Grade(file, write_report(folder, report, run, route), text)

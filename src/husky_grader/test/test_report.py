@@ -7,9 +7,8 @@ import re
 from husky_course.record import Collision, Disturbance, read_run, Record, Run
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
-from husky_grader.report.files import as_json, is_report, summary, write_report
+from husky_grader.report.files import as_json, is_report, page, summary, write_report
 from husky_grader.report.map import Map, map_svg, run_map, SIZE
-from husky_grader.report.page import page
 from husky_grader.report.plot import Plot, ticks
 from husky_grader.scoring.report import judge
 import pytest

@@ -87,20 +87,25 @@ class Record:
         begin_sec = float(self.time_sec[begin])
         rows = self.rows[begin:].copy()
         rows[:, :, 0] -= begin_sec
+        collisions, disturbances = self.events_since(begin_sec)
+        pushed = {
+            name: replace(push, time_sec=push.time_sec - begin_sec)
+            for name, push in self.pushed.items()
+        }
         return replace(
-            self,
-            rows=rows,
-            collisions=tuple(
-                replace(touch, time_sec=touch.time_sec - begin_sec) for touch in self.collisions
-            ),
-            pushed={
-                name: replace(push, time_sec=push.time_sec - begin_sec)
-                for name, push in self.pushed.items()
-            },
-            # A disturbance before the drive was there when it began.
-            disturbances=tuple(
+            self, rows=rows, collisions=collisions, pushed=pushed, disturbances=disturbances
+        )
+
+    def events_since(
+        self, begin_sec: float
+    ) -> tuple[tuple[Collision, ...], tuple[Disturbance, ...]]:
+        """Return the events with times since the drive began; others were there by then."""
+        collisions, disturbances = self.collisions, self.disturbances
+        return (
+            tuple(replace(entry, time_sec=entry.time_sec - begin_sec) for entry in collisions),
+            tuple(
                 replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
-                for entry in self.disturbances
+                for entry in disturbances
             ),
         )
 

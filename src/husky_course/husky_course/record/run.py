@@ -9,7 +9,7 @@ has negative times.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 import hashlib
 import math
 
@@ -21,6 +21,7 @@ from husky_course.record.contents import Collision, COLUMNS, Columns, Disturbanc
 from husky_course.record.record import Record, RecordRefused
 
 Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -45,6 +46,15 @@ class Run(Columns[Array]):
         cos, sin = math.cos(yaw0), math.sin(yaw0)
         return x0 + cos * x - sin * y, y0 + sin * x + cos * y
 
+    def spread(self, most: int, begin: int = 0, end: int | None = None) -> Indices:
+        """Return entries, the first and the last among them, evenly spread over the way driven."""
+        x, y = self.x[begin:end], self.y[begin:end]
+        if len(x) <= most:
+            return begin + np.arange(len(x))
+        way_m = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+        evenly = np.searchsorted(way_m, np.linspace(0.0, way_m[-1], most - 2))
+        return begin + np.unique([0, *np.minimum(evenly, len(x) - 1), len(x) - 1])
+
 
 def read_run(record: Record, robot: str | None = None) -> Run:
     """
@@ -67,20 +77,13 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         'y': cos * moved_y - sin * moved_x,
         'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
     }
+    collisions, disturbances = record.events_since(begin_sec)
     return Run(
         **table,
         begin=begin,
         start=(start.x, start.y, start.yaw),
-        collisions=tuple(
-            replace(touch, time_sec=touch.time_sec - begin_sec)
-            for touch in record.collisions
-            if touch.robot == start.name
-        ),
-        # A disturbance before the drive was there when it began.
-        disturbances=tuple(
-            replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
-            for entry in record.disturbances
-        ),
+        collisions=tuple(touch for touch in collisions if touch.robot == start.name),
+        disturbances=disturbances,
         obstacles=record.obstacles,
         min_clearance_m=record.min_clearance_m(place),
         trajectory_sha256=_digest(record, place),

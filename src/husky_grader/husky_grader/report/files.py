@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The files of a report (report.json, report.html and path.png), and its summary as text."""
+"""A report as text, as report.json, as a page (report.html) and as a picture (path.png)."""
 
 from __future__ import annotations
 
@@ -14,11 +14,14 @@ from typing import Any
 from husky_course.printable import printable
 from husky_course.record import Run
 from husky_course.route import Route
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
 
-from husky_grader.report.map import run_map, write_picture
-from husky_grader.report.page import page
-from husky_grader.scoring.report import Report
+from husky_grader.report.map import Map, map_key, map_svg, run_map, STYLE_FOLDER, write_picture
+from husky_grader.report.plot import MAX_POINTS, Plot
+from husky_grader.scoring.report import FORMULA, FULL_TRACKING_M, Report
 
+COURSE_FILE = 'waypoints.yaml'
 REPORT_FILES = ('report.json', 'report.html', 'path.png')
 JSON_KEYS = (
     *('course', 'passed', 'completed', 'ended_early', 'waypoints_reached', 'waypoints_total'),
@@ -53,14 +56,16 @@ def is_report(content: object) -> bool:
     )
 
 
-def write_report(folder: Path, report: Report, run: Run, route: Route) -> None:
-    """Write the three files, each whole or not at all."""
+def write_report(folder: Path, report: Report, run: Run, route: Route) -> dict[str, Any]:
+    """Write the three files, each whole or not at all; return what report.json holds."""
     folder.mkdir(parents=True, exist_ok=True)
+    content = as_json(report)
+    _write(folder / 'report.json', json.dumps(content, indent=2) + '\n')
     scene = run_map(run, route, report)
-    _write(folder / 'report.json', json.dumps(as_json(report), indent=2) + '\n')
-    _write(folder / 'report.html', page(report, run, scene))
     with replacing(folder / 'path.png') as part:
         write_picture(scene, part)
+    _write(folder / 'report.html', page(report, run, scene))
+    return content
 
 
 def summary(report: Report) -> str:
@@ -89,6 +94,14 @@ def _write(path: Path, text: str) -> None:
         part.write_text(text, encoding='utf-8')
 
 
+def keep_course(file: Path, folder: Path) -> None:
+    """Keep the file beside the record of its run, for `./lab view`."""
+    kept = folder / COURSE_FILE
+    if not (kept.exists() and kept.samefile(file)):
+        with replacing(kept) as part:
+            part.write_bytes(file.read_bytes())
+
+
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """Give the name of a file to write; it takes the place of `path`, unless something fails."""
@@ -98,3 +111,74 @@ def replacing(path: Path) -> Iterator[Path]:
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def page(report: Report, run: Run, scene: Map) -> str:
+    """Return the page as HTML text."""
+    # Names of obstacles and nodes come from others: control characters are shown, HTML escaped.
+    environment = Environment(
+        loader=FileSystemLoader(STYLE_FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        finalize=lambda value: printable(value) if type(value) is str else value,
+    )
+    style = ''.join(
+        (STYLE_FOLDER / name).read_text(encoding='utf-8') for name in ('report.css', 'map.css')
+    )
+    return environment.get_template('report.html.jinja').render(
+        report=report,
+        style=Markup(style),
+        map={'svg': Markup(map_svg(scene)), 'key': map_key(scene)},
+        plots=_plots(report, run),
+        formula=_formula(),
+    )
+
+
+def _plots(report: Report, run: Run) -> list[dict[str, Any]]:
+    begin, end = report.begin, report.end + 1
+    if end - begin < 2:
+        return []
+    shown = slice(begin, end, max(1, (end - begin) // MAX_POINTS))
+    times = run.time_sec[shown].tolist()
+    touched = [touch.time_sec for touch in report.collisions]
+    full = (-FULL_TRACKING_M, FULL_TRACKING_M)
+    errors = {'true': report.errors_m[shown].tolist()}
+    speeds = {
+        'asked': report.asked_m_s[shown].tolist(),
+        'commanded': run.command_speed_m_s[shown].tolist(),
+        'true': run.speed_m_s[shown].tolist(),
+    }
+    error = Plot('metres off the path over seconds', times, errors, full, touched)
+    speed = Plot('metres per second over seconds', times, speeds, None, touched)
+    collision = [('bad', 'collision')] if touched else []
+    return [
+        {
+            'title': 'Off the path, m over s',
+            'note': 'to the left of it is positive',
+            'svg': Markup(error.svg()),
+            'key': [('band-good', f'within {FULL_TRACKING_M:.2f} m'), *collision],
+        },
+        {
+            'title': 'Speed, m/s over s',
+            'note': 'backwards is negative',
+            'svg': Markup(speed.svg()),
+            'key': [
+                *(('given', 'asked'), ('believed', 'commanded'), ('true', 'true')),
+                *collision,
+            ],
+        },
+    ]
+
+
+def _formula() -> dict[str, Any]:
+    """Split the formula into entries: a name begins one, deeper lines go on with it."""
+    first, *lines = FORMULA.splitlines()
+    parts: list[tuple[str, str]] = []
+    for line in lines:
+        if line[2] == ' ':
+            parts[-1] = (parts[-1][0], f'{parts[-1][1]} {line.strip()}')
+        else:
+            name, text = line.split(maxsplit=1)
+            parts.append((name, text))
+    return {'first': first, 'parts': parts}

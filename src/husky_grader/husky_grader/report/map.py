@@ -24,7 +24,6 @@ import numpy as np
 import numpy.typing as npt
 
 from husky_grader.report.plot import ticks
-from husky_grader.scoring.alignment import spread
 from husky_grader.scoring.report import Report
 
 Array = npt.NDArray[np.float64]
@@ -107,9 +106,8 @@ def course_map(
 
 def run_map(run: Run, route: Route, report: Report) -> Map:
     """Return the map of a run."""
-    seen = spread(run.x, run.y, MAX_POINTS)
-    driven = slice(report.begin, report.end + 1)
-    beside = spread(run.x[driven], run.y[driven], MAX_POINTS) + report.begin
+    seen = run.spread(MAX_POINTS)
+    beside = run.spread(MAX_POINTS, report.begin, report.end + 1)
     asked = np.array([route.curve.point_at(along) for along in report.along_m[beside]])
     missed = [i for i, got in enumerate(report.visits) if not got]  # a loop's last is its first
     return replace(
@@ -132,6 +130,19 @@ def map_svg(scene: Map) -> str:
         f'<svg class="map" viewBox="0 0 {drawing.width:.0f} {drawing.height:.0f}" role="img" '
         f'aria-label="map of the run">{"".join(_elements(scene, drawing))}</svg>'
     )
+
+
+def map_key(scene: Map) -> list[tuple[str, str]]:
+    """Return the colours on the map, as CSS variables, and what they mean."""
+    key = [
+        ('given', 'given path and its waypoints'),
+        ('band', f'within {scene.tolerance_m:g} m of it'),
+        ('true', 'true path'),
+        ('believed', 'believed path (odometry)'),
+        ('error', 'error: between true and given'),
+    ]
+    key += [('bad', 'waypoint missed')] if scene.missed else []
+    return key + ([('bad', 'collision, with its number below')] if scene.marks else [])
 
 
 def picture_svg(scene: Map) -> str:

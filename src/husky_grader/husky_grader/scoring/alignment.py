@@ -11,8 +11,10 @@ distance (dynamic time warping with free steps along the path, by dynamic progra
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+import math
 
+from husky_course.record import Run
 from husky_course.route import Curve
 from husky_course.waypoints import Course, Waypoint
 import numpy as np
@@ -25,26 +27,28 @@ CHUNK = 500  # entries, ten seconds: compared with a waypoint by their bounding 
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
+Frame = Callable[[Array, Array], tuple[Array, Array]]  # from odom into another frame
 
 
-def align(curve: Curve, x: Array, y: Array) -> tuple[Array, Array]:
-    """Return for every pose its place along the curve and its offset to the left of it."""
-    picked = spread(x, y, MAX_POSES)
+def align(run: Run, curve: Curve) -> tuple[Array, Array]:
+    """Return for every entry its place along the curve and its offset to the left of it."""
+    return _align(curve, run.spread(MAX_POSES), run.x, run.y)
+
+
+def mistaken_frames(run: Run, curve: Curve, frames: Mapping[str, Frame]) -> dict[str, float]:
+    """Return how far the run is off the curve, RMS, if it was driven in one of the frames."""
+    picked = run.spread(MAX_POSES)
+    offsets = {name: _align(curve, picked, *to(run.x, run.y))[1] for name, to in frames.items()}
+    return {name: math.sqrt(float(np.mean(offset**2))) for name, offset in offsets.items()}
+
+
+def _align(curve: Curve, picked: Indices, x: Array, y: Array) -> tuple[Array, Array]:
     places = _places(curve)
     path = np.array([curve.point_at(s) for s in places])
     steps = _best_steps(path, np.stack([x[picked], y[picked]], axis=1))
     near = np.array([curve.index_at(places[step]) for step in steps])
     before = np.searchsorted(picked, np.arange(len(x)), side='right') - 1
     return projected(curve, near[before], x, y)
-
-
-def spread(x: Array, y: Array, most: int) -> Indices:
-    """Return entries, the first and the last among them, evenly spread over the way driven."""
-    if len(x) <= most:
-        return np.arange(len(x))
-    way_m = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-    evenly = np.searchsorted(way_m, np.linspace(0.0, way_m[-1], most - 2))
-    return np.unique(np.concatenate([[0], np.minimum(evenly, len(x) - 1), [len(x) - 1]]))
 
 
 def projected(curve: Curve, near: Indices, x: Array, y: Array) -> tuple[Array, Array]:
@@ -103,7 +107,7 @@ def _best_steps(path: Array, poses: Array) -> list[int]:
     return steps
 
 
-def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
+def waypoints_in_order(run: Run, course: Course) -> tuple[bool, ...]:
     """
     Tell for each of `course.stops` whether the run reached it.
 
@@ -111,6 +115,7 @@ def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
     (longest increasing subsequence): one that was left out costs itself, not all that follow.
     The last stop of a loop counts when the run ends there and reached half of the others.
     """
+    x, y = run.x[run.begin :], run.y[run.begin :]
     boxes = _boxes(x, y)
     stays = [_stays(boxes, x, y, point, course.tolerance_m) for point in course.waypoints]
     # As long as the same waypoints are near, one entry tells as much as all of them.
@@ -126,7 +131,7 @@ def waypoints_in_order(course: Course, x: Array, y: Array) -> list[bool]:
     if course.loop:
         back = bool(stays[0].size) and bool(stays[0][-1, 1] == len(x))
         reached.append(back and 2 * sum(reached) >= len(reached))
-    return reached
+    return tuple(reached)
 
 
 def _boxes(x: Array, y: Array) -> Array:

@@ -70,8 +70,8 @@ class _AskedMotion:
 def measure(run: Run, route: Route) -> Measurement:
     """Return the measurements of a run."""
     course, curve = route.course, route.curve
-    along, errors = align(curve, run.x, run.y)
-    visits = waypoints_in_order(course, run.x[run.begin :], run.y[run.begin :])
+    along, errors = align(run, curve)
+    visits = waypoints_in_order(run, course)
     end = _end(run)
     judged = _judged(run, course, end)
     stands = _stands_at_end(run, course)
@@ -84,7 +84,7 @@ def measure(run: Run, route: Route) -> Measurement:
         stands_at_end=stands,
         waypoints_reached=sum(visits),
         waypoints_total=len(visits),
-        visits=tuple(visits),
+        visits=visits,
         collisions=run.collisions,
         disturbances=run.disturbances,
         cross_track_rms_m=math.sqrt(float(np.mean(errors[judged] ** 2))) if len(judged) else 0.0,

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 import math
 
@@ -14,7 +14,7 @@ from husky_course.waypoints import Course
 import numpy as np
 import numpy.typing as npt
 
-from husky_grader.scoring.alignment import align, waypoints_in_order
+from husky_grader.scoring.alignment import Frame, mistaken_frames, waypoints_in_order
 from husky_grader.scoring.measurement import ENOUGH_M, Measurement, STANDING_M_S
 
 MAX_LINES = 4  # of one kind
@@ -28,28 +28,27 @@ ROUNDS = 2.0
 ORDER_SHARE = 0.8  # of the waypoints but the first, where every run begins
 
 Array = npt.NDArray[np.float64]
-Turn = Callable[[Array, Array], tuple[Array, Array]]
-
-MISTAKES: tuple[tuple[str, Turn], ...] = (
-    ('mirrored: y is to the left of the Husky, not to its right', lambda x, y: (x, -y)),
-    ('with x and y swapped: x is forward, y is to the left', lambda x, y: (y, x)),
-    ('turned by 180 degrees: x is forward, not backward', lambda x, y: (-x, -y)),
-    ('turned by 90 degrees to the left: x is forward, y is to the left', lambda x, y: (y, -x)),
-    ('turned by 90 degrees to the right: x is forward, y is to the left', lambda x, y: (-y, x)),
-)
+FRAMES: dict[str, Frame] = {
+    'mirrored: y is to the left of the Husky, not to its right': lambda x, y: (x, -y),
+    'with x and y swapped: x is forward, y is to the left': lambda x, y: (y, x),
+    'turned by 180 degrees: x is forward, not backward': lambda x, y: (-x, -y),
+    'turned by 90 degrees to the left: x is forward, y is to the left': lambda x, y: (y, -x),
+    'turned by 90 degrees to the right: x is forward, y is to the left': lambda x, y: (-y, x),
+}
 
 
 def reasons_for(run: Run, route: Route, measured: Measurement) -> tuple[str, ...]:
     """Return one line for each thing that went wrong, most important first."""
     course = route.course
-    guesses = [] if all(measured.visits) else _guesses(run, route, measured)
     first = [*disturbance_lines(run), *_early_end(run)]
     if not _moved(run):
-        return (*first, _why_still(run), *guesses)
-    wrong_way = _wrong_way(measured)
-    lines = [*_collisions(run), *_missed(run, course, measured.visits)]
-    lines += _ending(run, course, all(measured.visits))
-    found = [*wrong_way, *lines] if measured.wrong_way > 0.5 else [*lines, *wrong_way]
+        found = [_why_still(run)]
+    else:
+        found = [*_collisions(run), *_missed(run, course, measured.visits)]
+        found += _ending(run, course, all(measured.visits))
+        wrong_way = _wrong_way(measured)
+        found = [*wrong_way, *found] if measured.wrong_way > 0.5 else [*found, *wrong_way]
+    guesses = [] if all(measured.visits) else _guesses(run, route, measured)
     return (*first, *found, *guesses)
 
 
@@ -152,14 +151,13 @@ def _wrong_way(measured: Measurement) -> list[str]:
 
 def _guesses(run: Run, route: Route, measured: Measurement) -> list[str]:
     """Return typical mistakes that leave such a run; nothing where none fits."""
-    lines = [*_units(run), *_rounds(run, route.curve), *_order(run, route.course)]
+    lines = [*_units(run), *_rounds(run, route.curve), *_order(run, route.course, measured)]
     return lines or _frame(run, route.curve, measured)
 
 
-def _order(run: Run, course: Course) -> list[str]:
-    back = replace(course, waypoints=course.waypoints[::-1])
-    reached, in_order = (waypoints_in_order(c, run.x, run.y) for c in (back, course))
-    if sum(reached) <= max(sum(in_order), ORDER_SHARE * (len(reached) - 1)):
+def _order(run: Run, course: Course, measured: Measurement) -> list[str]:
+    back = waypoints_in_order(run, replace(course, waypoints=course.waypoints[::-1]))
+    if sum(back) <= max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1)):
         return []
     return ['it drove the course from its end to its beginning: keep the order of the file']
 
@@ -201,10 +199,7 @@ def _rounds(run: Run, curve: Curve) -> list[str]:
 def _frame(run: Run, curve: Curve, measured: Measurement) -> list[str]:
     if measured.cross_track_rms_m < FAR_M or measured.driven_m < DRIVEN_M:
         return []
-    best, what = measured.cross_track_rms_m / 2, ''
-    for name, turn in MISTAKES:
-        _, offsets = align(curve, *turn(run.x, run.y))
-        rms = math.sqrt(float(np.mean(offsets**2)))
-        if rms < min(best, NEAR_M):
-            best, what = rms, name
-    return [f'it drove the course {what}'] if what else []
+    rms_m = mistaken_frames(run, curve, FRAMES)
+    best = min(rms_m, key=rms_m.__getitem__)
+    likely = rms_m[best] < min(measured.cross_track_rms_m / 2, NEAR_M)
+    return [f'it drove the course {best}'] if likely else []
