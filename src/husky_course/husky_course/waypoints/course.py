@@ -8,7 +8,9 @@ The checker reads by this table; the JSON schema for editors is made from it, se
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 MIN_SPEED_M_S = 0.05
 MAX_SPEED_M_S = 1.0  # the velocity controller's limit
@@ -49,78 +51,54 @@ class Course:
 
 
 @dataclass(frozen=True)
-class Number:
-    """A field with a number in a range."""
+class Field:
+    """A field of a waypoint file: the attribute it becomes, and the JSON schema of its value."""
 
     attribute: str
     description: str
-    low: float
-    high: float
-    unit: str
+    schema: Mapping[str, Any]
+    unit: str = ''
 
 
-@dataclass(frozen=True)
-class Choice:
-    """A field with one of some words."""
-
-    attribute: str
-    description: str
-    words: tuple[str, ...]
+def _number(low: float, high: float) -> Mapping[str, Any]:
+    return {'type': 'number', 'minimum': low, 'maximum': high}
 
 
-@dataclass(frozen=True)
-class Truth:
-    """A field that is true or false."""
+_COORDINATE = _number(-MAX_COORDINATE_M, MAX_COORDINATE_M)
+_SPEED = _number(MIN_SPEED_M_S, MAX_SPEED_M_S)
+_TRUTH = {'type': 'boolean'}
+_NOT_FIRST = 'not for the first, unless loop is true.'
 
-    attribute: str
-    description: str
-
-
-@dataclass(frozen=True)
-class Waypoints:
-    """The list of waypoints: each a pair [x, y], or a mapping of WAYPOINT_FIELDS."""
-
-    attribute: str
-    description: str
-    least: int
-    most: int
-
-
-Field = Number | Choice | Truth | Waypoints
-
-REQUIRED_OF_A_WAYPOINT = ('x', 'y')
-WAYPOINT_FIELDS: dict[str, Field] = {
-    'x': Number('x_m', 'm forward of the start.', -MAX_COORDINATE_M, MAX_COORDINATE_M, 'm'),
-    'y': Number('y_m', 'm left of the start.', -MAX_COORDINATE_M, MAX_COORDINATE_M, 'm'),
-    'speed': Number(
-        'speed_m_s', 'm/s on the way to this waypoint.', MIN_SPEED_M_S, MAX_SPEED_M_S, 'm/s'
-    ),
-    'yaw': Number(
+WAYPOINT_FIELDS = {
+    'x': Field('x_m', 'm forward of the start.', _COORDINATE, 'm'),
+    'y': Field('y_m', 'm left of the start.', _COORDINATE, 'm'),
+    'speed': Field('speed_m_s', 'm/s on the way to this waypoint.', _SPEED, 'm/s'),
+    'yaw': Field(
         'yaw_rad',
-        'rad: stop here and turn to this heading; not for the first, unless loop is true.',
-        *(-6.2832, 6.2832, 'rad'),
+        f'rad: stop here and turn to this heading; {_NOT_FIRST}',
+        _number(-6.2832, 6.2832),
+        'rad',
     ),
-    'dwell': Number(
-        'dwell_sec',
-        's: stand here for so long; not for the first, unless loop is true.',
-        *(0.0, 600.0, 's'),
-    ),
-    'reverse': Truth('reverse', 'true: drive backwards on the way to this waypoint.'),
+    'dwell': Field('dwell_sec', f's: stand here for so long; {_NOT_FIRST}', _number(0, 600), 's'),
+    'reverse': Field('reverse', 'true: drive backwards on the way to this waypoint.', _TRUTH),
 }
-COURSE_FIELDS: dict[str, Field] = {
-    'frame': Choice('frame', 'The frame of the coordinates.', ('odom',)),
-    'speed': Number('speed_m_s', 'm/s along the path.', MIN_SPEED_M_S, MAX_SPEED_M_S, 'm/s'),
-    'tolerance': Number(
-        'tolerance_m', 'm, how near to a waypoint counts as reached.', 0.05, 1.0, 'm'
+REQUIRED_OF_A_WAYPOINT = ('x', 'y')
+COURSE_FIELDS = {
+    'frame': Field('frame', 'The frame of the coordinates.', {'enum': ('odom',)}),
+    'speed': Field('speed_m_s', 'm/s along the path.', _SPEED, 'm/s'),
+    'tolerance': Field(
+        'tolerance_m', 'm, how near to a waypoint counts as reached.', _number(0.05, 1.0), 'm'
     ),
-    'loop': Truth('loop', 'true: come back to the first waypoint.'),
-    'corners': Choice(
+    'loop': Field('loop', 'true: come back to the first waypoint.', _TRUTH),
+    'corners': Field(
         'corners',
         'smooth: one curve through all waypoints, but a turn of more than 120 degrees, or tighter '
         'than 5 cm of radius, is made on the spot; sharp: straight lines and turns on the spot.',
-        ('smooth', 'sharp'),
+        {'enum': ('smooth', 'sharp')},
     ),
-    'waypoints': Waypoints(
-        'waypoints', 'The places to drive through, in order.', 2, MAX_WAYPOINTS
+    'waypoints': Field(
+        'waypoints',
+        'The places to drive through, in order.',
+        {'type': 'array', 'minItems': 2, 'maxItems': MAX_WAYPOINTS},
     ),
 }

@@ -8,21 +8,18 @@ The JSON schema of a waypoint file, for editors, made from the table of its fiel
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 import json
 from typing import Any
 
 from husky_course.waypoints.course import (
-    Choice,
     Course,
     COURSE_FIELDS,
     Field,
-    Number,
     REQUIRED_OF_A_WAYPOINT,
     Waypoint,
     WAYPOINT_FIELDS,
-    Waypoints,
 )
 
 DESCRIPTION = (
@@ -32,51 +29,35 @@ DESCRIPTION = (
 
 def schema_text() -> str:
     """Return the schema as the text of its file."""
-    schema = {
+    course = _mapping(COURSE_FIELDS, ('waypoints',), Course)
+    pair = [WAYPOINT_FIELDS[name].schema for name in REQUIRED_OF_A_WAYPOINT]
+    kinds = [
+        {'type': 'array', 'prefixItems': pair, 'minItems': 2, 'maxItems': 2},
+        _mapping(WAYPOINT_FIELDS, REQUIRED_OF_A_WAYPOINT, Waypoint),
+    ]
+    course['properties']['waypoints']['items'] = {'anyOf': kinds}
+    head = {
         '$schema': 'https://json-schema.org/draft/2020-12/schema',
         'title': 'Waypoint file',
         'description': DESCRIPTION,
-        **_mapping(COURSE_FIELDS, ('waypoints',), Course),
     }
-    return json.dumps(schema, indent=2) + '\n'
+    return json.dumps(head | course, indent=2) + '\n'
 
 
 def _mapping(
-    table: Mapping[str, Field], required: tuple[str, ...], made: type[Course | Waypoint]
+    table: Mapping[str, Field], required: Sequence[str], made: type[Course | Waypoint]
 ) -> dict[str, Any]:
     defaults = {entry.name: entry.default for entry in fields(made)}
     properties = {}
-    for name, entry in table.items():
-        properties[name] = {'description': entry.description, **_schema(entry)}
-        if name not in required and defaults[entry.attribute] is not None:
-            properties[name]['default'] = defaults[entry.attribute]
+    for name, field in table.items():
+        properties[name] = {'description': field.description, **field.schema}
+        if name not in required and defaults[field.attribute] is not None:
+            properties[name]['default'] = defaults[field.attribute]
     return {
         'type': 'object',
-        'required': list(required),
+        'required': required,
         'additionalProperties': False,
         'properties': properties,
-    }
-
-
-def _schema(entry: Field) -> dict[str, Any]:
-    if isinstance(entry, Number):
-        return {'type': 'number', 'minimum': entry.low, 'maximum': entry.high}
-    if isinstance(entry, Choice):
-        return {'enum': list(entry.words)}
-    if not isinstance(entry, Waypoints):
-        return {'type': 'boolean'}
-    pair = [_schema(WAYPOINT_FIELDS[name]) for name in REQUIRED_OF_A_WAYPOINT]
-    point = _mapping(WAYPOINT_FIELDS, REQUIRED_OF_A_WAYPOINT, Waypoint)
-    return {
-        'type': 'array',
-        'minItems': entry.least,
-        'maxItems': entry.most,
-        'items': {
-            'anyOf': [
-                {'type': 'array', 'prefixItems': pair, 'minItems': 2, 'maxItems': 2},
-                point,
-            ]
-        },
     }
 
 

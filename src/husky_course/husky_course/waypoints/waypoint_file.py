@@ -11,16 +11,12 @@ from pathlib import Path
 import re
 
 from husky_course.waypoints.course import (
-    Choice,
     Course,
     COURSE_FIELDS,
     Field,
-    Number,
     REQUIRED_OF_A_WAYPOINT,
-    Truth,
     Waypoint,
     WAYPOINT_FIELDS,
-    Waypoints,
 )
 from husky_course.waypoints.yaml_tree import FileRefused, parse_yaml, Problem, read_yaml, Value
 
@@ -98,29 +94,27 @@ class _Checker:
         return result
 
     def _field(self, field: Field, value: Value, name: str) -> object:
-        if isinstance(field, Number):
-            return self._number(field, value, name)
-        if isinstance(field, Choice):
+        if 'enum' in field.schema:
             return self._word(field, value, name)
-        if isinstance(field, Truth):
-            return self._truth(value, name)
-        return self._waypoints(field, value, name)
+        read = {'number': self._number, 'boolean': self._truth, 'array': self._waypoints}
+        return read[field.schema['type']](field, value, name)
 
-    def _number(self, field: Number, value: Value, name: str) -> float | None:
-        allowed = f'allowed is {field.low:g} to {field.high:g} {field.unit}'
+    def _number(self, field: Field, value: Value, name: str) -> float | None:
+        low, high = field.schema['minimum'], field.schema['maximum']
+        allowed = f'allowed is {low:g} to {high:g} {field.unit}'
         if value.kind != 'scalar' or value.quoted or not _NUMBER.fullmatch(value.text):
             why = ' (a number without quotes)' if value.quoted else _number_hint(value)
             self._wrong(value, name, f'{value} is not a number{why}; {allowed}')
             return None
         number = float(value.text)
-        if not field.low <= number <= field.high:
+        if not low <= number <= high:
             self._wrong(
                 value, name, f'{value} is out of range; {allowed}{_range_hint(field, value)}'
             )
             return None
         return number
 
-    def _truth(self, value: Value, name: str) -> bool | None:
+    def _truth(self, _: Field, value: Value, name: str) -> bool | None:
         if value.kind == 'scalar' and not value.quoted and value.text in ('true', 'false'):
             return value.text == 'true'
         near = {'yes': 'true', 'on': 'true', '1': 'true', 'no': 'false', 'off': 'false'}
@@ -130,19 +124,21 @@ class _Checker:
         self._wrong(value, name, f'{value} is not allowed; write true or false{hint}')
         return None
 
-    def _word(self, field: Choice, value: Value, name: str) -> str | None:
-        if value.kind == 'scalar' and value.text in field.words:
+    def _word(self, field: Field, value: Value, name: str) -> str | None:
+        words = field.schema['enum']
+        if value.kind == 'scalar' and value.text in words:
             return value.text
-        self._wrong(value, name, f'{value} is not allowed; {_choice(value, field.words)}')
+        self._wrong(value, name, f'{value} is not allowed; {_choice(value, words)}')
         return None
 
-    def _waypoints(self, field: Waypoints, value: Value, name: str) -> tuple[Waypoint, ...] | None:
+    def _waypoints(self, field: Field, value: Value, name: str) -> tuple[Waypoint, ...] | None:
         if value.kind != 'list':
             self._wrong(value, name, f"{value} instead of a list; write one '- [x, y]' a line")
             return None
-        if not field.least <= len(value.items) <= field.most:
+        least, most = field.schema['minItems'], field.schema['maxItems']
+        if not least <= len(value.items) <= most:
             count = len(value.items)
-            self._wrong(value, name, f'{count} given; allowed are {field.least} to {field.most}')
+            self._wrong(value, name, f'{count} given; allowed are {least} to {most}')
             return None
         read = [self._waypoint(item, f'{name}[{i}]') for i, item in enumerate(value.items)]
         complete = tuple(point for point in read if point is not None)
@@ -223,7 +219,7 @@ def _number_hint(value: Value) -> str:
     return f' (write {unit[1]}, without the unit)' if unit else ''
 
 
-def _range_hint(field: Number, value: Value) -> str:
+def _range_hint(field: Field, value: Value) -> str:
     if field.attribute == 'speed_m_s' and value.text.startswith('-'):
         return '; to drive backwards write reverse: true'
     if field.attribute == 'yaw_rad' and 2 * math.pi < abs(float(value.text)) <= 720:

@@ -17,7 +17,7 @@ from husky_course.route import Route
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from husky_grader.report.map import Map, map_key, map_svg, run_map, STYLE_FOLDER, write_picture
+from husky_grader.report.map import Key, map_key, map_svg, run_map, STYLE_FOLDER, write_picture
 from husky_grader.report.plot import MAX_POINTS, Plot
 from husky_grader.scoring.report import FORMULA, FULL_TRACKING_M, Report
 
@@ -64,7 +64,7 @@ def write_report(folder: Path, report: Report, run: Run, route: Route) -> dict[s
     scene = run_map(run, route, report)
     with replacing(folder / 'path.png') as part:
         write_picture(scene, part)
-    _write(folder / 'report.html', page(report, run, scene))
+    _write(folder / 'report.html', page(report, run, map_svg(scene), map_key(scene)))
     return content
 
 
@@ -113,8 +113,13 @@ def replacing(path: Path) -> Iterator[Path]:
         part.unlink(missing_ok=True)
 
 
-def page(report: Report, run: Run, scene: Map) -> str:
-    """Return the page as HTML text."""
+def page(report: Report, run: Run, drawing: str, key: Key) -> str:
+    """
+    Return the page as HTML text.
+
+    :param drawing: the map as SVG.
+    :param key: the colours on the map, and what they mean.
+    """
     # Names of obstacles and nodes come from others: control characters are shown, HTML escaped.
     environment = Environment(
         loader=FileSystemLoader(STYLE_FOLDER),
@@ -129,7 +134,7 @@ def page(report: Report, run: Run, scene: Map) -> str:
     return environment.get_template('report.html.jinja').render(
         report=report,
         style=Markup(style),
-        map={'svg': Markup(map_svg(scene)), 'key': map_key(scene)},
+        map={'svg': Markup(drawing), 'key': key},
         plots=_plots(report, run),
         formula=_formula(),
     )

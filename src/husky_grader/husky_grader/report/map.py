@@ -43,6 +43,7 @@ FONT_FILE = '**/studio/assets/AtkinsonHyperlegibleNext*.ttf'
 SYSTEM_FONT = 'DejaVu Sans'  # where MuJoCo has none
 STYLE_FOLDER = Path(__file__).parent
 
+Key = list[tuple[str, str]]  # colours, as CSS variables, and what they mean
 Bounds = tuple[float, float, float, float]  # least and greatest x and y, in metres
 
 
@@ -132,7 +133,7 @@ def map_svg(scene: Map) -> str:
     )
 
 
-def map_key(scene: Map) -> list[tuple[str, str]]:
+def map_key(scene: Map) -> Key:
     """Return the colours on the map, as CSS variables, and what they mean."""
     key = [
         ('given', 'given path and its waypoints'),

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 import math
 
 from husky_course.record import Run
-from husky_course.route import Curve
+from husky_course.route import Curve, Route
 from husky_course.waypoints import Course, Waypoint
 import numpy as np
 import numpy.typing as npt
@@ -30,9 +31,19 @@ Indices = npt.NDArray[np.int64]
 Frame = Callable[[Array, Array], tuple[Array, Array]]  # from odom into another frame
 
 
-def align(run: Run, curve: Curve) -> tuple[Array, Array]:
-    """Return for every entry its place along the curve and its offset to the left of it."""
-    return _align(curve, run.spread(MAX_POSES), run.x, run.y)
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """A run laid along its path: two numbers an entry, and which of `Course.stops` it reached."""
+
+    along_m: Array
+    errors_m: Array  # to the left of the path
+    visits: tuple[bool, ...]
+
+
+def align(run: Run, route: Route) -> Alignment:
+    """Return the places of a run on its path, and the waypoints that it reached in order."""
+    along, errors = _align(route.curve, run.spread(MAX_POSES), run.x, run.y)
+    return Alignment(along, errors, waypoints_in_order(run, route.course))
 
 
 def mistaken_frames(run: Run, curve: Curve, frames: Mapping[str, Frame]) -> dict[str, float]:
@@ -43,6 +54,7 @@ def mistaken_frames(run: Run, curve: Curve, frames: Mapping[str, Frame]) -> dict
 
 
 def _align(curve: Curve, picked: Indices, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return for every pose its place along the curve and its offset to the left of it."""
     places = _places(curve)
     path = np.array([curve.point_at(s) for s in places])
     steps = _best_steps(path, np.stack([x[picked], y[picked]], axis=1))

@@ -13,7 +13,7 @@ from husky_course.waypoints import Course
 import numpy as np
 import numpy.typing as npt
 
-from husky_grader.scoring.alignment import align, waypoints_in_order
+from husky_grader.scoring.alignment import Alignment
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -67,11 +67,10 @@ class _AskedMotion:
     cusps_m: Array  # where along the path the direction changes
 
 
-def measure(run: Run, route: Route) -> Measurement:
+def measure(run: Run, route: Route, aligned: Alignment) -> Measurement:
     """Return the measurements of a run."""
-    course, curve = route.course, route.curve
-    along, errors = align(run, curve)
-    visits = waypoints_in_order(run, course)
+    course, visits = route.course, aligned.visits
+    along, errors = aligned.along_m, aligned.errors_m
     end = _end(run)
     judged = _judged(run, course, end)
     stands = _stands_at_end(run, course)
@@ -90,7 +89,7 @@ def measure(run: Run, route: Route) -> Measurement:
         cross_track_rms_m=math.sqrt(float(np.mean(errors[judged] ** 2))) if len(judged) else 0.0,
         cross_track_max_m=float(np.abs(errors[judged]).max(initial=0.0)),
         min_clearance_m=run.min_clearance_m,
-        path_length_m=curve.length_m,
+        path_length_m=route.curve.length_m,
         progress_m=float(along[judged].max(initial=0.0)),
         driven_m=float(np.hypot(np.diff(run.x), np.diff(run.y)).sum()),
         sim_time_sec=float(run.time_sec[end]),

@@ -151,15 +151,18 @@ def _wrong_way(measured: Measurement) -> list[str]:
 
 def _guesses(run: Run, route: Route, measured: Measurement) -> list[str]:
     """Return typical mistakes that leave such a run; nothing where none fits."""
-    lines = [*_units(run), *_rounds(run, route.curve), *_order(run, route.course, measured)]
-    return lines or _frame(run, route.curve, measured)
-
-
-def _order(run: Run, course: Course, measured: Measurement) -> list[str]:
+    course, lines = route.course, [*_units(run), *_rounds(run, route.curve)]
     back = waypoints_in_order(run, replace(course, waypoints=course.waypoints[::-1]))
-    if sum(back) <= max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1)):
-        return []
-    return ['it drove the course from its end to its beginning: keep the order of the file']
+    if sum(back) > max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1)):
+        lines.append(
+            'it drove the course from its end to its beginning: keep the order of the file'
+        )
+    if lines or measured.cross_track_rms_m < FAR_M or measured.driven_m < DRIVEN_M:
+        return lines
+    rms_m = mistaken_frames(run, route.curve, FRAMES)
+    best = min(rms_m, key=rms_m.__getitem__)
+    likely = rms_m[best] < min(measured.cross_track_rms_m / 2, NEAR_M)
+    return [f'it drove the course {best}'] if likely else []
 
 
 def _units(run: Run) -> list[str]:
@@ -194,12 +197,3 @@ def _rounds(run: Run, curve: Curve) -> list[str]:
         f'it turned {extra:.1f} rounds more than the path does: angles are in radians, and an '
         'angle between two headings must be brought back to -pi..pi'
     ]
-
-
-def _frame(run: Run, curve: Curve, measured: Measurement) -> list[str]:
-    if measured.cross_track_rms_m < FAR_M or measured.driven_m < DRIVEN_M:
-        return []
-    rms_m = mistaken_frames(run, curve, FRAMES)
-    best = min(rms_m, key=rms_m.__getitem__)
-    likely = rms_m[best] < min(measured.cross_track_rms_m / 2, NEAR_M)
-    return [f'it drove the course {best}'] if likely else []

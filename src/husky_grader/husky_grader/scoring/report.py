@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from husky_course.record import read_run, Record, Run
 from husky_course.route import Route
 
+from husky_grader.scoring.alignment import align
 from husky_grader.scoring.measurement import measure, Measurement
 from husky_grader.scoring.reasons import disturbance_lines, reasons_for
 
@@ -84,7 +85,7 @@ def score(
 
 def judge(run: Run, route: Route, *, wall_time_sec: float | None = None) -> Report:
     """Return the report on a run."""
-    measured = measure(run, route)
+    measured = measure(run, route, align(run, route))
     reasons = reasons_for(run, route, measured)
     factors = [
         ('completion', _completion(measured)),
