@@ -110,7 +110,7 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
         ('waypoints: [[0, 0], [999, 0], [-999, 0]]', '2997 m from first to last'),
     ],
 )
-def test_a_mistake_is_refused_with_its_place_and_what_is_allowed(text: str, expected: str) -> None:
+def test_a_mistake_is_refused_with_place_and_allowed_values(text: str, expected: str) -> None:
     assert any(expected in line for line in problems(text))
 
 
@@ -128,7 +128,7 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
             load_course(tmp_path / path)
 
 
-def test_the_first_waypoint_of_no_loop_has_neither_yaw_nor_dwell() -> None:
+def test_the_first_waypoint_has_no_yaw_and_no_dwell() -> None:
     text = 'waypoints:\n  - {x: 0, y: 0, yaw: 0, dwell: 3}\n  - [2, 0]\n  - [2, 2]\n'
     why = 'not for the first waypoint, where the drive begins; leave it out'
     assert problems(text) == [

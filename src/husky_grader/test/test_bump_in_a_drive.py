@@ -27,7 +27,7 @@ def speeds(before: float, after: float) -> list[float]:
 
 
 @pytest.mark.parametrize('speed_m_s', [1.0, 0.15, -0.5])
-def test_a_robot_that_stops_while_its_wheels_turn_is_noticed_within_a_second(
+def test_a_held_robot_is_noticed_within_a_second(
     speed_m_s: float,
 ) -> None:
     noticed = held_sec(speeds(speed_m_s, speed_m_s), speeds(speed_m_s, 0.0))

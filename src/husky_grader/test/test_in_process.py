@@ -19,7 +19,7 @@ import pytest
 
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize('name', ['straight', 'through'])
-def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep(
+def test_one_process_drives_the_trajectory_of_two_nodes(
     name: str, domain: int, courses: Path, tmp_path: Path
 ) -> None:
     file = courses / 'straight.yaml'

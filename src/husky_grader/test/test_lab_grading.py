@@ -78,7 +78,7 @@ def workspace(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(('period_sec', 'points'), [(0.1, 20.0), (0.2, 14.0)])
-def test_a_publisher_that_stands_still_for_a_second_is_judged_by_the_rest(
+def test_a_pause_of_a_publisher_does_not_change_its_rate(
     tmp_path: Path, period_sec: float, points: float
 ) -> None:
     program = tmp_path / 'install' / 'topic_demo' / 'lib' / 'topic_demo' / 'publisher'
@@ -90,7 +90,7 @@ def test_a_publisher_that_stands_still_for_a_second_is_judged_by_the_rest(
 
 
 @pytest.mark.timeout(180)
-def test_a_good_workspace_gets_every_point_but_those_of_the_unfinished_drive(
+def test_a_good_workspace_loses_points_only_for_its_drive(
     workspace: Path, tmp_path: Path, courses: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')

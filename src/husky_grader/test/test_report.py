@@ -45,7 +45,7 @@ def test_the_band_around_the_path_is_as_wide_as_the_tolerance(scene: Map) -> Non
     assert float(width) == pytest.approx(2 * 0.2 * a_metre, abs=0.1)
 
 
-def test_the_error_band_lies_between_the_true_path_and_the_given_one(scene: Map) -> None:
+def test_the_error_lies_between_true_and_given_path(scene: Map) -> None:
     half = len(scene.error) // 2
     there, back = scene.error[:half], scene.error[half:]
     assert max(y for _, y in there) == pytest.approx(0.5)
@@ -54,7 +54,7 @@ def test_the_error_band_lies_between_the_true_path_and_the_given_one(scene: Map)
     assert back[-1][0] < 0.1
 
 
-def test_missed_waypoints_and_collisions_bear_the_numbers_of_the_text(scene: Map) -> None:
+def test_waypoints_and_collisions_are_numbered_as_in_the_text(scene: Map) -> None:
     drawing = map_svg(scene)
     assert re.findall(r'<text class="waypoint"[^>]*>(\d+)<', drawing) == ['1', '3']
     assert re.findall(r'<text class="missed"[^>]*>(\d+)<', drawing) == ['2']

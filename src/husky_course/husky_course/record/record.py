@@ -121,7 +121,7 @@ def read_record(path: str | Path) -> Record:
     """
     Read a record, or the one in a report's folder.
 
-    :raises RecordRefused: if there is none, or nobody could have driven it.
+    :raises RecordRefused: if there is none, or no simulation can have written it.
     """
     file = Path(path)
     if file.is_dir():

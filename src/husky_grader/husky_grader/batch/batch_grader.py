@@ -67,13 +67,12 @@ class BatchGrader:
         return [self.results[number] for number in range(len(self.files))]
 
     def _grade(self, waiting: Sequence[int]) -> None:
-        with _interrupts_held() as release, _workers(min(self._jobs, len(waiting))) as pool:
+        with _workers(min(self._jobs, len(waiting))) as pool:
             futures: dict[Future[Grade], int] = {}
             for number in waiting:
                 folder = self._folder / self.names[number]
                 job = (self.files[number], folder, self._world, self._stalled_cpu_sec)
                 futures[pool.schedule(_grade_in_worker, args=job)] = number
-            release()
             for future in as_completed(futures):
                 number = futures.pop(future)
                 grade = self._result(number, future)
@@ -105,35 +104,27 @@ class BatchGrader:
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[Callable[[], None]]:
-    """
-    Hold Ctrl-C back from this thread, until the yielded function is called.
-
-    Threads and processes inherit it for good: workers that begin in the meantime, and those that
-    the threads of their pool begin later, never see Ctrl-C. The parent decides when it is over.
-    """
-    resource_tracker.ensure_running()  # its start would let interrupts through again
-
-    def release() -> None:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield release
-    finally:
-        release()
-
-
-@contextmanager
 def _workers(count: int) -> Iterator[ProcessPool]:
-    """Open a pool of worker processes; at the end none is left."""
+    """
+    Open a pool of worker processes that never see Ctrl-C; at the end none is left.
+
+    Threads and processes inherit which signals are blocked: the workers from this thread, and
+    those that take their places from the pool's threads.
+    """
     pool = ProcessPool(
         max_workers=count,
         initializer=die_with_parent,
         initargs=(signal.SIGKILL,),
         context=multiprocessing.get_context('spawn'),
     )
+    resource_tracker.ensure_running()  # its start would unblock the signal again
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
+        try:
+            if not pool.active:  # this starts it
+                raise RuntimeError('the pool of workers did not start')
+        finally:
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
         yield pool
     finally:
         pool.stop()

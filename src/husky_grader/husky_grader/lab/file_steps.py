@@ -128,8 +128,10 @@ def sourced(folder: Path) -> dict[str, str]:
     """
     Return the environment after sourcing what was built.
 
-    :raises ValueError: when that fails or takes too long.
+    :raises ValueError: when nothing was built, or sourcing fails or takes too long.
     """
+    if not (folder / 'install' / 'local_setup.bash').is_file():
+        raise ValueError('nothing was built')
     script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
     command = ['bash', '-c', script, str(folder)]
     with (

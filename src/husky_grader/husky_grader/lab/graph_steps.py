@@ -32,14 +32,17 @@ LISTEN_SEC = 3.0
 RATE_HZ, RATE_TOLERANCE = 10.0, 0.15
 
 
-class _Listener(Node):
-    """Publishes and receives on the topic of the lab's first two programs."""
+class _Graph(Node):
+    """A node in a domain of its own, on the topic of the lab's first two programs."""
 
-    def __init__(self, context: rclpy.Context) -> None:
+    def __init__(self, context: rclpy.Context, domain: int) -> None:
         super().__init__('grader', context=context)
+        self.domain = domain
         self.received: list[tuple[float, str]] = []
         self.publisher = self.create_publisher(String, 'topic_test', 10)
         self.create_subscription(String, 'topic_test', self._on_message, 10)
+        self._own_executor = make_executor(context)
+        self._own_executor.add_node(self)
 
     def _on_message(self, msg: String) -> None:
         self.received.append((time.monotonic(), msg.data))
@@ -47,22 +50,14 @@ class _Listener(Node):
     def others(self, infos: list[Any]) -> list[Any]:
         return [info for info in infos if info.node_name != 'grader']
 
-
-class _Graph:
-    """A ROS graph in a domain of its own, with a listener in it."""
-
-    def __init__(self, listener: _Listener, executor: Any, domain: int) -> None:
-        self.listener = listener
-        self.domain = domain
-        self._executor = executor
-
-    def spin_until(self, fact: Callable[[], bool], within_sec: float) -> bool:
+    def spin_until(self, fact: Callable[[], bool], within_sec: float) -> None:
         deadline = time.monotonic() + within_sec
-        while not fact():
-            if time.monotonic() > deadline:
-                return False
-            self._executor.spin_once(timeout_sec=0.05)
-        return True
+        while not fact() and time.monotonic() <= deadline:
+            self._own_executor.spin_once(timeout_sec=0.05)
+
+    def destroy_node(self) -> None:
+        self._own_executor.remove_node(self)
+        super().destroy_node()
 
 
 @contextmanager
@@ -74,14 +69,11 @@ def _own_graph() -> Iterator[_Graph]:
             domain_id=domain.number,
             signal_handler_options=SignalHandlerOptions.NO,
         )
-        listener = _Listener(context)
-        executor = make_executor(context)
-        executor.add_node(listener)
+        graph = _Graph(context, domain.number)
         try:
-            yield _Graph(listener, executor, domain.number)
+            yield graph
         finally:
-            executor.remove_node(listener)
-            listener.destroy_node()
+            graph.destroy_node()
             rclpy.shutdown(context=context)
 
 
@@ -96,32 +88,31 @@ def publisher_step(folder: Path, environment: dict[str, str], most: float) -> St
         environment = {**environment, 'ROS_DOMAIN_ID': str(graph.domain)}
         log = folder / 'publisher.log'
         with log.open('w') as stream, _start(program, environment, stream) as process:
-            listener = graph.listener
             graph.spin_until(
-                lambda: bool(listener.received) or process.exit_code is not None, APPEAR_WITHIN_SEC
+                lambda: bool(graph.received) or process.exit_code is not None, APPEAR_WITHIN_SEC
             )
-            if not listener.received:
-                return failed(name, most, _why_silent(listener, process, log))
-            listener.received.clear()
+            if not graph.received:
+                return failed(name, most, _why_silent(graph, process, log))
+            graph.received.clear()
             graph.spin_until(lambda: False, LISTEN_SEC)
-            return _judge_messages(listener.received, most)
+            return _judge_messages(graph.received, most)
 
 
 def _start(program: Path, environment: dict[str, str], log: IO[str]) -> Process:
     return Process([str(program)], environment, log, parent_death=signal.SIGKILL)
 
 
-def _why_silent(listener: _Listener, process: Process, log: Path) -> str:
+def _why_silent(graph: _Graph, process: Process, log: Path) -> str:
     if process.exit_code is not None:
         return f'it ended with exit code {process.exit_code}: {tail_of(log, 1)}'
-    infos = listener.others(listener.get_publishers_info_by_topic(TOPIC))
+    infos = graph.others(graph.get_publishers_info_by_topic(TOPIC))
     wrong = [info.topic_type for info in infos if info.topic_type != TYPE]
     if wrong:
         return f'it publishes {wrong[0]} on {TOPIC}; the sheet asks for {TYPE}'
     topics = [
         topic
-        for topic, kinds in listener.get_topic_names_and_types()
-        if TYPE in kinds and listener.others(listener.get_publishers_info_by_topic(topic))
+        for topic, kinds in graph.get_topic_names_and_types()
+        if TYPE in kinds and graph.others(graph.get_publishers_info_by_topic(topic))
     ]
     if topics and not infos:
         return f'it publishes on {topics[0]}; the sheet asks for {TOPIC}'
@@ -155,7 +146,7 @@ def subscriber_step(folder: Path, environment: dict[str, str], most: float) -> S
         with log.open('w') as stream, _start(program, environment, stream) as process:
 
             def repeated() -> bool:
-                graph.listener.publisher.publish(String(data=sent))
+                graph.publisher.publish(String(data=sent))
                 graph.spin_until(lambda: False, 0.1)
                 return process.exit_code is not None or sent in _text(log)
 

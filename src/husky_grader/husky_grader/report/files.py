@@ -136,14 +136,16 @@ def page(report: Report, run: Run, drawing: str, key: Key) -> str:
         style=Markup(style),
         map={'svg': Markup(drawing), 'key': key},
         plots=_plots(report, run),
+        full_m=FULL_TRACKING_M,
         formula=_formula(),
     )
 
 
-def _plots(report: Report, run: Run) -> list[dict[str, Any]]:
+def _plots(report: Report, run: Run) -> dict[str, Markup]:
+    """Return the deviation and the speed over time; nothing of a robot that did not drive."""
     begin, end = report.begin, report.end + 1
     if end - begin < 2:
-        return []
+        return {}
     shown = slice(begin, end, max(1, (end - begin) // MAX_POINTS))
     times = run.time_sec[shown].tolist()
     touched = [touch.time_sec for touch in report.collisions]
@@ -156,24 +158,7 @@ def _plots(report: Report, run: Run) -> list[dict[str, Any]]:
     }
     error = Plot('metres off the path over seconds', times, errors, full, touched)
     speed = Plot('metres per second over seconds', times, speeds, None, touched)
-    collision = [('bad', 'collision')] if touched else []
-    return [
-        {
-            'title': 'Off the path, m over s',
-            'note': 'to the left of it is positive',
-            'svg': Markup(error.svg()),
-            'key': [('band-good', f'within {FULL_TRACKING_M:.2f} m'), *collision],
-        },
-        {
-            'title': 'Speed, m/s over s',
-            'note': 'backwards is negative',
-            'svg': Markup(speed.svg()),
-            'key': [
-                *(('given', 'asked'), ('believed', 'commanded'), ('true', 'true')),
-                *collision,
-            ],
-        },
-    ]
+    return {'error': Markup(error.svg()), 'speed': Markup(speed.svg())}
 
 
 def _formula() -> dict[str, Any]:

@@ -23,7 +23,7 @@ MOVED_M = 0.05
 FAR_M = 0.5  # off the path by so much, it is worth guessing
 NEAR_M = 0.3
 DRIVEN_M = 2.0
-DEGREES_RAD_S = 6.3  # nobody means a whole turn a second
+DEGREES_RAD_S = 6.3  # a whole turn a second: meant were degrees
 ROUNDS = 2.0
 ORDER_SHARE = 0.8  # of the waypoints but the first, where every run begins
 
