@@ -6,13 +6,14 @@ setup(
     name='husky_grader',
     version='0.1.0',
     packages=find_packages(exclude=['test']),
+    package_data={'husky_grader': ['report/*.css', 'report/*.jinja']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/husky_grader']),
         ('share/husky_grader', ['package.xml']),
         ('share/husky_grader/launch', ['launch/drive.launch.py']),
     ],
-    install_requires=['setuptools', 'matplotlib', 'numpy'],
-    zip_safe=True,
+    install_requires=['setuptools', 'jinja2', 'numpy', 'pebble', 'resvg-py'],
+    zip_safe=False,
     maintainer='The Husky Playpen Lab authors',
     maintainer_email='husky-playpen-lab@users.noreply.github.com',
     description='Judges runs: check of a course, rehearsal, score, live runs, classes, reports.',
@@ -24,7 +25,7 @@ setup(
             'grade = husky_grader.programs:grade',
         ],
         'husky_driver.route_check': [
-            'playpen = husky_grader.world_check:check_route',
+            'playpen = husky_grader.playpen:check_route',
         ],
     },
 )

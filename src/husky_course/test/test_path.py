@@ -27,14 +27,14 @@ def test_two_points_make_a_straight_line_of_their_distance() -> None:
     assert max(map(abs, curve.curvature)) < 1e-9
 
 
-def test_points_on_a_circle_make_a_curve_of_its_length_and_curvature() -> None:
+def test_points_on_a_circle_make_a_curve_of_its_curvature() -> None:
     ring = [(3 * math.cos(a / 8 * math.pi), 3 * math.sin(a / 8 * math.pi)) for a in range(16)]
     curve = smooth_curve(ring, closed=True)
     assert curve.length_m == pytest.approx(6 * math.pi, rel=0.002)
     assert sum(curve.curvature) / len(curve.curvature) == pytest.approx(1 / 3, rel=0.02)
 
 
-def test_the_nearest_point_has_its_arc_length_and_the_offset_to_the_left() -> None:
+def test_a_projection_has_arc_length_and_offset_to_the_left() -> None:
     curve = smooth_curve([(0.0, 0.0), (10.0, 0.0)])
     _, s, offset = curve.project(0, 3.456, 0.2)
     assert (s, offset) == pytest.approx((3.456, 0.2), abs=1e-6)

@@ -8,7 +8,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from husky_course.route import DriveLimits, plan_route, plan_speeds
-from husky_course.waypoints.waypoint_file import Course, load_course, parse_course
+from husky_course.waypoints.course import Course
+from husky_course.waypoints.schema import schema_text
+from husky_course.waypoints.waypoint_file import load_course, parse_course
 from husky_course.waypoints.yaml_tree import FileRefused, Problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -108,7 +110,7 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
         ('waypoints: [[0, 0], [999, 0], [-999, 0]]', '2997 m from first to last'),
     ],
 )
-def test_a_mistake_is_refused_with_its_place_and_what_is_allowed(text: str, expected: str) -> None:
+def test_a_mistake_is_refused_with_place_and_allowed_values(text: str, expected: str) -> None:
     assert any(expected in line for line in problems(text))
 
 
@@ -126,7 +128,7 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
             load_course(tmp_path / path)
 
 
-def test_the_first_waypoint_of_no_loop_has_neither_yaw_nor_dwell() -> None:
+def test_the_first_waypoint_has_no_yaw_and_no_dwell() -> None:
     text = 'waypoints:\n  - {x: 0, y: 0, yaw: 0, dwell: 3}\n  - [2, 0]\n  - [2, 2]\n'
     why = 'not for the first waypoint, where the drive begins; leave it out'
     assert problems(text) == [
@@ -147,6 +149,12 @@ def test_a_link_to_nothing_is_not_said_to_be_meant(tmp_path: Path) -> None:
 def schema(courses: Path) -> Any:
     text = (courses.parent / 'waypoints.schema.json').read_text()
     return jsonschema.Draft202012Validator(json.loads(text))
+
+
+def test_the_schema_is_made_from_the_table(courses: Path) -> None:
+    file = courses.parent / 'waypoints.schema.json'
+    command = './lab exec python3 -m husky_course.waypoints.schema > config/waypoints.schema.json'
+    assert file.read_text() == schema_text(), f'run: {command}'
 
 
 def test_the_schema_for_editors_accepts_every_course_of_the_lab(

@@ -19,7 +19,7 @@ GROUP = 'husky_driver.route_check'
 
 
 class RouteCheck(Protocol):
-    """Surveys a route; see husky_grader.world_check."""
+    """Surveys a route; see husky_grader.playpen."""
 
     def __call__(self, route: Route, *, world: str, start: Pose) -> Survey:
         """Return the obstacles near the route."""

@@ -14,7 +14,7 @@ from husky_course.route import plan_route, Point, Pose, Route, Survey
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, Parser
 
-from husky_grader.world_check import check_route
+from husky_grader.playpen import check_route
 
 TOO_NEAR = 1
 
@@ -75,12 +75,11 @@ def describe(route: Route, found: Survey) -> str:
 
 
 def _draw(route: Route, found: Survey, start: Pose, path: Path) -> None:
-    from husky_grader.report.map import course_scene
-    from husky_grader.report.map_png import draw  # matplotlib takes its time
+    from husky_grader.report.map import course_map, write_picture
 
     marks: list[Point] = [(near.x, near.y) for near in found.near]
     path.parent.mkdir(parents=True, exist_ok=True)
-    draw(course_scene(route, found.obstacles, start, marks), path)
+    write_picture(course_map(route, found.obstacles, start, marks), path)
 
 
 if __name__ == '__main__':

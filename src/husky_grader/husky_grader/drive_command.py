@@ -20,8 +20,8 @@ from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.supervise import run_to_end
 
 from husky_grader import check, grade
-from husky_grader.classes.grading import keep_course
-from husky_grader.default_course import default_course
+from husky_grader.playpen import default_course
+from husky_grader.report.files import keep_course
 
 START_SEC = 90.0  # simulated time in which the driver must have begun
 

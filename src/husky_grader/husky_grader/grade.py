@@ -6,25 +6,23 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import replace
 import json
 from pathlib import Path
 import sys
 import time
 
 from husky_course.printable import printable
-from husky_course.record import read_record, read_run, RunRecord
+from husky_course.record import read_record, read_run, Run
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 
-from husky_grader.classes.grading import grade_file, Graded
-from husky_grader.classes.worker_pool import Classroom, write_csv
-from husky_grader.default_course import default_course
-from husky_grader.report.report import as_json, summary, write_report
-from husky_grader.scoring.score_parts import FORMULA
-from husky_grader.scoring.scoring import judge, Report
+from husky_grader.batch.tables import table, write_csv
+from husky_grader.grading import Grade, grade_file
+from husky_grader.playpen import default_course
+from husky_grader.report.files import as_json, summary, write_report
+from husky_grader.scoring.report import FORMULA, judge, Report
 
 PASSED, NOT_PASSED, INTERRUPTED = 0, 1, 130
 
@@ -91,7 +89,7 @@ def main(args: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except OSError as error:
         print(printable(_why(error)), file=sys.stderr)
-        _give_up_output()
+        _drop_output()
         return BAD_INPUT
     except KeyboardInterrupt:
         print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
@@ -114,8 +112,8 @@ def _grade_record(options: argparse.Namespace) -> int:
     route = plan_route(load_course(options.waypoints))
     run = read_run(read_record(options.record), options.robot)
     report = judge(run, route, wall_time_sec=options.wall_time)
-    graded = Graded(options.waypoints, as_json(report), summary(report))
-    return _show_one(graded, options, _keep(Path(options.report), report, run, route))
+    grade = Grade(options.waypoints, as_json(report), summary(report))
+    return _show_one(grade, options, _write(Path(options.report), report, run, route))
 
 
 def _grade_controller(options: argparse.Namespace) -> int:
@@ -128,19 +126,17 @@ def _grade_controller(options: argparse.Namespace) -> int:
         route,
         folder,
         world=options.world,
-        answers=_typed(options.answers),
+        answers=_answer_lines(options.answers),
         real_time_factor=options.real_time_factor,
     )
     run = read_run(live.record)
-    report = judge(run, route, wall_time_sec=time.monotonic() - begun)
-    if not report.passed:
-        report = replace(report, reasons=(*live.notes, *report.reasons))
+    report = live.with_notes(judge(run, route, wall_time_sec=time.monotonic() - begun))
     text = f'{summary(report)}\n  the run ended: {live.ending}'
-    graded = Graded(options.controller, as_json(report), text)
-    return _show_one(graded, options, _keep(folder, report, run, route))
+    grade = Grade(options.controller, as_json(report), text)
+    return _show_one(grade, options, _write(folder, report, run, route))
 
 
-def _keep(folder: Path, report: Report, run: RunRecord, route: Route) -> str:
+def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
     """Write a report; return why it cannot be written, or nothing: the run is not lost by that."""
     try:
         write_report(folder, report, run, route)
@@ -153,8 +149,8 @@ def _keep(folder: Path, report: Report, run: RunRecord, route: Route) -> str:
 
 
 def _grade_lab(options: argparse.Namespace) -> int:
-    from husky_grader.lab.lab_grading import grade_lab
-    from husky_grader.lab.lab_grading import table as lab_table
+    from husky_grader.lab.lab import grade_lab
+    from husky_grader.lab.lab import table as lab_table
 
     workspace = Path(options.lab)
     if not workspace.is_dir():
@@ -163,7 +159,7 @@ def _grade_lab(options: argparse.Namespace) -> int:
         workspace,
         plan_route(load_course(options.waypoints or default_course())),
         Path(options.report),
-        answers=_typed(options.answers),
+        answers=_answer_lines(options.answers),
         real_time_factor=options.real_time_factor,
         done=lambda step: print(f'{step.name}: done', file=sys.stderr, flush=True),
     )
@@ -171,82 +167,84 @@ def _grade_lab(options: argparse.Namespace) -> int:
         print((Path(options.report) / 'lab.json').read_text(encoding='utf-8'), end='')
     else:
         print(lab_table(steps))
-    return PASSED if all(step.passed for step in steps) else NOT_PASSED
+    return PASSED if all(step.is_full for step in steps) else NOT_PASSED
 
 
-def _typed(answers: str) -> str:
+def _answer_lines(answers: str) -> str:
     return answers.replace(',', '\n') + '\n'
 
 
 def _grade_one(options: argparse.Namespace) -> int:
-    graded = grade_file(options.files[0], Path(options.report), world=options.world)
-    return _show_one(graded, options)
+    grade = grade_file(options.files[0], Path(options.report), world=options.world)
+    return _show_one(grade, options)
 
 
-def _show_one(graded: Graded, options: argparse.Namespace, unwritten: str = '') -> int:
-    if graded.report is None:
-        print(printable(graded.text, keep='\n'), file=sys.stderr)
+def _show_one(grade: Grade, options: argparse.Namespace, unwritten: str = '') -> int:
+    if grade.report is None:
+        print(printable(grade.text, keep='\n'), file=sys.stderr)
         return BAD_INPUT
     if options.json:
-        print(json.dumps(graded.report, indent=2))
+        print(json.dumps(grade.report, indent=2))
     else:
-        print(graded.text)
+        print(grade.text)
         if not unwritten:
             print(printable(f'  report: {Path(options.report) / "report.html"}'))
     if unwritten:
         print(printable(unwritten), file=sys.stderr)
         return BAD_INPUT
-    return PASSED if graded.passed else NOT_PASSED
+    return PASSED if grade.passed else NOT_PASSED
 
 
 def _grade_many(options: argparse.Namespace) -> int:
+    from husky_grader.batch.batch_grader import BatchGrader
+
     folder = Path(options.report)
     folder.mkdir(parents=True, exist_ok=True)
     tally = Tally(len(options.files), sys.stderr, bar=sys.stderr.isatty())
-    room = Classroom(
+    batch = BatchGrader(
         options.files,
         folder,
         world=options.world,
         jobs=options.jobs,
-        done=lambda number, graded: tally.add(f'{room.names[number]} {graded.score:.1f}'),
+        done=lambda number, grade: tally.add(f'{batch.names[number]} {grade.score:.1f}'),
     )
     try:
-        results = room.grade()
+        grades = batch.grade()
     finally:
         tally.close()
     if options.json:
         entries = [
-            {'file': graded.file, 'refused': graded.refused or None, 'report': graded.report}
-            for graded in results
+            {'file': grade.file, 'refused': grade.refused or None, 'report': grade.report}
+            for grade in grades
         ]
         print(json.dumps(entries, indent=2))
     else:
-        print(table(room.names, results))
-    if missing := _unwritten(folder, room, results):
+        print(table(batch.names, grades))
+    if missing := _write_grades(folder, grades, batch.unsealed):
         print(printable(missing), file=sys.stderr)
         return BAD_INPUT
     if not options.json:
         print(printable(f'grades: {folder / "grades.csv"}'))
-    return PASSED if all(graded.passed for graded in results) else NOT_PASSED
+    return PASSED if all(grade.passed for grade in grades) else NOT_PASSED
 
 
-def _unwritten(folder: Path, room: Classroom, results: Sequence[Graded]) -> str:
-    """Write the table; return in one line what of the class could not be written."""
-    lost = [graded.refused for graded in results if graded.unwritten]
+def _write_grades(folder: Path, grades: Sequence[Grade], unsealed: str) -> str:
+    """Write the table; return in one line what could not be written."""
+    lost = [grade.refused for grade in grades if grade.unwritten]
     try:
-        write_csv(folder / 'grades.csv', results)
+        write_csv(folder / 'grades.csv', grades)
     except OSError as error:
         lost.append(f'grades.csv: {error.strerror}')
-    if room.unsealed:
-        lost.append(f'what was graded cannot be remembered: {room.unsealed}')
+    if unsealed:
+        lost.append(f'what was graded cannot be remembered: {unsealed}')
     if not lost:
         return ''
     more = f' (and {len(lost) - 1} more)' if len(lost) > 1 else ''
     return f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest'
 
 
-def _give_up_output() -> None:
-    """Drop what is still to be printed if it cannot be, or Python complains when it ends."""
+def _drop_output() -> None:
+    """Drop output that cannot be printed: Python would complain of it when it ends."""
     try:
         sys.stdout.flush()
     except OSError:
@@ -256,22 +254,6 @@ def _give_up_output() -> None:
 def _why(error: OSError) -> str:
     where = f'{error.filename}: ' if error.filename else ''
     return f'{where}{error.strerror or error}'
-
-
-def table(names: Sequence[str], results: Sequence[Graded]) -> str:
-    """Return one line a file: name, score, verdict and the first reason."""
-    width = max(map(len, names))
-    lines = []
-    for name, graded in zip(names, results, strict=True):
-        file = printable(graded.file)
-        refused = [line.removeprefix(f'{file}: ') for line in graded.refused.splitlines()]
-        reasons = refused or (graded.report or {})['reasons']
-        verdict = 'passed' if graded.passed else 'refused' if graded.refused else 'not passed'
-        verdict = 'unwritten' if graded.unwritten else verdict
-        more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
-        reason = reasons[0] + more if reasons else ''
-        lines.append(f'{name:<{width}}  {graded.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
-    return '\n'.join(map(printable, lines))
 
 
 if __name__ == '__main__':

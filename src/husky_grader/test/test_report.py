@@ -4,15 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 import re
 
-from husky_course.record import Collision, Disturbance, read_run, Record, RunRecord
+from husky_course.record import Collision, Disturbance, read_run, Record, Run
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
-from husky_grader.report.map import run_scene, Scene
-from husky_grader.report.map_svg import map_svg, SIZE
-from husky_grader.report.plot_svg import Plot, ticks
-from husky_grader.report.report import as_json, is_report, summary, write_report
-from husky_grader.report.report_html import page
-from husky_grader.scoring.scoring import judge
+from husky_grader.report.files import as_json, is_report, page, summary, write_report
+from husky_grader.report.map import Map, map_svg, run_map, SIZE
+from husky_grader.report.plot import Plot, ticks
+from husky_grader.scoring.report import judge
 import pytest
 
 ROUTE = plan_route(parse_course('tolerance: 0.2\nwaypoints: [[0, 0], [2, 0], [4, 0]]'))
@@ -28,7 +26,7 @@ OTHER = Disturbance(time_sec=1.0, topic='odometry/filtered', nodes=('/<other>\x1
 
 
 @pytest.fixture
-def run(make_record: Callable[..., Record]) -> RunRecord:
+def run(make_record: Callable[..., Record]) -> Run:
     """Return a run that leaves the path by half a metre in its middle, and touches a cone."""
     places = [(k / 50, min(k, 200 - k, 50) / 100) for k in range(201)]
     record = make_record(places + [places[-1]] * 10, collisions=[TOUCH], disturbances=[OTHER])
@@ -36,18 +34,18 @@ def run(make_record: Callable[..., Record]) -> RunRecord:
 
 
 @pytest.fixture
-def scene(run: RunRecord) -> Scene:
-    return run_scene(run, ROUTE, judge(run, ROUTE))
+def scene(run: Run) -> Map:
+    return run_map(run, ROUTE, judge(run, ROUTE))
 
 
-def test_the_band_around_the_path_is_as_wide_as_the_tolerance(scene: Scene) -> None:
+def test_the_band_around_the_path_is_as_wide_as_the_tolerance(scene: Map) -> None:
     low_x, high_x, low_y, high_y = scene.near_bounds()
     a_metre = SIZE / max(high_x - low_x, high_y - low_y)
     (width,) = re.findall(r'class="band"[^>]*style="stroke-width: ([\d.]+)px"', map_svg(scene))
     assert float(width) == pytest.approx(2 * 0.2 * a_metre, abs=0.1)
 
 
-def test_the_error_band_lies_between_the_true_path_and_the_given_one(scene: Scene) -> None:
+def test_the_error_lies_between_true_and_given_path(scene: Map) -> None:
     half = len(scene.error) // 2
     there, back = scene.error[:half], scene.error[half:]
     assert max(y for _, y in there) == pytest.approx(0.5)
@@ -56,14 +54,14 @@ def test_the_error_band_lies_between_the_true_path_and_the_given_one(scene: Scen
     assert back[-1][0] < 0.1
 
 
-def test_missed_waypoints_and_collisions_bear_the_numbers_of_the_text(scene: Scene) -> None:
+def test_waypoints_and_collisions_are_numbered_as_in_the_text(scene: Map) -> None:
     drawing = map_svg(scene)
     assert re.findall(r'<text class="waypoint"[^>]*>(\d+)<', drawing) == ['1', '3']
     assert re.findall(r'<text class="missed"[^>]*>(\d+)<', drawing) == ['2']
     assert re.findall(r'<text class="hit"[^>]*>(\d+)<', drawing) == ['1']
 
 
-def test_the_page_holds_everything_and_loads_nothing(run: RunRecord, tmp_path: Path) -> None:
+def test_the_page_holds_everything_and_loads_nothing(run: Run, tmp_path: Path) -> None:
     write_report(tmp_path, judge(run, ROUTE), run, ROUTE)
     page = (tmp_path / 'report.html').read_text()
     for part in ('given path', 'true path', 'believed path', 'error', 'collision', 'Speed'):
@@ -76,7 +74,7 @@ def test_the_page_holds_everything_and_loads_nothing(run: RunRecord, tmp_path: P
     assert re.findall(r'(?:src|href)=|<script|@import|url\(', page) == []
 
 
-def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
+def test_a_disturbance_is_in_every_form_of_the_report(run: Run) -> None:
     report = judge(run, ROUTE)
     assert as_json(report)['disturbances'] == [
         {'time_sec': 1.0, 'topic': 'odometry/filtered', 'nodes': ['/<other>\x1b[2J']}
@@ -91,7 +89,7 @@ def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
     content = as_json(report)
     assert content['score'] == 0.0
     assert content['parts'][-1]['name'] == 'alone'
-    html = page(report, run, run_scene(run, ROUTE, report))
+    html = page(report, run, '', [])
     assert '<span class="score">0.0</span>' in html
     assert '<td>alone</td><td class="n">x 0.000</td>' in html
 
@@ -99,9 +97,7 @@ def test_a_disturbance_is_in_every_form_of_the_report(run: RunRecord) -> None:
 @pytest.mark.parametrize(
     'change', [{'score': 'all'}, {'reasons': [1]}, {'passed': 1}, {'parts': None}, {'more': 1}]
 )
-def test_what_has_not_the_shape_of_a_report_is_none(
-    run: RunRecord, change: dict[str, object]
-) -> None:
+def test_what_has_not_the_shape_of_a_report_is_none(run: Run, change: dict[str, object]) -> None:
     content = as_json(judge(run, ROUTE))
     assert is_report(content)
     assert not is_report({**content, **change})

@@ -12,7 +12,7 @@ from husky_course.route import plan_route
 from husky_course.waypoints import Course, load_course, parse_course, Waypoint
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
-from husky_grader.run.rehearsal import drive_with
+from husky_grader.run.in_process import drive_with
 import pytest
 
 EMPTY = str(Path(__file__).resolve().parents[3] / 'worlds' / 'empty.xml')
@@ -45,7 +45,7 @@ def driven(course: Course) -> tuple[Drive, float]:
             worst_m = max(worst_m, abs(drive.tracker.offset_m))
         return command
 
-    drive_with(controller, feel=drive.add_acceleration, world=EMPTY)
+    drive_with(controller, on_imu=drive.add_acceleration, world=EMPTY)
     return drive, worst_m
 
 

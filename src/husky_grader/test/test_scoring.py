@@ -10,7 +10,7 @@ from husky_course.record import Collision, COLUMNS, Disturbance, Record, RecordR
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_grader.scoring.alignment import projected
-from husky_grader.scoring.scoring import score
+from husky_grader.scoring.report import score
 import numpy as np
 import pytest
 
@@ -75,7 +75,7 @@ def test_each_collision_costs_a_factor_and_fails_the_run(make_record: Make) -> N
     assert 'touched cone with its base at 1.00 s, with 12 N' in report.reasons
 
 
-def test_the_points_that_the_parts_cost_add_up_to_what_is_missing(make_record: Make) -> None:
+def test_the_costs_of_the_parts_add_up_to_the_missing_points(make_record: Make) -> None:
     report = score(make_record(along((0, 0.3), (2, 0.3), (3, 0.3), speed_m_s=0.2)), STRAIGHT)
     assert 100 - sum(part.cost_points for part in report.parts) == pytest.approx(report.score)
     assert report.score == pytest.approx(100 * math.prod(part.factor for part in report.parts))

@@ -17,8 +17,8 @@ from husky_course.waypoints import Course, load_course, parse_course
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_grader.grade import main as grade
-from husky_grader.run.rehearsal import drive_with
-from husky_grader.scoring.scoring import Report, score
+from husky_grader.run.in_process import drive_with
+from husky_grader.scoring.report import Report, score
 import pytest
 
 Turn = Callable[[float, float], tuple[float, float]]
@@ -70,7 +70,7 @@ def test_one_that_cuts_a_corner_is_told_which() -> None:
     assert reason.startswith('missed waypoint 3 at (-4, 0): it came no nearer than')
 
 
-def test_one_that_drives_all_of_it_backwards_gets_half_of_the_points_and_is_told_why() -> None:
+def test_a_drive_all_backwards_gets_half_of_the_points() -> None:
     report = judged(moved(BEND, lambda x, y: (x, y), reverse=True), BEND)
     assert report.waypoints_reached == 4
     assert report.score == pytest.approx(50.0, abs=0.5)
@@ -82,7 +82,7 @@ def test_one_that_drives_all_of_it_backwards_gets_half_of_the_points_and_is_told
     assert 'm backwards where the course asks for forwards' in reason
 
 
-def test_one_that_takes_ahead_for_back_is_told_so_before_all_it_missed() -> None:
+def test_a_reversed_forward_axis_is_the_first_reason() -> None:
     drive = Drive(plan_route(BEND))
 
     def controller(now: Odometry) -> Command | None:
@@ -94,7 +94,7 @@ def test_one_that_takes_ahead_for_back_is_told_so_before_all_it_missed() -> None
     assert 'm backwards where the course asks for forwards' in report.reasons[0]
 
 
-def test_one_that_drives_forwards_where_the_course_says_reverse_is_told_so() -> None:
+def test_forwards_instead_of_reverse_is_a_reason() -> None:
     asked = parse_course('waypoints: [[0, 0], {x: -4, y: 0, reverse: true}]')
     report = judged(moved(asked, lambda x, y: (x, y), reverse=False), asked)
     assert report.score == pytest.approx(50.0, abs=0.5)
@@ -290,7 +290,7 @@ def test_the_sheet_s_questions_can_be_answered_for_a_controller(tmp_path: Path) 
 
 
 @pytest.mark.usefixtures('graph')
-def test_a_controller_that_cannot_be_started_is_refused_with_one_line(
+def test_a_controller_that_cannot_start_is_one_line(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     assert grade(['--controller', 'no_such_program', '--report', str(tmp_path)]) == 2

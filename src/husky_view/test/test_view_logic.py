@@ -132,7 +132,7 @@ def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> Non
     written = record(tmp_path / 'run.record')
     run = load_run(str(tmp_path))
     assert run.duration_sec == 2.0
-    assert run.entry_at(0.999) == 49
+    assert run.row_at(0.999) == 49
     world = Simulation(SimulationConfig(world=run.world, robots=run.robots)).world
     scenes = RunScenes(run, world)
     scene = scenes.scene(10, 60, paused=True)

@@ -3,29 +3,21 @@
 """The record of a run: its format, its writer and its reader."""
 
 from husky_course.record.blocks import block_of, read_blocks
-from husky_course.record.events import Collision, Disturbance, Push
-from husky_course.record.record import (
-    COLUMNS,
-    FILE_NAME,
-    FORMAT,
-    read_record,
-    Record,
-    RecordRefused,
-    VERSION,
-)
-from husky_course.record.run import read_run, RunRecord
+from husky_course.record.contents import Collision, COLUMNS, Disturbance, Row
+from husky_course.record.record import read_record, Record, RecordRefused
+from husky_course.record.run import read_run, Run
+from husky_course.record.writer import FILE_NAME, RecordWriter
 
 __all__ = [
     'COLUMNS',
     'FILE_NAME',
-    'FORMAT',
-    'VERSION',
     'Collision',
     'Disturbance',
-    'Push',
     'Record',
     'RecordRefused',
-    'RunRecord',
+    'RecordWriter',
+    'Row',
+    'Run',
     'block_of',
     'read_blocks',
     'read_record',

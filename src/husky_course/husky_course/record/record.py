@@ -1,15 +1,9 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-The record of a run: everything that a report or a replay needs, in one file of blocks.
-
-First a header (JSON: world, robots, obstacles, ...), then tables of one row a control period, and
-between them lists of events (JSON: collisions, pushed bodies, disturbances, the end). `recorder`
-writes it while the run goes on, this module reads it, and nothing else does either.
-"""
+"""The record of a run, read and checked; its format is described where it is written."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
 from typing import Any
@@ -19,45 +13,30 @@ import numpy.typing as npt
 
 from husky_course.outline import least_clearance, Outline
 from husky_course.record.blocks import read_blocks
-from husky_course.record.events import Collision, Disturbance, Push
+from husky_course.record.contents import Collision, COLUMNS, Disturbance, Push
+from husky_course.record.writer import FILE_NAME, FORMAT, VERSION
 from husky_course.robot import RobotStart
 
-FORMAT = 'husky_playpen_record'
-VERSION = 2
-FILE_NAME = 'run.record'
-COLUMNS = (
-    'time_sec',
-    'x',
-    'y',
-    'yaw',
-    'odom_x',
-    'odom_y',
-    'odom_yaw',
-    'speed_m_s',
-    'yaw_rate_rad_s',
-    'command_speed_m_s',
-    'command_yaw_rate_rad_s',
-)
 MAX_SPEED_M_S = 3.0
 """Three times what the wheels can do: faster is no Husky."""
 MAX_POSITION_M = 1e6
 MAX_YAW_RAD = 1e6
-MAX_ASKED = 1e3
+MAX_RATE = 1e3
 """Of speeds and yaw rates, asked or driven, m/s and rad/s."""
 MAX_OBSTACLES = 10_000
 
 _BOUNDS = {
     **dict.fromkeys(('x', 'y', 'odom_x', 'odom_y'), MAX_POSITION_M),
     **dict.fromkeys(('yaw', 'odom_yaw'), MAX_YAW_RAD),
-    **dict.fromkeys(('speed_m_s', 'yaw_rate_rad_s'), MAX_ASKED),
-    **dict.fromkeys(('command_speed_m_s', 'command_yaw_rate_rad_s'), MAX_ASKED),
+    **dict.fromkeys(('speed_m_s', 'yaw_rate_rad_s'), MAX_RATE),
+    **dict.fromkeys(('command_speed_m_s', 'command_yaw_rate_rad_s'), MAX_RATE),
 }
 
 Array = npt.NDArray[np.float64]
 
 
 class RecordRefused(ValueError):
-    """A file is no record that can be believed; the message is one line for a person."""
+    """A file is no record that a simulation can have written; the message is one line."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,6 +53,16 @@ class Record:
     disturbances: tuple[Disturbance, ...] = ()
     complete: bool = True  # false: the simulator ended before it could say so
 
+    @property
+    def time_sec(self) -> Array:
+        """The time of every row."""
+        return self.rows[:, 0, 0]
+
+    @property
+    def duration_sec(self) -> float:
+        """The time of the last row."""
+        return float(self.rows[-1, 0, 0])
+
     def column(self, robot: int, name: str) -> Array:
         """Return one column of a robot, a view."""
         return self.rows[:, robot, COLUMNS.index(name)]
@@ -81,12 +70,44 @@ class Record:
     def begin(self, robot: int) -> int:
         """Return the entry at which a robot got its first command, or was touched before."""
         command = COLUMNS.index('command_speed_m_s')
-        told = self.rows[:, robot, command : command + 2].any(axis=1)
-        begin = max(int(told.argmax()) - 1, 0)  # an entry holds the command of what it ends
+        commanded = self.rows[:, robot, command : command + 2].any(axis=1)
+        begin = max(int(commanded.argmax()) - 1, 0)  # an entry holds the command of what it ends
         name = self.robots[robot].name
         first_sec = min((t.time_sec for t in self.collisions if t.robot == name), default=math.inf)
         touched = int(np.searchsorted(self.rows[:, robot, 0], first_sec + 1e-9)) - 1
         return min(begin, max(touched, 0))
+
+    def row_at(self, time_sec: float) -> int:
+        """Return the last row at or before a time."""
+        return max(int(np.searchsorted(self.time_sec, time_sec + 1e-9, side='right')) - 1, 0)
+
+    def since_first_command(self) -> 'Record':
+        """Return the record without what was before the drive; its time begins at 0."""
+        begin = min(self.begin(robot) for robot in range(len(self.robots)))
+        begin_sec = float(self.time_sec[begin])
+        rows = self.rows[begin:].copy()
+        rows[:, :, 0] -= begin_sec
+        collisions, disturbances = self.events_since(begin_sec)
+        pushed = {
+            name: replace(push, time_sec=push.time_sec - begin_sec)
+            for name, push in self.pushed.items()
+        }
+        return replace(
+            self, rows=rows, collisions=collisions, pushed=pushed, disturbances=disturbances
+        )
+
+    def events_since(
+        self, begin_sec: float
+    ) -> tuple[tuple[Collision, ...], tuple[Disturbance, ...]]:
+        """Return the events with times since the drive began; others were there by then."""
+        collisions, disturbances = self.collisions, self.disturbances
+        return (
+            tuple(replace(entry, time_sec=entry.time_sec - begin_sec) for entry in collisions),
+            tuple(
+                replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
+                for entry in disturbances
+            ),
+        )
 
     def min_clearance_m(self, robot: int) -> float | None:
         """Return how near a robot came to an obstacle; None where there is none."""
@@ -100,7 +121,7 @@ def read_record(path: str | Path) -> Record:
     """
     Read a record, or the one in a report's folder.
 
-    :raises RecordRefused: if there is none, or nobody could have driven it.
+    :raises RecordRefused: if there is none, or no simulation can have written it.
     """
     file = Path(path)
     if file.is_dir():

@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The record of a run as a judge sees it: one robot, in the robot's own frame `odom`.
+The run of one robot in a record, in the robot's own frame `odom`.
 
 Its time begins with the drive, which begins with the first command: what the robot waited before
 has negative times.
@@ -9,7 +9,7 @@ has negative times.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 import hashlib
 import math
 
@@ -17,27 +17,21 @@ import numpy as np
 import numpy.typing as npt
 
 from husky_course.outline import Outline
-from husky_course.record.events import Collision, Disturbance
-from husky_course.record.record import COLUMNS, Record, RecordRefused
+from husky_course.record.contents import Collision, COLUMNS, Columns, Disturbance
+from husky_course.record.record import Record, RecordRefused
 
 Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
-class RunRecord:
-    """One robot's run; every array has one entry a control period."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Run(Columns[Array]):
+    """
+    One robot's run; every array has one entry a control period.
 
-    time_sec: Array  # since the drive began
-    x: Array  # true pose in the frame the robot's odometry started in
-    y: Array
-    yaw: Array
-    odom_x: Array
-    odom_y: Array
-    odom_yaw: Array
-    speed_m_s: Array
-    yaw_rate_rad_s: Array
-    command_speed_m_s: Array
-    command_yaw_rate_rad_s: Array
+    `x`, `y` and `yaw` are the true pose in the frame that its odometry started in.
+    """
+
     begin: int  # the entry at which the drive began
     start: tuple[float, float, float]  # in the frame world
     collisions: tuple[Collision, ...]
@@ -52,8 +46,17 @@ class RunRecord:
         cos, sin = math.cos(yaw0), math.sin(yaw0)
         return x0 + cos * x - sin * y, y0 + sin * x + cos * y
 
+    def spread(self, most: int, begin: int = 0, end: int | None = None) -> Indices:
+        """Return entries, the first and the last among them, evenly spread over the way driven."""
+        x, y = self.x[begin:end], self.y[begin:end]
+        if len(x) <= most:
+            return begin + np.arange(len(x))
+        way_m = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+        evenly = np.searchsorted(way_m, np.linspace(0.0, way_m[-1], most - 2))
+        return begin + np.unique([0, *np.minimum(evenly, len(x) - 1), len(x) - 1])
 
-def read_run(record: Record, robot: str | None = None) -> RunRecord:
+
+def read_run(record: Record, robot: str | None = None) -> Run:
     """
     Return one robot's run.
 
@@ -74,20 +77,13 @@ def read_run(record: Record, robot: str | None = None) -> RunRecord:
         'y': cos * moved_y - sin * moved_x,
         'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
     }
-    return RunRecord(
+    collisions, disturbances = record.events_since(begin_sec)
+    return Run(
         **table,
         begin=begin,
         start=(start.x, start.y, start.yaw),
-        collisions=tuple(
-            replace(touch, time_sec=touch.time_sec - begin_sec)
-            for touch in record.collisions
-            if touch.robot == start.name
-        ),
-        # What was there before the drive was there when it began.
-        disturbances=tuple(
-            replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
-            for entry in record.disturbances
-        ),
+        collisions=tuple(touch for touch in collisions if touch.robot == start.name),
+        disturbances=disturbances,
         obstacles=record.obstacles,
         min_clearance_m=record.min_clearance_m(place),
         trajectory_sha256=_digest(record, place),

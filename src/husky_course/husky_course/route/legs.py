@@ -6,7 +6,7 @@ Cut a course into legs: stretches driven in one go, with a stop at the end of ea
 A leg ends where the robot has to stand: at a sharp corner, where it begins or ends to drive
 backwards, at a waypoint with a yaw or a dwell, and at the end of the course. A corner that is too
 tight for a smooth curve is a sharp one, whatever the course says: of one that turns right back
-the curve would be a cusp, which nobody can follow.
+the curve would be a cusp, which no robot can follow.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from itertools import pairwise
 import math
 
 from husky_course.route.path import Curve, Point, smooth_curve
-from husky_course.waypoints.waypoint_file import Course, Waypoint
+from husky_course.waypoints.course import Course, Waypoint
 
 SHARP_CORNER_RAD = math.radians(3.0)  # straighter than this needs no stop
 # Found by driving random courses in the empty world: with these, 500 of 500 end, at most 5 cm off

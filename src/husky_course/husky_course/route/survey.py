@@ -14,7 +14,7 @@ from husky_course.outline import clearances, Outline
 from husky_course.route.legs import Leg
 from husky_course.route.path import Curve
 from husky_course.route.route import Route
-from husky_course.waypoints.waypoint_file import Course
+from husky_course.waypoints.course import Course
 
 ENOUGH_M = 0.15  # what a good drive may be off the path, and a little
 STEP_M = 0.05

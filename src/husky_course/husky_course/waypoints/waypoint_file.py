@@ -4,61 +4,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 import math
 from pathlib import Path
 import re
 
+from husky_course.waypoints.course import (
+    Course,
+    COURSE_FIELDS,
+    Field,
+    REQUIRED_OF_A_WAYPOINT,
+    Waypoint,
+    WAYPOINT_FIELDS,
+)
 from husky_course.waypoints.yaml_tree import FileRefused, parse_yaml, Problem, read_yaml, Value
 
-MIN_SPEED_M_S = 0.05
-MAX_SPEED_M_S = 1.0  # the velocity controller's limit
-MIN_TOLERANCE_M = 0.05
-MAX_TOLERANCE_M = 1.0
-MAX_COORDINATE_M = 1000.0
-MAX_DWELL_SEC = 600.0
-MAX_WAYPOINTS = 1000
 MAX_LENGTH_M = 2000.0
 MIN_SPACING_M = 0.05
 
-FRAMES = ('odom',)
-CORNERS = ('smooth', 'sharp')
-
 _NUMBER = re.compile(r'[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?', re.ASCII)
-
-
-@dataclass(frozen=True)
-class Waypoint:
-    """A place to drive through, in the frame `odom`; `line` is where the file names it."""
-
-    x_m: float
-    y_m: float
-    speed_m_s: float | None = None  # on the way to this waypoint; None: the course's speed
-    yaw_rad: float | None = None  # stop here and turn to this heading
-    dwell_sec: float = 0.0  # stand here for so long
-    reverse: bool = False  # drive backwards on the way to this waypoint
-    line: int = 0
-
-
-@dataclass(frozen=True)
-class Course:
-    """What a waypoint file asks for."""
-
-    name: str
-    waypoints: tuple[Waypoint, ...]
-    frame: str = 'odom'
-    speed_m_s: float = 0.5
-    tolerance_m: float = 0.25
-    loop: bool = False
-    corners: str = 'smooth'
-    file: str = field(default='', compare=False)
-
-    @property
-    def stops(self) -> tuple[Waypoint, ...]:
-        """Waypoints in the order of driving; a loop comes back to the first."""
-        return (*self.waypoints, self.waypoints[0]) if self.loop else self.waypoints
 
 
 def load_course(path: str | Path) -> Course:
@@ -89,7 +54,7 @@ class _Checker:
             example = "begin with 'waypoints:' and one '- [x, y]' a line"
             self._wrong(root, '', f'{root} instead of a waypoint file; {example}')
         else:
-            given = self._fields(root, '', _COURSE_FIELDS)
+            given = self._fields(root, '', COURSE_FIELDS)
             if 'waypoints' not in {key.text for key, _ in root.pairs}:
                 self._wrong(root, 'waypoints', "missing; add 'waypoints:' and '- [x, y]' lines")
         waypoints = given.get('waypoints')
@@ -108,7 +73,7 @@ class _Checker:
         self,
         mapping: Value,
         prefix: str,
-        allowed: dict[str, tuple[str, Callable[[_Checker, Value, str], object]]],
+        allowed: Mapping[str, Field],
     ) -> dict[str, object]:
         """Return the values of a mapping by attribute name; wrong ones are left out."""
         seen: dict[str, int] = {}
@@ -122,27 +87,34 @@ class _Checker:
                 self._wrong(key, name, f'given again; it is already in line {seen[key.text]}')
                 continue
             seen[key.text] = key.line
-            attribute, read = allowed[key.text]
-            checked = read(self, value, name)
+            field = allowed[key.text]
+            checked = self._field(field, value, name)
             if checked is not None:
-                result[attribute] = checked
+                result[field.attribute] = checked
         return result
 
-    def number(
-        self, value: Value, name: str, low: float, high: float, unit: str, hint: str = ''
-    ) -> float | None:
-        allowed = f'allowed is {low:g} to {high:g} {unit}'
+    def _field(self, field: Field, value: Value, name: str) -> object:
+        if 'enum' in field.schema:
+            return self._word(field, value, name)
+        read = {'number': self._number, 'boolean': self._truth, 'array': self._waypoints}
+        return read[field.schema['type']](field, value, name)
+
+    def _number(self, field: Field, value: Value, name: str) -> float | None:
+        low, high = field.schema['minimum'], field.schema['maximum']
+        allowed = f'allowed is {low:g} to {high:g} {field.unit}'
         if value.kind != 'scalar' or value.quoted or not _NUMBER.fullmatch(value.text):
             why = ' (a number without quotes)' if value.quoted else _number_hint(value)
             self._wrong(value, name, f'{value} is not a number{why}; {allowed}')
             return None
         number = float(value.text)
         if not low <= number <= high:
-            self._wrong(value, name, f'{value} is out of range; {allowed}{hint}')
+            self._wrong(
+                value, name, f'{value} is out of range; {allowed}{_range_hint(field, value)}'
+            )
             return None
         return number
 
-    def truth(self, value: Value, name: str) -> bool | None:
+    def _truth(self, _: Field, value: Value, name: str) -> bool | None:
         if value.kind == 'scalar' and not value.quoted and value.text in ('true', 'false'):
             return value.text == 'true'
         near = {'yes': 'true', 'on': 'true', '1': 'true', 'no': 'false', 'off': 'false'}
@@ -152,19 +124,21 @@ class _Checker:
         self._wrong(value, name, f'{value} is not allowed; write true or false{hint}')
         return None
 
-    def word(self, value: Value, name: str, allowed: tuple[str, ...]) -> str | None:
-        if value.kind == 'scalar' and value.text in allowed:
+    def _word(self, field: Field, value: Value, name: str) -> str | None:
+        words = field.schema['enum']
+        if value.kind == 'scalar' and value.text in words:
             return value.text
-        self._wrong(value, name, f'{value} is not allowed; {_choice(value, allowed)}')
+        self._wrong(value, name, f'{value} is not allowed; {_choice(value, words)}')
         return None
 
-    def waypoints(self, value: Value, name: str) -> tuple[Waypoint, ...] | None:
+    def _waypoints(self, field: Field, value: Value, name: str) -> tuple[Waypoint, ...] | None:
         if value.kind != 'list':
             self._wrong(value, name, f"{value} instead of a list; write one '- [x, y]' a line")
             return None
-        if not 2 <= len(value.items) <= MAX_WAYPOINTS:
+        least, most = field.schema['minItems'], field.schema['maxItems']
+        if not least <= len(value.items) <= most:
             count = len(value.items)
-            self._wrong(value, name, f'{count} given; allowed are 2 to {MAX_WAYPOINTS}')
+            self._wrong(value, name, f'{count} given; allowed are {least} to {most}')
             return None
         read = [self._waypoint(item, f'{name}[{i}]') for i, item in enumerate(value.items)]
         complete = tuple(point for point in read if point is not None)
@@ -177,9 +151,9 @@ class _Checker:
             self._wrong(value, name, f'{value} is no waypoint; write [x, y] or {{x: .., y: ..}}')
             return None
         before = len(self._problems)
-        given = self._fields(value, name + '.', _WAYPOINT_FIELDS)
+        given = self._fields(value, name + '.', WAYPOINT_FIELDS)
         keys = {key.text for key, _ in value.pairs}
-        for axis in ('x', 'y'):
+        for axis in REQUIRED_OF_A_WAYPOINT:
             if axis not in keys:
                 self._wrong(value, f'{name}.{axis}', 'missing; every waypoint needs x and y')
         if len(self._problems) > before:
@@ -192,12 +166,14 @@ class _Checker:
             comma = ', with a decimal point and not a comma' if count in (3, 4) else ''
             self._wrong(value, name, f'{count} values instead of 2; write [x, y]{comma}')
             return None
-        x = _coordinate(self, value.items[0], f'{name}.x')
-        y = _coordinate(self, value.items[1], f'{name}.y')
-        return None if x is None or y is None else Waypoint(x, y, line=value.line)
+        given = {}
+        for axis, item in zip(REQUIRED_OF_A_WAYPOINT, value.items, strict=True):
+            field = WAYPOINT_FIELDS[axis]
+            given[field.attribute] = self._field(field, item, f'{name}.{axis}')
+        return None if None in given.values() else Waypoint(line=value.line, **given)  # type: ignore[arg-type]
 
     def _check_first(self, first: Waypoint) -> None:
-        """Refuse what nobody would obey: the drive begins there; a loop also ends there."""
+        """Refuse yaw and dwell where the drive begins; of a loop, it also ends there."""
         asked = {'yaw': first.yaw_rad is not None, 'dwell': first.dwell_sec > 0.0}
         for name in (name for name, given in asked.items() if given):
             message = 'not for the first waypoint, where the drive begins; leave it out'
@@ -243,39 +219,10 @@ def _number_hint(value: Value) -> str:
     return f' (write {unit[1]}, without the unit)' if unit else ''
 
 
-def _coordinate(checker: _Checker, value: Value, name: str) -> float | None:
-    return checker.number(value, name, -MAX_COORDINATE_M, MAX_COORDINATE_M, 'm')
-
-
-def _speed(checker: _Checker, value: Value, name: str) -> float | None:
-    hint = '; to drive backwards write reverse: true' if value.text.startswith('-') else ''
-    return checker.number(value, name, MIN_SPEED_M_S, MAX_SPEED_M_S, 'm/s', hint)
-
-
-def _yaw(checker: _Checker, value: Value, name: str) -> float | None:
-    hint = ''
-    if _NUMBER.fullmatch(value.text) and 2 * math.pi < abs(float(value.text)) <= 720:
+def _range_hint(field: Field, value: Value) -> str:
+    if field.attribute == 'speed_m_s' and value.text.startswith('-'):
+        return '; to drive backwards write reverse: true'
+    if field.attribute == 'yaw_rad' and 2 * math.pi < abs(float(value.text)) <= 720:
         radians = math.remainder(math.radians(float(value.text)), 2 * math.pi)
-        hint = f'; {value.text} degrees would be {radians:.4f}'
-    return checker.number(value, name, -6.2832, 6.2832, 'rad', hint)
-
-
-_COURSE_FIELDS: dict[str, tuple[str, Callable[[_Checker, Value, str], object]]] = {
-    'frame': ('frame', lambda c, v, n: c.word(v, n, FRAMES)),
-    'speed': ('speed_m_s', _speed),
-    'tolerance': (
-        'tolerance_m',
-        lambda c, v, n: c.number(v, n, MIN_TOLERANCE_M, MAX_TOLERANCE_M, 'm'),
-    ),
-    'loop': ('loop', _Checker.truth),
-    'corners': ('corners', lambda c, v, n: c.word(v, n, CORNERS)),
-    'waypoints': ('waypoints', _Checker.waypoints),
-}
-_WAYPOINT_FIELDS: dict[str, tuple[str, Callable[[_Checker, Value, str], object]]] = {
-    'x': ('x_m', _coordinate),
-    'y': ('y_m', _coordinate),
-    'speed': ('speed_m_s', _speed),
-    'yaw': ('yaw_rad', _yaw),
-    'dwell': ('dwell_sec', lambda c, v, n: c.number(v, n, 0.0, MAX_DWELL_SEC, 's')),
-    'reverse': ('reverse', _Checker.truth),
-}
+        return f'; {value.text} degrees would be {radians:.4f}'
+    return ''

@@ -2,6 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs to be judged: in one process, or live on a ROS graph."""
 
-from husky_grader.run.rehearsal import drive_route
+from husky_grader.run.in_process import drive_route
 
 __all__ = ['drive_route']

@@ -1,16 +1,16 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Let somebody's own node drive: the simulator and the node as processes on a graph of their own.
+Run somebody's own controller: the simulator and the node as processes in a domain of their own.
 
-What is judged is the simulator's record, in simulated time.
+The result is the simulator's record, in simulated time.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import os
 from pathlib import Path
 import shlex
@@ -33,6 +33,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from husky_grader.run.referee import Referee, START_WITHIN_SEC
 from husky_grader.run.watcher import Watcher
+from husky_grader.scoring.report import Report
 
 SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first message
 CLOSED_WITHIN_SEC = 5.0  # wall time, for a simulator and its record
@@ -41,7 +42,7 @@ DISCOVERY_SEC = 6.0  # wall time: so long nodes may need to find each other
 HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
-LOOK_SEC = 0.5  # between two looks at the graph
+LOOK_SEC = 0.5  # between two checks of the graph
 
 
 class LiveRunFailed(ValueError):
@@ -50,11 +51,15 @@ class LiveRunFailed(ValueError):
 
 @dataclass
 class LiveRun:
-    """What came of a run: the record, why it ended, and what was noticed on the way."""
+    """A finished run: the record, why it ended, and what was noticed on the way."""
 
     record: Record
     ending: str
     notes: list[str] = field(default_factory=list)
+
+    def with_notes(self, report: Report) -> Report:
+        """Return the report with the notes among its reasons; a run that passed needs none."""
+        return report if report.passed else replace(report, reasons=(*self.notes, *report.reasons))
 
 
 def drive_live(
@@ -89,7 +94,7 @@ def drive_live(
     simulator += ['-p', f'world:={world}'] if world else []
     patience_sec = max(START_WITHIN_SEC, DISCOVERY_SEC * real_time_factor)
     with (
-        _own_graph() as (graph, watcher, executor),
+        _own_domain() as (graph, watcher, executor),
         descendants_ended(),
         (folder / 'simulator.log').open('w') as log,
         Process(simulator, {**os.environ, **graph}, log) as running,
@@ -105,7 +110,7 @@ def drive_live(
 
 
 @contextmanager
-def _own_graph() -> Iterator[tuple[dict[str, str], Watcher, Executor]]:
+def _own_domain() -> Iterator[tuple[dict[str, str], Watcher, Executor]]:
     """Open a DDS domain of this run alone, with a watcher in it; the dict is its environment."""
     context = rclpy.Context()
     with ExitStack() as stack:
@@ -155,22 +160,22 @@ def _watch(
     folder: Path,
 ) -> tuple[str, list[str]]:
     ending, seen = '', watcher.count
-    heard_sec = looked_sec = time.monotonic()
+    pose_sec = looked_sec = time.monotonic()
     with controller:
         while not ending:
             executor.spin_once(timeout_sec=0.1)
             now = time.monotonic()
             if now - looked_sec > LOOK_SEC:
                 looked_sec = now
-                watcher.look()
-            if watcher.nonsense:
-                ending = watcher.nonsense
+                watcher.check_graph()
+            if watcher.refused:
+                ending = watcher.refused
             elif watcher.count != seen:
-                seen, heard_sec = watcher.count, now
+                seen, pose_sec = watcher.count, now
                 ending = referee.over(**watcher.state(), running=controller.exit_code is None)
                 if not referee.started and watcher.hinting_sec(now) > HOPELESS_SEC:
                     ending = 'its commands cannot be heard'
-            elif now - heard_sec > SILENCE_SEC:
+            elif now - pose_sec > SILENCE_SEC:
                 raise LiveRunFailed(f'the simulator died; see {folder / "simulator.log"}')
         exit_code = controller.exit_code
         # First: the record must not show how the controller was ended.

@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import math
 
-from husky_course.route import Route
-from husky_driver.drive import TimeLimit
-
-from husky_grader.run.approach import Approach
+from husky_course.route import Point, Route
+from husky_course.waypoints import Course
+from husky_driver.drive import NEARER_M, TimeLimit
 
 START_WITHIN_SEC = 20.0  # from when its process started
 REST_SEC = 8.0  # a robot that stands so long is not going on (beside a dwell of the course), ...
@@ -17,6 +16,7 @@ REST_AT_END_SEC = 2.0  # ... or so long at the end of the course, ...
 REST_ALONE_SEC = 1.0  # ... or when the controller has ended
 STANDING_M_S = 0.02
 STANDING_RAD_S = 0.05
+VISIT_M = 1.0  # so near it was there, also where the course asks for less
 
 
 class Referee:
@@ -29,7 +29,7 @@ class Referee:
         self._tolerance_m = course.tolerance_m
         self._half_m = route.length_m / 2
         self._limit = TimeLimit(route.begun_at((0.0, 0.0)), 0.0)
-        self._approach = Approach(course)
+        self._progress = _Progress(course)
         self._dwells = [stop for stop in course.stops[:-1] if stop.dwell_sec > 0.0]
         self._heard_sec: float | None = None
         self._now_sec = 0.0  # from the first pose on; a reset takes nothing back
@@ -46,7 +46,7 @@ class Referee:
     def over(
         self,
         time_sec: float,
-        place: tuple[float, float],
+        place: Point,
         *,
         speed_m_s: float,
         yaw_rate_rad_s: float,
@@ -63,7 +63,7 @@ class Referee:
         if moving or not self._started:
             self._resting_since_sec = self._now_sec
         self._started = self._started or moving
-        nearer = self._approach.is_nearer(place)
+        nearer = self._progress.is_nearer(place)
         if not self._started:
             self._limit.complaint(self._now_sec, nearer=nearer, held=True)
             return self._before_start(self._now_sec, running=running)
@@ -75,7 +75,7 @@ class Referee:
     def _rest_sec(self) -> float:
         return self._now_sec - self._resting_since_sec
 
-    def _at_rest(self, place: tuple[float, float], *, running: bool) -> str:
+    def _at_rest(self, place: Point, *, running: bool) -> str:
         """Return why a robot that stands will not go on; one that is to dwell may stand long."""
         rest_sec, dwell_sec = self._rest_sec, self._dwell_sec(place)
         if not running and rest_sec > REST_ALONE_SEC:
@@ -85,7 +85,7 @@ class Referee:
         allowed_sec = REST_SEC + dwell_sec
         return f'it stood still for {allowed_sec:.0f} s' if rest_sec > allowed_sec else ''
 
-    def _dwell_sec(self, place: tuple[float, float]) -> float:
+    def _dwell_sec(self, place: Point) -> float:
         """Return for how long the course lets it stand here."""
         near = (
             stop.dwell_sec
@@ -101,6 +101,41 @@ class Referee:
             return f'nothing moved for {self._start_within_sec:.0f} s'
         return ''
 
-    def _at_end(self, place: tuple[float, float]) -> bool:
+    def _at_end(self, place: Point) -> bool:
         away = math.dist(place, (self._goal.x_m, self._goal.y_m))
         return self._driven_m > self._half_m and away <= self._tolerance_m
+
+
+class _Progress:
+    """
+    Notices when the robot comes nearer than ever to a waypoint that it has not reached.
+
+    Waypoints may be missed and taken in any order: whether that was right is for the score to say.
+    Of several at one place a visit counts for the first, so that a way there and back, or round
+    and round, has something to come nearer to until its end.
+    """
+
+    def __init__(self, course: Course) -> None:
+        self._places = [(stop.x_m, stop.y_m) for stop in course.stops]
+        self._left = set(range(len(self._places)))
+        self._visited = set[int]()  # those the robot has not been away from since a visit
+        self._least_m = [math.inf] * len(self._places)
+        self._begun = False
+
+    def is_nearer(self, place: Point) -> bool:
+        """Take the robot's place; give it every one, in order."""
+        away = [math.dist(place, stop) for stop in self._places]
+        here = {k for k, distance in enumerate(away) if distance <= VISIT_M}
+        if not self._begun:  # a loop does not begin with its end
+            self._begun, self._visited = True, here
+        self._visited &= here
+        new = here & self._left - self._visited
+        if new:
+            self._left.discard(min(new))
+            self._visited |= here
+            self._least_m = away
+            return True
+        nearer = [k for k in self._left if away[k] < self._least_m[k] - NEARER_M]
+        for k in nearer:
+            self._least_m[k] = away[k]
+        return bool(nearer)

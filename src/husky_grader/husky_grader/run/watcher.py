@@ -1,9 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The grader's eye on the graph: the true pose, and how the controller publishes."""
+"""Watches the graph of a live run: the true pose, and how the controller publishes commands."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import time
 from typing import Any
 
@@ -13,9 +14,10 @@ from husky_driver.ros import read_odometry
 from nav_msgs.msg import Odometry
 import rclpy
 from rclpy.node import Node
+from rclpy.qos import ReliabilityPolicy
 
-from husky_grader.run.graph_hints import controller_hints
-
+WANTED_TYPE = 'geometry_msgs/msg/Twist'
+VELOCITY_TYPES = (WANTED_TYPE, 'geometry_msgs/msg/TwistStamped')
 COMMAND_TOPIC = '/husky_velocity_controller/cmd_vel'
 OWN_NODES = ('husky_sim', 'grader')
 
@@ -28,20 +30,20 @@ class Watcher(Node):
         self.latest: Odometry | None = None
         self.count = 0
         self.hints: list[str] = []
-        self.nonsense = ''  # what came that cannot be true; after it nothing is believed
+        self.refused = ''  # why a pose cannot be true; after it none is taken
         self._check = OdometryCheck()
         self._hinting_since_sec: float | None = None
         self._first: tuple[float, float, float] | None = None
         self._poses = self.create_subscription(Odometry, 'ground_truth/odom', self._on_pose, 10)
 
     def _on_pose(self, msg: Odometry) -> None:
-        if self.nonsense:
+        if self.refused:
             return
         what = no_rotation(msg.pose.pose.orientation) or self._check.complaint(read_odometry(msg))
         if what:
             topic = self._poses.topic_name
             count = self.count_publishers(topic)
-            self.nonsense = f'{topic} cannot be true: {what}' + (
+            self.refused = f'{topic} cannot be true: {what}' + (
                 f'; {count} nodes publish it: does the controller start a simulator of its own?'
                 if count > 1
                 else ''
@@ -53,9 +55,9 @@ class Watcher(Node):
             position, q = msg.pose.pose.position, msg.pose.pose.orientation
             self._first = (position.x, position.y, yaw_of(q.x, q.y, q.z, q.w))
 
-    def look(self) -> None:
-        """Look at the graph; what was noticed once is kept, for nodes may come and go."""
-        hints = controller_hints(self, COMMAND_TOPIC, OWN_NODES)
+    def check_graph(self) -> None:
+        """Look at the graph; hints are kept, because nodes may come and go."""
+        hints = _hints(self, COMMAND_TOPIC, OWN_NODES)
         if not hints:
             self._hinting_since_sec = None
         elif self._hinting_since_sec is None:
@@ -63,12 +65,12 @@ class Watcher(Node):
         self.hints = hints or self.hints
 
     def hinting_sec(self, now_sec: float) -> float:
-        """Return for how long, until now, every look has found something wrong."""
+        """Return since when, until now, every look at the graph has found something wrong."""
         since = self._hinting_since_sec
         return 0.0 if since is None else now_sec - since
 
     def state(self) -> dict[str, Any]:
-        """Return what a referee wants to know."""
+        """Return the arguments of `Referee.over` that the newest pose gives."""
         msg, first = self.latest, self._first
         if msg is None or first is None:
             raise RuntimeError('no pose yet')
@@ -81,3 +83,46 @@ class Watcher(Node):
             'speed_m_s': twist.linear.x,
             'yaw_rate_rad_s': twist.angular.z,
         }
+
+
+def _hints(node: Node, topic: str, own: Sequence[str]) -> list[str]:
+    """
+    Return what is wrong with how commands are published, seen from a node in the same graph.
+
+    :param topic: where the robot listens, fully qualified.
+    :param own: names of the nodes that are not the controller's.
+    """
+    publishers = [info for info in node.get_publishers_info_by_topic(topic) if _is_its(info, own)]
+    hints = [hint for info in publishers for hint in _wrong(info, topic)]
+    if publishers:
+        return hints
+    elsewhere = _elsewhere(node, topic, own)
+    return [
+        f'it publishes {kind} on {name}; the Husky listens on {topic}' for name, kind in elsewhere
+    ]
+
+
+def _is_its(info: Any, own: Sequence[str]) -> bool:
+    return info.node_name not in own
+
+
+def _wrong(info: Any, topic: str) -> list[str]:
+    hints = []
+    if info.topic_type != WANTED_TYPE:
+        hints.append(f'it publishes {info.topic_type} on {topic}; the Husky takes {WANTED_TYPE}')
+    if info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT:
+        hints.append(
+            f'it publishes {topic} best effort; the Husky listens reliably and hears nothing'
+        )
+    return hints
+
+
+def _elsewhere(node: Node, topic: str, own: Sequence[str]) -> list[tuple[str, str]]:
+    found = []
+    for name, kinds in sorted(node.get_topic_names_and_types()):
+        velocity = [kind for kind in kinds if kind in VELOCITY_TYPES]
+        if name != topic and velocity:
+            infos = node.get_publishers_info_by_topic(name)
+            if any(_is_its(info, own) for info in infos):
+                found.append((name, velocity[0]))
+    return found

@@ -2,6 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The score of a run, and why."""
 
-from husky_grader.scoring.scoring import Report, score
+from husky_grader.scoring.report import Report, score
 
 __all__ = ['Report', 'score']

@@ -1,46 +1,66 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Lay what was driven along the path it should have been, once and for the whole run.
+Relate a run to its course: the place on the path of every pose, and the waypoints reached.
 
-The nearest point alone would jump where a course crosses or comes back to itself. Here the
-places on the path may only go forward in time, and among all such ways the one with the least
-squared distance is taken (dynamic time warping with free steps along the path, by dynamic
-programming).
+The nearest point of the path alone would jump where a course crosses or comes back to itself.
+`align` lets places on the path only go forward in time, and takes the way with the least squared
+distance (dynamic time warping with free steps along the path, by dynamic programming).
 """
 
 from __future__ import annotations
 
-from husky_course.route import Curve
+from bisect import bisect_left
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+import math
+
+from husky_course.record import Run
+from husky_course.route import Curve, Route
+from husky_course.waypoints import Course, Waypoint
 import numpy as np
 import numpy.typing as npt
 
 MAX_POSES = 2500
 PATH_STEP_M = 0.05
 MAX_PLACES = 2500
+CHUNK = 500  # entries, ten seconds: compared with a waypoint by their bounding box first
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
+Frame = Callable[[Array, Array], tuple[Array, Array]]  # from odom into another frame
 
 
-def align(curve: Curve, x: Array, y: Array) -> tuple[Array, Array]:
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """A run laid along its path: two numbers an entry, and which of `Course.stops` it reached."""
+
+    along_m: Array
+    errors_m: Array  # to the left of the path
+    visits: tuple[bool, ...]
+
+
+def align(run: Run, route: Route) -> Alignment:
+    """Return the places of a run on its path, and the waypoints that it reached in order."""
+    along, errors = _align(route.curve, run.spread(MAX_POSES), run.x, run.y)
+    return Alignment(along, errors, waypoints_in_order(run, route.course))
+
+
+def mistaken_frames(run: Run, curve: Curve, frames: Mapping[str, Frame]) -> dict[str, float]:
+    """Return how far the run is off the curve, RMS, if it was driven in one of the frames."""
+    picked = run.spread(MAX_POSES)
+    offsets = {name: _align(curve, picked, *to(run.x, run.y))[1] for name, to in frames.items()}
+    return {name: math.sqrt(float(np.mean(offset**2))) for name, offset in offsets.items()}
+
+
+def _align(curve: Curve, picked: Indices, x: Array, y: Array) -> tuple[Array, Array]:
     """Return for every pose its place along the curve and its offset to the left of it."""
-    picked = spread(x, y, MAX_POSES)
     places = _places(curve)
     path = np.array([curve.point_at(s) for s in places])
     steps = _best_steps(path, np.stack([x[picked], y[picked]], axis=1))
     near = np.array([curve.index_at(places[step]) for step in steps])
     before = np.searchsorted(picked, np.arange(len(x)), side='right') - 1
     return projected(curve, near[before], x, y)
-
-
-def spread(x: Array, y: Array, most: int) -> Indices:
-    """Return entries, the first and the last among them, evenly spread over the way driven."""
-    if len(x) <= most:
-        return np.arange(len(x))
-    way_m = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-    evenly = np.searchsorted(way_m, np.linspace(0.0, way_m[-1], most - 2))
-    return np.unique(np.concatenate([[0], np.minimum(evenly, len(x) - 1), [len(x) - 1]]))
 
 
 def projected(curve: Curve, near: Indices, x: Array, y: Array) -> tuple[Array, Array]:
@@ -97,3 +117,70 @@ def _best_steps(path: Array, poses: Array) -> list[int]:
         steps[k] = place
         place = int(came_from[k][place])
     return steps
+
+
+def waypoints_in_order(run: Run, course: Course) -> tuple[bool, ...]:
+    """
+    Tell for each of `course.stops` whether the run reached it.
+
+    Of all ways to count waypoints in the order of the course, the one that counts most is taken
+    (longest increasing subsequence): one that was left out costs itself, not all that follow.
+    The last stop of a loop counts when the run ends there and reached half of the others.
+    """
+    x, y = run.x[run.begin :], run.y[run.begin :]
+    boxes = _boxes(x, y)
+    stays = [_stays(boxes, x, y, point, course.tolerance_m) for point in course.waypoints]
+    # As long as the same waypoints are near, one entry tells as much as all of them.
+    changes = np.unique(np.concatenate(stays))
+    visits = sorted(
+        (int(change), number)
+        for number, ends in enumerate(stays)
+        for begin, end in ends
+        for change in changes[(changes >= begin) & (changes < end)]
+    )
+    counted = _longest_increasing([number for _, number in visits])
+    reached = [number in counted for number in range(len(course.waypoints))]
+    if course.loop:
+        back = bool(stays[0].size) and bool(stays[0][-1, 1] == len(x))
+        reached.append(back and 2 * sum(reached) >= len(reached))
+    return tuple(reached)
+
+
+def _boxes(x: Array, y: Array) -> Array:
+    """Return the least and greatest x and y of each CHUNK entries, one row each."""
+    first = np.arange(0, len(x), CHUNK)
+    least, greatest = np.minimum.reduceat, np.maximum.reduceat
+    return np.stack([least(x, first), greatest(x, first), least(y, first), greatest(y, first)])
+
+
+def _stays(boxes: Array, x: Array, y: Array, point: Waypoint, tolerance_m: float) -> Indices:
+    """Return rows of the first entry of each stay near a waypoint, and of that after its last."""
+    low_x, high_x, low_y, high_y = boxes
+    close = (low_x <= point.x_m + tolerance_m) & (high_x >= point.x_m - tolerance_m)
+    close &= (low_y <= point.y_m + tolerance_m) & (high_y >= point.y_m - tolerance_m)
+    entries = (np.flatnonzero(close)[:, None] * CHUNK + np.arange(CHUNK)).ravel()
+    entries = entries[entries < len(x)]
+    away_m = np.hypot(x[entries] - point.x_m, y[entries] - point.y_m)
+    near = entries[away_m <= tolerance_m]
+    gaps = np.diff(near, prepend=-2, append=len(x) + 1) > 1
+    return np.stack([near[gaps[:-1]], near[gaps[1:]] + 1], axis=1)
+
+
+def _longest_increasing(numbers: Sequence[int]) -> set[int]:
+    tails: list[int] = []  # the smallest last number of a chain of each length
+    tail_at: list[int] = []
+    before: list[int] = []
+    for at, number in enumerate(numbers):
+        length = bisect_left(tails, number)
+        before.append(tail_at[length - 1] if length else -1)
+        if length == len(tails):
+            tails.append(number)
+            tail_at.append(at)
+        else:
+            tails[length], tail_at[length] = number, at
+    chain = set()
+    at = tail_at[-1] if tail_at else -1
+    while at >= 0:
+        chain.add(numbers[at])
+        at = before[at]
+    return chain

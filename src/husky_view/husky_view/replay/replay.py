@@ -10,10 +10,9 @@ import sys
 import time
 from typing import NoReturn
 
-from husky_course.record import RecordRefused
+from husky_course.record import Record, RecordRefused
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_sim.errors import SimulatorError
-from husky_sim.scene_topic import TRACK
 from husky_sim.world import load_world
 import numpy as np
 import viser
@@ -22,20 +21,18 @@ from husky_view.editor.course import CourseRefused, path_of
 from husky_view.picture.geometry import to_world
 from husky_view.picture.picture import Picture
 from husky_view.replay.panel import Playback, ReplayPanel
-from husky_view.replay.run import load_run, Run, RunScenes
+from husky_view.replay.run import load_run, RunScenes
 from husky_view.server import ActionQueue, address_of, AddressError, close_server, open_server
 
 WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
 PANEL_HZ = 10.0
 
-_ODOM_X, _SPEED = TRACK.index('odom_x'), TRACK.index('speed_m_s')
-
 
 class Replay:
     """A run on the page."""
 
-    def __init__(self, server: viser.ViserServer, run: Run) -> None:
+    def __init__(self, server: viser.ViserServer, run: Record) -> None:
         """
         Put the run's world on the page.
 
@@ -70,7 +67,7 @@ class Replay:
         self._actions.run()
         playback = self._playback
         jumped = playback.step(wall_sec)
-        entry = self._run.entry_at(playback.time_sec)
+        entry = self._run.row_at(playback.time_sec)
         if jumped:
             self._picture.clear()
             self._entry = 0
@@ -94,13 +91,15 @@ class Replay:
             marks.add(collision, now_sec=now_sec)
 
     def _show_figures(self, entry: int) -> None:
-        place = self._picture.followed
-        robot = self._run.track[entry, place]
-        start = self._run.robots[place]
-        odometry = to_world(start, robot[None, _ODOM_X : _ODOM_X + 2])[0]
+        followed = self._picture.followed
+        names = ('x', 'y', 'odom_x', 'odom_y', 'speed_m_s')
+        x, y, odom_x, odom_y, speed_m_s = (
+            float(self._run.column(followed, name)[entry]) for name in names
+        )
+        believed = to_world(self._run.robots[followed], np.array([[odom_x, odom_y]]))[0]
         self._panel.show(
-            speed_m_s=float(robot[_SPEED]),
-            drift_m=float(np.hypot(*(odometry - robot[:2]))),
+            speed_m_s=speed_m_s,
+            drift_m=float(np.hypot(*(believed - (x, y)))),
             collisions=self._picture.collisions.count,
         )
 

@@ -12,9 +12,11 @@ import subprocess
 import sys
 import time
 
-from husky_grader.classes.grading import Graded, key_of
-from husky_grader.classes.worker_pool import Classroom, names_of
+from husky_grader.batch.batch_grader import BatchGrader
+from husky_grader.batch.cache import key_of
+from husky_grader.batch.tables import names_of
 from husky_grader.grade import main as grade
+from husky_grader.grading import Grade
 import pytest
 
 HOURS = ''.join(f'  - {{x: -{k}.0, y: 0, dwell: 600}}\n' for k in (1, 2, 1, 2, 1, 2))
@@ -65,15 +67,15 @@ def test_a_broken_file_does_not_stop_the_others(
 def test_what_was_graded_is_not_graded_again_until_it_changes(
     files: list[str], tmp_path: Path
 ) -> None:
-    room = Classroom(files[:1], tmp_path / 'report')
-    (first,) = room.grade()
+    batch = BatchGrader(files[:1], tmp_path / 'report')
+    (first,) = batch.grade()
     report = tmp_path / 'report' / 'path' / 'report.json'
     written = report.stat().st_mtime_ns
-    (second,) = Classroom(files[:1], tmp_path / 'report').grade()
+    (second,) = BatchGrader(files[:1], tmp_path / 'report').grade()
     assert second.report == first.report
     assert report.stat().st_mtime_ns == written
     Path(files[0]).write_text(SHORT.replace('-1', '-1.5'))
-    (third,) = Classroom(files[:1], tmp_path / 'report').grade()
+    (third,) = BatchGrader(files[:1], tmp_path / 'report').grade()
     assert third.report is not None
     assert third.report['path_length_m'] == pytest.approx(1.5)
 
@@ -82,8 +84,8 @@ def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / 'pipe.yaml')  # whoever opens it waits for ever
     (tmp_path / 'zero.yaml').symlink_to('/dev/zero')  # whoever reads it never ends
     files = [str(tmp_path / name) for name in ('pipe.yaml', 'zero.yaml', 'none.yaml')]
-    results = Classroom(files, tmp_path / 'report', jobs=1).grade()
-    assert all('line 1, column 1: not a file' in graded.refused for graded in results[:2])
+    results = BatchGrader(files, tmp_path / 'report', jobs=1).grade()
+    assert all('line 1, column 1: not a file' in result.refused for result in results[:2])
     assert 'no such file' in results[2].refused
 
 
@@ -118,17 +120,17 @@ def test_a_class_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> Non
 def test_a_file_on_which_the_grader_hangs_costs_only_itself(
     files: list[str], tmp_path: Path
 ) -> None:
-    seen: list[tuple[int, Graded]] = []
-    room = Classroom(
+    seen: list[tuple[int, Grade]] = []
+    batch = BatchGrader(
         [files[2], files[0]],
         tmp_path,
         jobs=1,
         stalled_cpu_sec=0.001,  # of its own processor time, and no second of the run has passed
-        done=lambda number, graded: seen.append((number, graded)),
+        done=lambda number, grade: seen.append((number, grade)),
     )
-    results = room.grade()
+    results = batch.grade()
     why = 'the grader hung: 0.001 s of processor time without a second of simulated time'
-    assert [graded.refused for graded in results] == [why] * 2
+    assert [result.refused for result in results] == [why] * 2
     assert len(seen) == 2
 
 
@@ -201,7 +203,7 @@ def test_every_file_has_a_folder_of_its_own() -> None:
 @pytest.mark.parametrize('forged', ['{}', '[]', 'same', 'seal'])
 def test_a_forged_report_is_graded_again(forged: str, files: list[str], tmp_path: Path) -> None:
     folder = tmp_path / 'report' / 'path'
-    (true,) = Classroom(files[2:], tmp_path / 'report').grade()
+    (true,) = BatchGrader(files[2:], tmp_path / 'report').grade()
     assert true.report is not None
     assert not true.passed
     content = {**true.report, 'passed': True, 'score': 100.0, 'collisions': []}
@@ -211,18 +213,18 @@ def test_a_forged_report_is_graded_again(forged: str, files: list[str], tmp_path
         key = key_of(files[2]).encode()
         seal = hmac.new(b'', key + b'\n' + text.encode(), 'sha256').hexdigest()
         (folder / '.graded').write_text(seal)
-    (again,) = Classroom(files[2:], tmp_path / 'report').grade()
+    (again,) = BatchGrader(files[2:], tmp_path / 'report').grade()
     assert again.score == true.score
     assert not again.passed
 
 
 def test_the_secret_is_only_the_users(files: list[str], tmp_path: Path, state: Path) -> None:
-    (first,) = Classroom(files[:1], tmp_path / 'report').grade()
+    (first,) = BatchGrader(files[:1], tmp_path / 'report').grade()
     (secret,) = (path for path in state.rglob('*') if path.is_file())
     assert secret.stat().st_mode & 0o777 == 0o600
     before = secret.read_bytes()
     secret.chmod(0o644)  # others may have read it
-    (second,) = Classroom(files[:1], tmp_path / 'report').grade()
+    (second,) = BatchGrader(files[:1], tmp_path / 'report').grade()
     assert second.score == first.score
     assert secret.read_bytes() != before
     assert secret.stat().st_mode & 0o777 == 0o600
@@ -235,8 +237,8 @@ def test_where_no_secret_can_be_kept_everything_is_graded_again(
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'file'))
     times = []
     for _ in range(2):
-        (graded,) = Classroom(files[:1], tmp_path / 'report').grade()
-        assert graded.passed
+        (result,) = BatchGrader(files[:1], tmp_path / 'report').grade()
+        assert result.passed
         times.append((tmp_path / 'report' / 'path' / 'report.json').stat().st_mtime_ns)
     assert times[0] != times[1]
     assert not (tmp_path / 'report' / 'path' / '.graded').exists()

@@ -23,7 +23,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
-from husky_grader.lab.lab_steps import failed, find_executable, Step
+from husky_grader.lab.file_steps import failed, find_executable, Step
 
 TOPIC = '/topic_test'
 TYPE = 'std_msgs/msg/String'
@@ -33,42 +33,36 @@ LISTEN_SEC = 3.0
 RATE_HZ, RATE_TOLERANCE = 10.0, 0.15
 
 
-class Ear(Node):
-    """Hears and says what the lab's first two programs say and hear."""
+class _Graph(Node):
+    """A node in a domain of its own, on the topic of the lab's first two programs."""
 
-    def __init__(self, context: rclpy.Context) -> None:
+    def __init__(self, context: rclpy.Context, domain: int) -> None:
         super().__init__('grader', context=context)
-        self.heard: list[tuple[float, str]] = []
+        self.domain = domain
+        self.received: list[tuple[float, str]] = []
         self.publisher = self.create_publisher(String, 'topic_test', 10)
         self.create_subscription(String, 'topic_test', self._on_message, 10)
+        self._own_executor = make_executor(context)
+        self._own_executor.add_node(self)
 
     def _on_message(self, msg: String) -> None:
-        self.heard.append((time.monotonic(), msg.data))
+        self.received.append((time.monotonic(), msg.data))
 
     def others(self, infos: list[Any]) -> list[Any]:
         return [info for info in infos if info.node_name != 'grader']
 
-
-class Graph:
-    """A graph of its own with an ear in it."""
-
-    def __init__(self, ear: Ear, executor: Any, domain: int) -> None:
-        self.ear = ear
-        self.domain = domain
-        self._executor = executor
-
-    def spin_until(self, fact: Callable[[], bool], within_sec: float) -> bool:
+    def spin_until(self, fact: Callable[[], bool], within_sec: float) -> None:
         deadline = time.monotonic() + within_sec
-        while not fact():
-            if time.monotonic() > deadline:
-                return False
-            self._executor.spin_once(timeout_sec=0.05)
-        return True
+        while not fact() and time.monotonic() <= deadline:
+            self._own_executor.spin_once(timeout_sec=0.05)
+
+    def destroy_node(self) -> None:
+        self._own_executor.remove_node(self)
+        super().destroy_node()
 
 
 @contextmanager
-def graph() -> Iterator[Graph]:
-    """Open a graph in a domain of its own."""
+def _own_graph() -> Iterator[_Graph]:
     context = rclpy.Context()
     with OwnDomain() as domain:
         rclpy.init(
@@ -76,14 +70,11 @@ def graph() -> Iterator[Graph]:
             domain_id=domain.number,
             signal_handler_options=SignalHandlerOptions.NO,
         )
-        ear = Ear(context)
-        executor = make_executor(context)
-        executor.add_node(ear)
+        graph = _Graph(context, domain.number)
         try:
-            yield Graph(ear, executor, domain.number)
+            yield graph
         finally:
-            executor.remove_node(ear)
-            ear.destroy_node()
+            graph.destroy_node()
             rclpy.shutdown(context=context)
 
 
@@ -94,80 +85,79 @@ def publisher_step(folder: Path, environment: dict[str, str], most: float) -> St
         program = find_executable(folder, 'topic_demo', 'publisher')
     except ValueError as error:
         return failed(name, most, str(error))
-    with graph() as live:
-        environment = {**environment, 'ROS_DOMAIN_ID': str(live.domain)}
+    with _own_graph() as graph:
+        environment = {**environment, 'ROS_DOMAIN_ID': str(graph.domain)}
         log = folder / 'publisher.log'
         with log.open('w') as stream, _start(program, environment, stream) as process:
-            ear = live.ear
-            live.spin_until(
-                lambda: bool(ear.heard) or process.exit_code is not None, APPEAR_WITHIN_SEC
+            graph.spin_until(
+                lambda: bool(graph.received) or process.exit_code is not None, APPEAR_WITHIN_SEC
             )
-            if not ear.heard:
-                return failed(name, most, _why_silent(ear, process, log))
-            ear.heard.clear()
-            live.spin_until(lambda: False, LISTEN_SEC)
-            return _judge_messages(ear.heard, most)
+            if not graph.received:
+                return failed(name, most, _why_silent(graph, process, log))
+            graph.received.clear()
+            graph.spin_until(lambda: False, LISTEN_SEC)
+            return _judge_messages(graph.received, most)
 
 
 def _start(program: Path, environment: dict[str, str], log: IO[str]) -> Process:
     return Process([str(program)], environment, log, parent_death=signal.SIGKILL)
 
 
-def _why_silent(ear: Ear, process: Process, log: Path) -> str:
+def _why_silent(graph: _Graph, process: Process, log: Path) -> str:
     if process.exit_code is not None:
         return f'it ended with exit code {process.exit_code}: {tail_of(log, 1)}'
-    infos = ear.others(ear.get_publishers_info_by_topic(TOPIC))
+    infos = graph.others(graph.get_publishers_info_by_topic(TOPIC))
     wrong = [info.topic_type for info in infos if info.topic_type != TYPE]
     if wrong:
         return f'it publishes {wrong[0]} on {TOPIC}; the sheet asks for {TYPE}'
     topics = [
         topic
-        for topic, kinds in ear.get_topic_names_and_types()
-        if TYPE in kinds and ear.others(ear.get_publishers_info_by_topic(topic))
+        for topic, kinds in graph.get_topic_names_and_types()
+        if TYPE in kinds and graph.others(graph.get_publishers_info_by_topic(topic))
     ]
     if topics and not infos:
         return f'it publishes on {topics[0]}; the sheet asks for {TOPIC}'
     return f'nothing came on {TOPIC} within {APPEAR_WITHIN_SEC:g} s'
 
 
-def _judge_messages(heard: list[tuple[float, str]], most: float) -> Step:
+def _judge_messages(received: list[tuple[float, str]], most: float) -> Step:
     name = 'publisher'
-    wrong = next((text for _, text in heard if not TEXT.fullmatch(text.strip())), None)
+    wrong = next((text for _, text in received if not TEXT.fullmatch(text.strip())), None)
     if wrong is not None:
         why = f'it says {wrong[:60]!r}; the sheet asks for "hello world <time in seconds>"'
         return failed(name, most, why, 0.5)
     # Their median: that the machine stood still for a moment is not the publisher's fault.
-    gaps = [after - before for (before, _), (after, _) in pairwise(heard)]
+    gaps = [after - before for (before, _), (after, _) in pairwise(received)]
     rate = 1.0 / max(median(gaps), 1e-3) if gaps else 0.0
     if abs(rate - RATE_HZ) > RATE_TOLERANCE * RATE_HZ:
         return failed(name, most, f'{rate:.1f} messages a second; the sheet asks for 10', 0.7)
-    return Step(name, most, most, f'{rate:.1f} Hz on {TOPIC}, {TYPE}, "{heard[-1][1]}"')
+    return Step(name, most, most, f'{rate:.1f} Hz on {TOPIC}, {TYPE}, "{received[-1][1]}"')
 
 
 def subscriber_step(folder: Path, environment: dict[str, str], most: float) -> Step:
-    """Run topic_demo's subscriber, tell it something and look whether it repeats it."""
-    name, said = 'subscriber', f'hello grader {time.time():.3f}'
+    """Run topic_demo's subscriber, publish a text and check that it shows it."""
+    name, sent = 'subscriber', f'hello grader {time.time():.3f}'
     try:
         program = find_executable(folder, 'topic_demo', 'subscriber')
     except ValueError as error:
         return failed(name, most, str(error))
-    with graph() as live:
-        environment = {**environment, 'ROS_DOMAIN_ID': str(live.domain), 'PYTHONUNBUFFERED': '1'}
+    with _own_graph() as graph:
+        environment = {**environment, 'ROS_DOMAIN_ID': str(graph.domain), 'PYTHONUNBUFFERED': '1'}
         log = folder / 'subscriber.log'
         with log.open('w') as stream, _start(program, environment, stream) as process:
 
             def repeated() -> bool:
-                live.ear.publisher.publish(String(data=said))
-                live.spin_until(lambda: False, 0.1)
-                return process.exit_code is not None or said in _text(log)
+                graph.publisher.publish(String(data=sent))
+                graph.spin_until(lambda: False, 0.1)
+                return process.exit_code is not None or sent in _text(log)
 
-            live.spin_until(repeated, APPEAR_WITHIN_SEC)
+            graph.spin_until(repeated, APPEAR_WITHIN_SEC)
             if process.exit_code is not None:
                 why = f'it ended with exit code {process.exit_code}: {tail_of(log, 1)}'
                 return failed(name, most, why)
-            line = next((line for line in _text(log).splitlines() if said in line), '')
+            line = next((line for line in _text(log).splitlines() if sent in line), '')
     if not line:
-        return failed(name, most, f'it did not show what came on {TOPIC}: "{said}"')
+        return failed(name, most, f'it did not show what came on {TOPIC}: "{sent}"')
     if 'heard' not in line:
         return failed(name, most, f'it shows "{line}"; the sheet asks for "heard <text>"', 0.7)
     return Step(name, most, most, f'"{line.strip()}"')

@@ -1,3 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Many files at once, and what is known of them already."""
+"""Many files at once: worker processes, results of earlier calls, tables."""

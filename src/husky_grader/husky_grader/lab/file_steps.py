@@ -32,7 +32,8 @@ class Step:
     why: str
 
     @property
-    def passed(self) -> bool:
+    def is_full(self) -> bool:
+        """Whether it got every point."""
         return self.points >= self.most
 
 
@@ -71,7 +72,7 @@ def package_step(workspace: Path, package: str, most: float) -> Step:
 
 
 def driver_package(workspace: Path) -> str:
-    """Return the package with the driving in it: husky_driver, as in the sheet, or another."""
+    """Return the package that drives: husky_driver, as in the sheet, or one with follow_path."""
     packages = _packages(workspace)
     others = (name for name in packages if list(packages[name].glob('**/follow_path.py')))
     return 'husky_driver' if 'husky_driver' in packages else next(others, 'husky_driver')
@@ -128,8 +129,10 @@ def sourced(folder: Path) -> dict[str, str]:
     """
     Return the environment after sourcing what was built.
 
-    :raises ValueError: when that fails or takes too long.
+    :raises ValueError: when nothing was built, or sourcing fails or takes too long.
     """
+    if not (folder / 'install' / 'local_setup.bash').is_file():
+        raise ValueError('nothing was built')
     script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
     command = ['bash', '-c', script, str(folder)]
     with (

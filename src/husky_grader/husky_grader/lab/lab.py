@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, replace
+from dataclasses import asdict
 import json
 from pathlib import Path
 import shutil
@@ -13,8 +13,7 @@ import shutil
 from husky_course.record import read_run
 from husky_course.route import Route
 
-from husky_grader.lab.lab_graph import publisher_step, subscriber_step
-from husky_grader.lab.lab_steps import (
+from husky_grader.lab.file_steps import (
     build_step,
     driver_package,
     failed,
@@ -24,9 +23,12 @@ from husky_grader.lab.lab_steps import (
     Step,
     workspace_step,
 )
-from husky_grader.report.report import write_report
+from husky_grader.lab.graph_steps import publisher_step, subscriber_step
+from husky_grader.report.files import write_report
 from husky_grader.run.live import drive_live
-from husky_grader.scoring.scoring import judge
+from husky_grader.scoring.report import judge
+
+LiveStep = Callable[[Path, dict[str, str], float], Step]
 
 POINTS = {
     **{'workspace': 5.0, 'topic_demo': 10.0, 'driver': 5.0, 'build': 15.0},
@@ -47,51 +49,48 @@ def grade_lab(
     folder = folder.resolve()
     shutil.rmtree(folder / 'install', ignore_errors=True)
     folder.mkdir(parents=True, exist_ok=True)
+    workspace = workspace.resolve()
+
+    def drive_step(_: Path, environment: dict[str, str], most: float) -> Step:
+        package = driver_package(workspace)
+        return _drive_step(package, route, folder, environment, answers, real_time_factor, most)
+
     steps = []
-    for step in _files_and_graph(workspace.resolve(), folder):
+    for step in _steps(workspace, folder, drive_step):
         steps.append(step)
         done(step)
-    step = _drive_step(workspace, route, folder, answers, real_time_factor)
-    steps.append(step)
-    done(step)
     total = sum(step.points for step in steps)
     content = {'score': total, 'steps': [asdict(step) for step in steps]}
     (folder / 'lab.json').write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
     return steps
 
 
-def _files_and_graph(workspace: Path, folder: Path) -> Iterator[Step]:
+def _steps(workspace: Path, folder: Path, drive_step: LiveStep) -> Iterator[Step]:
     yield workspace_step(workspace, POINTS['workspace'])
     yield package_step(workspace, 'topic_demo', POINTS['topic_demo'])
     yield package_step(workspace, driver_package(workspace), POINTS['driver'])
     yield build_step(workspace, folder, POINTS['build'])
-    if not _is_built(folder):
-        for name in ('publisher', 'subscriber'):
-            yield failed(name, POINTS[name], 'nothing was built')
-        return
+    live = {'publisher': publisher_step, 'subscriber': subscriber_step, 'drive': drive_step}
     try:
         environment = sourced(folder)
     except ValueError as error:
-        for name in ('publisher', 'subscriber'):
-            yield failed(name, POINTS[name], str(error))
+        yield from (failed(name, POINTS[name], str(error)) for name in live)
         return
-    yield publisher_step(folder, environment, POINTS['publisher'])
-    yield subscriber_step(folder, environment, POINTS['subscriber'])
-
-
-def _is_built(folder: Path) -> bool:
-    return (folder / 'install' / 'local_setup.bash').is_file()
+    for name, step in live.items():
+        yield step(folder, environment, POINTS[name])
 
 
 def _drive_step(
-    workspace: Path, route: Route, folder: Path, answers: str, real_time_factor: float
+    package: str,
+    route: Route,
+    folder: Path,
+    environment: dict[str, str],
+    answers: str,
+    real_time_factor: float,
+    most: float,
 ) -> Step:
-    most = POINTS['drive']
-    if not _is_built(folder):
-        return failed('drive', most, 'nothing was built')
     try:
-        program = find_executable(folder, driver_package(workspace), 'follow_path')
-        environment = sourced(folder)
+        program = find_executable(folder, package, 'follow_path')
     except ValueError as error:
         return failed('drive', most, str(error))
     live = drive_live(
@@ -103,9 +102,7 @@ def _drive_step(
         real_time_factor=real_time_factor,
     )
     run = read_run(live.record)
-    report = judge(run, route)
-    if not report.passed:
-        report = replace(report, reasons=(*live.notes, *report.reasons))
+    report = live.with_notes(judge(run, route))
     write_report(folder / 'drive', report, run, route)
     why = '; '.join(report.reasons) if report.reasons else f'{report.course} passed'
     return Step('drive', most, most * report.score / 100.0, why)

@@ -1,13 +1,28 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Looks for obstacles of a world beside a route, before anything moves."""
+"""The playpen: the courses that come with the lab, and routes checked against its obstacles."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from husky_course.robot import RobotStart
 from husky_course.route import Pose, Route, Survey, survey_route
-from husky_sim.errors import SimulatorError
-from husky_sim.world import default_worlds, load_world
+
+
+def config_folder() -> Path:
+    """Return the folder of the configuration: in the source, or as installed."""
+    in_source = Path(__file__).resolve().parents[3] / 'config'
+    if in_source.is_dir():
+        return in_source
+    from ament_index_python.packages import get_package_share_directory
+
+    return Path(get_package_share_directory('husky_driver')) / 'config'
+
+
+def default_course() -> Path:
+    """Return the course that is driven when none is named."""
+    return config_folder() / 'waypoints' / 'central_barrier.yaml'
 
 
 def check_route(route: Route, *, world: str = '', start: Pose = (0.0, 0.0, 0.0)) -> Survey:
@@ -17,6 +32,9 @@ def check_route(route: Route, *, world: str = '', start: Pose = (0.0, 0.0, 0.0))
     :param world: MJCF file; empty: the playpen.
     :raises ValueError: when the world cannot be used.
     """
+    from husky_sim.errors import SimulatorError
+    from husky_sim.world import default_worlds, load_world  # MuJoCo takes its time
+
     file = world or str(default_worlds() / 'playpen.xml')
     x, y, yaw = start
     try:

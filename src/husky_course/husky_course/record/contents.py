@@ -1,13 +1,36 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What can happen in a run between two rows of its record."""
+"""What a record holds of a run: a row a control period, and the events between two rows."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
+Value = TypeVar('Value')
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Columns(Generic[Value]):
+    """What is recorded of a robot, in the order of the file: a number each, or an array each."""
+
+    time_sec: Value
+    x: Value  # true pose
+    y: Value
+    yaw: Value
+    odom_x: Value
+    odom_y: Value
+    odom_yaw: Value
+    speed_m_s: Value
+    yaw_rate_rad_s: Value
+    command_speed_m_s: Value
+    command_yaw_rate_rad_s: Value
+
+
+Row = Columns[float]
+COLUMNS = tuple(column.name for column in fields(Columns))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +50,7 @@ class Collision:
 
 @dataclass(frozen=True, kw_only=True)
 class Disturbance:
-    """Somebody else spoke on a topic of this run: when it was noticed, where, and who."""
+    """Another node published on a topic of this run: when it was noticed, where, and who."""
 
     time_sec: float
     topic: str

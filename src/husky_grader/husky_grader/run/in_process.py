@@ -1,10 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Drive a course in one process: the simulator's physics and the driver, without DDS between them.
+Drive a route in one process: the simulator's physics and the driver, without DDS between them.
 
-Both are pure, and in lockstep each odometry message is answered by one command; so the trajectory
-is the same as that of the two nodes in lockstep, bit for bit, in a fraction of the time.
+In lockstep each odometry message is answered by one command, here as between the two nodes; so
+the trajectory is the same, bit for bit, in a fraction of the time.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ PERIODS_A_SECOND = round(1.0 / CONTROL_PERIOD_SEC)
 
 Pose = tuple[float, float, float]
 Controller = Callable[[Odometry], Command | None]
-Feel = Callable[[float, float], None]
+OnImu = Callable[[float, float], None]
 
 
 def drive_route(
@@ -57,7 +57,7 @@ def drive_route(
     drive = Drive(route, slip=NO_SLIP if odometry == 'ground_truth' else None)
     driven = drive_with(
         drive.step,
-        feel=drive.add_acceleration,
+        on_imu=drive.add_acceleration,
         world=world,
         start=start,
         odometry=odometry,
@@ -70,7 +70,7 @@ def drive_route(
 def drive_with(
     controller: Controller,
     *,
-    feel: Feel = lambda _time_sec, _acceleration_m_s2: None,
+    on_imu: OnImu = lambda _time_sec, _acceleration_m_s2: None,
     world: str = '',
     start: Pose = (0.0, 0.0, 0.0),
     odometry: str = 'filtered',
@@ -81,7 +81,7 @@ def drive_with(
     """
     Let a controller answer each odometry until it answers None; return the record.
 
-    :param feel: called with the time and the forward acceleration of each sample of the IMU.
+    :param on_imu: called with the time and the forward acceleration of each sample of the IMU.
     :param limit_sec: for a controller that never answers None; a `Drive` has a limit of its own.
     """
     simulation = _at_start(world, start)
@@ -90,12 +90,12 @@ def drive_with(
         with RunRecorder(simulation, file) as recorder:
             (robot,) = simulation.robots
             while simulation.time_sec < limit_sec:
-                command = controller(_heard(simulation.time_ns, robot, odometry))
+                command = controller(_odometry(simulation.time_ns, robot, odometry))
                 if command is None:
                     break
                 robot.controller.command(*command, time_sec=simulation.time_sec)
                 simulation.advance()
-                feel(_time_sec(simulation.time_ns), _acceleration(robot))
+                on_imu(_time_sec(simulation.time_ns), _acceleration(robot))
                 recorder.append()
                 if simulation.periods % PERIODS_A_SECOND == 0:
                     each_second()
@@ -122,8 +122,8 @@ def _loaded(config: SimulationConfig) -> Simulation:
     return Simulation(config)
 
 
-def _heard(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
-    """Return what the driver hears, to the last bit of the message."""
+def _odometry(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
+    """Return the odometry as the driver gets it, to the last bit of the message."""
     time_sec = _time_sec(time_ns)
     if odometry == 'ground_truth':
         return _truth(time_sec, robot)

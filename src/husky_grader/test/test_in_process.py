@@ -12,14 +12,14 @@ import time
 from husky_course.record import read_record
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_grader.run.rehearsal import drive_route
-from husky_grader.scoring.scoring import score
+from husky_grader.run.in_process import drive_route
+from husky_grader.scoring.report import score
 import pytest
 
 
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize('name', ['straight', 'through'])
-def test_one_process_drives_the_very_trajectory_that_two_nodes_drive_in_lockstep(
+def test_one_process_drives_the_trajectory_of_two_nodes(
     name: str, domain: int, courses: Path, tmp_path: Path
 ) -> None:
     file = courses / 'straight.yaml'

@@ -1,0 +1,97 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The grades of many files as a table: for the terminal, and as CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import csv
+from itertools import count
+from pathlib import Path
+import re
+
+from husky_course.printable import printable
+
+from husky_grader.grading import Grade
+from husky_grader.report.files import replacing, REPORT_FILES
+
+_OUR_FILES = ('grades.csv', '.grades.part.csv', *REPORT_FILES)
+_LONGEST_NAME = 100  # bytes
+
+COLUMNS = (
+    *('file', 'score', 'passed', 'completed', 'waypoints_reached', 'waypoints_total'),
+    *('collisions', 'cross_track_rms_m', 'cross_track_max_m', 'min_clearance_m'),
+    *('path_length_m', 'driven_m', 'sim_time_sec', 'trajectory_sha256', 'reasons'),
+)
+
+
+def names_of(files: Sequence[str]) -> list[str]:
+    """Return for each file the name of a folder of its own: short, and harmless everywhere."""
+    stems = [Path(file).stem for file in files]
+    if len(set(stems)) < len(stems):
+        paths = [Path(file).absolute() for file in files]
+        parts = [(*path.parent.parts[1:], path.stem) for path in paths]
+        depth = 1
+        while depth < max(map(len, parts)) and len({p[-depth:] for p in parts}) < len(parts):
+            depth += 1
+        stems = ['_'.join(p[-depth:]) for p in parts]
+    taken = {name.casefold() for name in _OUR_FILES}
+    return [_unique(_harmless(stem), taken) for stem in stems]
+
+
+def _harmless(stem: str) -> str:
+    name = re.sub(r'[^\w .+()=,@-]', '_', stem, flags=re.UNICODE).strip(' .')
+    return name.encode()[:_LONGEST_NAME].decode(errors='ignore') or 'unnamed'
+
+
+def _unique(name: str, taken: set[str]) -> str:
+    """Add a number where another file, or one of ours, has the name; case does not count."""
+    numbered = (name if number == 1 else f'{name}_{number}' for number in count(1))
+    free = next(candidate for candidate in numbered if candidate.casefold() not in taken)
+    taken.add(free.casefold())
+    return free
+
+
+def table(names: Sequence[str], grades: Sequence[Grade]) -> str:
+    """Return one line a file: name, score, verdict and the first reason."""
+    width = max(map(len, names))
+    lines = []
+    for name, grade in zip(names, grades, strict=True):
+        file = printable(grade.file)
+        refused = [line.removeprefix(f'{file}: ') for line in grade.refused.splitlines()]
+        reasons = refused or (grade.report or {})['reasons']
+        verdict = 'passed' if grade.passed else 'refused' if grade.refused else 'not passed'
+        verdict = 'unwritten' if grade.unwritten else verdict
+        more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
+        reason = reasons[0] + more if reasons else ''
+        lines.append(f'{name:<{width}}  {grade.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
+    return '\n'.join(map(printable, lines))
+
+
+def write_csv(path: Path, grades: Sequence[Grade]) -> None:
+    """Write one line a file, for a spreadsheet."""
+    with replacing(path) as part, part.open('w', newline='', encoding='utf-8') as stream:
+        writer = csv.writer(stream)
+        writer.writerow(COLUMNS)
+        writer.writerows(_row(grade) for grade in grades)
+
+
+def _row(grade: Grade) -> list[object]:
+    report = grade.report or {}
+    given = {
+        'file': grade.file,
+        'score': round(grade.score, 2),
+        'passed': grade.passed,
+        'collisions': len(report.get('collisions', [])),
+        'reasons': grade.refused or '; '.join(report.get('reasons', [])),
+    }
+    values = [given.get(column, report.get(column, '')) for column in COLUMNS]
+    return [_plain(value) for value in values]
+
+
+def _plain(value: object) -> object:
+    """Keep a spreadsheet from taking text for a formula."""
+    if isinstance(value, str):
+        text = printable(' '.join(value.split()))
+        return f"'{text}" if text[:1] in ('=', '+', '-', '@') else text
+    return '' if value is None else value
