@@ -1,14 +1,17 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 import re
+import xml.etree.ElementTree as ElementTree
 
+from husky_course.outline import Outline
 from husky_course.record import Collision, Disturbance, read_run, Record, Run
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_grader.report.files import as_json, is_report, page, summary, write_report
-from husky_grader.report.map import Map, map_svg, run_map, SIZE
+from husky_grader.report.map import Map, map_svg, picture_svg, run_map, SIZE, write_picture
 from husky_grader.report.plot import Plot, ticks
 from husky_grader.scoring.report import judge
 import pytest
@@ -59,6 +62,21 @@ def test_waypoints_and_collisions_are_numbered_as_in_the_text(scene: Map) -> Non
     assert re.findall(r'<text class="waypoint"[^>]*>(\d+)<', drawing) == ['1', '3']
     assert re.findall(r'<text class="missed"[^>]*>(\d+)<', drawing) == ['2']
     assert re.findall(r'<text class="hit"[^>]*>(\d+)<', drawing) == ['1']
+
+
+def test_a_picture_shows_its_title(scene: Map, tmp_path: Path) -> None:
+    pictures = set()
+    for title in ('one', 'two'):  # without a font both would be the same
+        write_picture(replace(scene, title=title), tmp_path / 'path.png')
+        pictures.add((tmp_path / 'path.png').read_bytes())
+    assert len(pictures) == 2
+
+
+def test_names_do_not_break_a_picture(scene: Map) -> None:
+    cone = Outline(name='</title>\x1b', x=1.0, y=0.0, yaw=0.0, size=(0.3,))
+    drawing = picture_svg(replace(scene, title='<b>\x07&', obstacles=(cone,)))
+    texts = [element.text for element in ElementTree.fromstring(drawing.encode()).iter()]
+    assert {r'<b>\x07&', r'</title>\x1b'} <= set(texts)
 
 
 def test_the_page_holds_everything_and_loads_nothing(run: Run, tmp_path: Path) -> None:
