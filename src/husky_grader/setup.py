@@ -12,7 +12,7 @@ setup(
         ('share/husky_grader', ['package.xml']),
         ('share/husky_grader/launch', ['launch/drive.launch.py']),
     ],
-    install_requires=['setuptools', 'jinja2', 'numpy', 'pebble', 'resvg-py'],
+    install_requires=['setuptools', 'jinja2', 'markupsafe', 'numpy', 'pebble', 'resvg-py'],
     zip_safe=False,
     maintainer='The Husky Playpen Lab authors',
     maintainer_email='husky-playpen-lab@users.noreply.github.com',
