@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from husky_course.frames import Pose, to_odom, wrapped
+from husky_course.frames import to_odom, wrapped
 
 STANDING_M_S = 0.01
 STANDING_RAD_S = 0.02
@@ -42,11 +42,6 @@ STOP = Command(0.0, 0.0)
 def yaw_of(x: float, y: float, z: float, w: float) -> float:
     """Return the heading of a quaternion."""
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-
-def relative(x: float, y: float, origin: Pose) -> tuple[float, float]:
-    """Return a place as seen from a pose (x, y, yaw)."""
-    return to_odom(origin, x, y)
 
 
 def relative_odometry(odometry: Odometry, origin: Odometry) -> Odometry:

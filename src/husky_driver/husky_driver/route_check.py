@@ -13,7 +13,8 @@ from __future__ import annotations
 from importlib.metadata import entry_points
 from typing import Protocol
 
-from husky_course.route import NearPass, Pose, Route, Survey
+from husky_course.frames import Pose
+from husky_course.route import NearPass, Route, Survey
 
 GROUP = 'husky_driver.route_check'
 

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from pathlib import Path
 import sys
 
+from husky_course.frames import Pose
 from husky_course.printable import printable
-from husky_course.route import plan_route, Point, Pose, Route, Survey
+from husky_course.route import plan_route, Point, Route, Survey
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, Parser
 

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from husky_course.frames import Pose
 from husky_course.robot import RobotStart
-from husky_course.route import Pose, Route, Survey, survey_route
+from husky_course.route import Route, Survey, survey_route
 
 
 def config_folder() -> Path:

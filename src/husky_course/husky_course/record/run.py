@@ -16,6 +16,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from husky_course.frames import Pose, to_odom, to_world
 from husky_course.outline import Outline
 from husky_course.record.contents import Collision, COLUMNS, Columns, Disturbance
 from husky_course.record.record import Record, RecordRefused
@@ -33,7 +34,7 @@ class Run(Columns[Array]):
     """
 
     begin: int  # the entry at which the drive began
-    start: tuple[float, float, float]  # in the frame world
+    start: Pose  # in the frame world
     collisions: tuple[Collision, ...]
     disturbances: tuple[Disturbance, ...]
     obstacles: tuple[Outline, ...]
@@ -42,9 +43,7 @@ class Run(Columns[Array]):
     complete: bool  # false: the simulator ended before it could say so
 
     def to_world(self, x: Array, y: Array) -> tuple[Array, Array]:
-        x0, y0, yaw0 = self.start
-        cos, sin = math.cos(yaw0), math.sin(yaw0)
-        return x0 + cos * x - sin * y, y0 + sin * x + cos * y
+        return to_world(self.start, x, y)
 
     def spread(self, most: int, begin: int = 0, end: int | None = None) -> Indices:
         """Return entries, the first and the last among them, evenly spread over the way driven."""
@@ -68,20 +67,19 @@ def read_run(record: Record, robot: str | None = None) -> Run:
     begin = record.begin(place)
     begin_sec = float(record.rows[begin, place, 0])
     table = {column: record.column(place, column) for column in COLUMNS}
-    cos, sin = math.cos(start.yaw), math.sin(start.yaw)
-    moved_x, moved_y = table['x'] - start.x, table['y'] - start.y
+    x, y = to_odom(start.pose, table['x'], table['y'])
     yaw = table['yaw'] - start.yaw
     table |= {
         'time_sec': table['time_sec'] - begin_sec,
-        'x': cos * moved_x + sin * moved_y,
-        'y': cos * moved_y - sin * moved_x,
+        'x': x,
+        'y': y,
         'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
     }
     collisions, disturbances = record.events_since(begin_sec)
     return Run(
         **table,
         begin=begin,
-        start=(start.x, start.y, start.yaw),
+        start=start.pose,
         collisions=tuple(touch for touch in collisions if touch.robot == start.name),
         disturbances=disturbances,
         obstacles=record.obstacles,

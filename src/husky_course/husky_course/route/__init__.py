@@ -6,7 +6,7 @@ from husky_course.route.legs import Leg
 from husky_course.route.path import Curve, Point, smooth_curve
 from husky_course.route.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, plan_route, Route
 from husky_course.route.speeds import DriveLimits, plan_speeds
-from husky_course.route.survey import NearPass, Pose, Survey, survey_route
+from husky_course.route.survey import NearPass, Survey, survey_route
 
 __all__ = [
     'LIMIT_EXTRA_SEC',
@@ -16,7 +16,6 @@ __all__ = [
     'Leg',
     'NearPass',
     'Point',
-    'Pose',
     'Route',
     'Survey',
     'plan_route',

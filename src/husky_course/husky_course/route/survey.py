@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from husky_course.frames import Pose, to_world
 from husky_course.outline import clearances, Outline
 from husky_course.route.legs import Leg
 from husky_course.route.path import Curve
@@ -19,8 +20,6 @@ from husky_course.waypoints.course import Course
 ENOUGH_M = 0.15  # what a good drive may be off the path, and a little
 STEP_M = 0.05
 TURN_STEP_RAD = 0.1
-
-Pose = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -113,12 +112,8 @@ def _poses(route: Route, start: Pose) -> tuple[np.ndarray, np.ndarray]:
             poses += turn
             numbers += [leg.last] * len(turn)
             heading = leg.end_yaw_rad
-    x0, y0, yaw0 = start
-    cos, sin = math.cos(yaw0), math.sin(yaw0)
-    table = np.array(poses)
-    turned = np.array([[cos, sin], [-sin, cos]])
-    table[:, :2] = table[:, :2] @ turned + (x0, y0)
-    table[:, 2] += yaw0
+    x, y, yaw = np.array(poses).T
+    table = np.stack([*to_world(start, x, y), yaw + start[2]], axis=1)
     return table, np.array(numbers)
 
 

@@ -12,7 +12,7 @@ import signal
 from tempfile import TemporaryFile
 import xml.etree.ElementTree as ElementTree
 
-from husky_runtime.children import ChildProcess as Process
+from husky_runtime.children import ChildProcess
 from husky_runtime.descendants import descendants_ended
 
 BUILD_WITHIN_SEC = 300.0
@@ -115,7 +115,7 @@ def _run(command: list[str], log: Path) -> int | None:
     with (
         log.open('w', encoding='utf-8') as stream,
         descendants_ended(),
-        Process(command, os.environ, stream, parent_death=signal.SIGKILL) as process,
+        ChildProcess(command, os.environ, stream, parent_death=signal.SIGKILL) as process,
     ):
         return process.exit_code if process.wait(BUILD_WITHIN_SEC) else None
 
@@ -138,7 +138,7 @@ def sourced(folder: Path) -> dict[str, str]:
     with (
         TemporaryFile('w+', encoding='utf-8', errors='surrogateescape', newline='') as told,
         descendants_ended(),
-        Process(command, os.environ, told, parent_death=signal.SIGKILL) as process,
+        ChildProcess(command, os.environ, told, parent_death=signal.SIGKILL) as process,
     ):
         in_time = process.wait(SOURCE_WITHIN_SEC)
         told.seek(0)

@@ -14,8 +14,7 @@ from statistics import median
 import time
 from typing import Any, IO
 
-from husky_runtime.children import ChildProcess as Process
-from husky_runtime.children import tail_of
+from husky_runtime.children import ChildProcess, tail_of
 from husky_runtime.domains import OwnDomain
 from husky_runtime.executor import make_executor
 import rclpy
@@ -99,11 +98,11 @@ def publisher_step(folder: Path, environment: dict[str, str], most: float) -> St
             return _judge_messages(graph.received, most)
 
 
-def _start(program: Path, environment: dict[str, str], log: IO[str]) -> Process:
-    return Process([str(program)], environment, log, parent_death=signal.SIGKILL)
+def _start(program: Path, environment: dict[str, str], log: IO[str]) -> ChildProcess:
+    return ChildProcess([str(program)], environment, log, parent_death=signal.SIGKILL)
 
 
-def _why_silent(graph: _Graph, process: Process, log: Path) -> str:
+def _why_silent(graph: _Graph, process: ChildProcess, log: Path) -> str:
     if process.exit_code is not None:
         return f'it ended with exit code {process.exit_code}: {tail_of(log, 1)}'
     infos = graph.others(graph.get_publishers_info_by_topic(TOPIC))

@@ -16,10 +16,11 @@ import math
 from pathlib import Path
 import re
 
+from husky_course.frames import Pose, to_world
 from husky_course.outline import Outline
 from husky_course.printable import printable
 from husky_course.record import Run
-from husky_course.route import Point, Pose, Route
+from husky_course.route import Point, Route
 import numpy as np
 import numpy.typing as npt
 
@@ -85,18 +86,12 @@ def course_map(
     marks: Sequence[Point] = (),
 ) -> Map:
     """Return the map of a course."""
-    x0, y0, yaw0 = start
-    cos, sin = math.cos(yaw0), math.sin(yaw0)
-
-    def to_world(x: float, y: float) -> Point:
-        return x0 + cos * x - sin * y, y0 + sin * x + cos * y
-
-    course = route.course
+    course, curve = route.course, route.curve
     return Map(
         title=course.name,
         obstacles=obstacles,
-        given=_thinned([to_world(*place) for place in zip(route.curve.x, route.curve.y, strict=True)]),
-        waypoints=[to_world(point.x_m, point.y_m) for point in course.waypoints],
+        given=_thinned([to_world(start, x, y) for x, y in zip(curve.x, curve.y, strict=True)]),
+        waypoints=[to_world(start, point.x_m, point.y_m) for point in course.waypoints],
         tolerance_m=course.tolerance_m,
         start=start,
         true=[],

@@ -15,12 +15,13 @@ import math
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from husky_course.frames import Pose, to_odom, wrapped
 from husky_course.record import FILE_NAME, read_record, Record
 from husky_course.robot import RobotStart
 from husky_course.route import Route
 from husky_driver.checks import forward_acceleration
 from husky_driver.drive import Drive, NO_SLIP
-from husky_driver.motion import Command, Odometry, relative, yaw_of
+from husky_driver.motion import Command, Odometry, yaw_of
 from husky_sim.errors import SimulatorError
 from husky_sim.recording import RunRecorder
 from husky_sim.simulation import SimulatedRobot, Simulation
@@ -30,7 +31,6 @@ from husky_sim.config import CONTROL_PERIOD_SEC, SimulationConfig
 
 PERIODS_A_SECOND = round(1.0 / CONTROL_PERIOD_SEC)
 
-Pose = tuple[float, float, float]
 Controller = Callable[[Odometry], Command | None]
 OnImu = Callable[[float, float], None]
 
@@ -140,8 +140,8 @@ def _odometry(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
 
 def _truth(time_sec: float, robot: SimulatedRobot) -> Odometry:
     state, start = robot.state, robot.start
-    x, y = relative(state.position[0], state.position[1], (start.x, start.y, start.yaw))
-    yaw = math.remainder(state.yaw - start.yaw, 2.0 * math.pi)
+    x, y = to_odom(start.pose, state.position[0], state.position[1])
+    yaw = wrapped(state.yaw - start.yaw)
     return Odometry(time_sec, x, y, yaw, state.velocity[0], state.angular_velocity[2])
 
 

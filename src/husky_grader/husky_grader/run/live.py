@@ -21,8 +21,7 @@ from typing import Any
 
 from husky_course.record import FILE_NAME, read_record, Record
 from husky_course.route import Route
-from husky_runtime.children import ChildProcess as Process
-from husky_runtime.children import tail_of
+from husky_runtime.children import ChildProcess, tail_of
 from husky_runtime.descendants import descendants_ended
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.executor import make_executor
@@ -97,7 +96,7 @@ def drive_live(
         _own_domain() as (graph, watcher, executor),
         descendants_ended(),
         (folder / 'simulator.log').open('w') as log,
-        Process(simulator, {**os.environ, **graph}, log) as running,
+        ChildProcess(simulator, {**os.environ, **graph}, log) as running,
     ):
         _await_simulator(watcher, executor, running, folder)
         theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
@@ -132,7 +131,9 @@ def _own_domain() -> Iterator[tuple[dict[str, str], Watcher, Executor]]:
         yield {**graph, RANGE: os.environ.get(RANGE, 'LOCALHOST')}, watcher, executor
 
 
-def _await_simulator(watcher: Watcher, executor: Any, simulator: Process, folder: Path) -> None:
+def _await_simulator(
+    watcher: Watcher, executor: Any, simulator: ChildProcess, folder: Path
+) -> None:
     deadline = time.monotonic() + SIMULATOR_WITHIN_SEC
     while watcher.latest is None:
         executor.spin_once(timeout_sec=0.1)
@@ -141,10 +142,12 @@ def _await_simulator(watcher: Watcher, executor: Any, simulator: Process, folder
             raise LiveRunFailed(f'the simulator did not start: {tail or "it says nothing"}')
 
 
-def _start(command: str, environment: Mapping[str, str], folder: Path, answers: str) -> Process:
+def _start(
+    command: str, environment: Mapping[str, str], folder: Path, answers: str
+) -> ChildProcess:
     try:
         with (folder / 'controller.log').open('w') as log:
-            return Process(
+            return ChildProcess(
                 shlex.split(command), environment, log, answers, parent_death=signal.SIGKILL
             )
     except (OSError, IndexError, ValueError) as error:
@@ -154,8 +157,8 @@ def _start(command: str, environment: Mapping[str, str], folder: Path, answers: 
 def _watch(
     watcher: Watcher,
     executor: Any,
-    simulator: Process,
-    controller: Process,
+    simulator: ChildProcess,
+    controller: ChildProcess,
     referee: Referee,
     folder: Path,
 ) -> tuple[str, list[str]]:

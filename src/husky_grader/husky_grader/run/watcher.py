@@ -8,8 +8,9 @@ from collections.abc import Sequence
 import time
 from typing import Any
 
+from husky_course.frames import to_odom
 from husky_driver.checks import no_rotation, OdometryCheck
-from husky_driver.motion import relative, yaw_of
+from husky_driver.motion import yaw_of
 from husky_driver.ros import read_odometry
 from nav_msgs.msg import Odometry
 import rclpy
@@ -75,7 +76,7 @@ class Watcher(Node):
         if msg is None or first is None:
             raise RuntimeError('no pose yet')
         position, twist = msg.pose.pose.position, msg.twist.twist
-        place = relative(position.x, position.y, first)
+        place = to_odom(first, position.x, position.y)
         stamp = msg.header.stamp
         return {
             'time_sec': stamp.sec + stamp.nanosec * 1e-9,

@@ -9,22 +9,19 @@ from husky_course.robot import RobotStart
 import numpy as np
 import numpy.typing as npt
 
+from husky_course import frames
+
 Array = npt.NDArray[np.float64]
 
 
 def to_world(start: RobotStart, points: Array) -> Array:
     """Transform points (n, 2) from the frame odom of a robot with this start into the world."""
-    return points @ _rotation(start.yaw).T + np.array([start.x, start.y])
+    return np.stack(frames.to_world(start.pose, *points.T), axis=1)
 
 
 def to_odom(start: RobotStart, points: Array) -> Array:
     """Transform points (n, 2) of the world into the frame odom of a robot with this start."""
-    return (points - np.array([start.x, start.y])) @ _rotation(start.yaw)
-
-
-def _rotation(yaw: float) -> Array:
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    return np.array([[cos, -sin], [sin, cos]])
+    return np.stack(frames.to_odom(start.pose, *points.T), axis=1)
 
 
 def on_ground(
