@@ -39,11 +39,11 @@ MOVING_M_S = 0.4
 START_LIMIT_SEC = 30.0
 
 
-class Ear(Node):
+class TopicReader(Node):
     """Notes when the simulator says something, and what time it is there."""
 
     def __init__(self) -> None:
-        super().__init__('benchmark_ear')
+        super().__init__('benchmark_reader')
         self.odometry_at_sec = 0.0
         self.clock: list[tuple[float, float]] = []
         self.moving = self.nonfinite = 0
@@ -92,20 +92,22 @@ def memory_mb(process: subprocess.Popen[bytes]) -> float:
 
 
 @contextlib.contextmanager
-def listening() -> Iterator[tuple[Ear, Any]]:
-    """Give an ear and the executor that costs least, so that the listener is not what is late."""
-    ear, executor = Ear(), EventsExecutor()
-    executor.add_node(ear)
+def listening() -> Iterator[tuple[TopicReader, Any]]:
+    """Give an reader and the executor that costs least, so that the listener is not what is late."""
+    reader, executor = TopicReader(), EventsExecutor()
+    executor.add_node(reader)
     gc.freeze()
-    yield ear, executor
-    executor.remove_node(ear)
+    yield reader, executor
+    executor.remove_node(reader)
     executor.shutdown()
-    ear.destroy_node()
+    reader.destroy_node()
 
 
-def spin_until(executor: Any, ear: Ear, deadline_sec: float, *, first: bool = False) -> None:
+def spin_until(
+    executor: Any, reader: TopicReader, deadline_sec: float, *, first: bool = False
+) -> None:
     """Listen until a time, or until the first odometry message."""
-    while time.monotonic() < deadline_sec and not (first and ear.odometry_at_sec):
+    while time.monotonic() < deadline_sec and not (first and reader.odometry_at_sec):
         executor.spin_once(timeout_sec=0.05)
 
 
@@ -126,19 +128,19 @@ def real_time(seconds: float) -> None:
     spawn = multiprocessing.get_context('spawn')
     late: Any = spawn.Queue()
     sleeper = spawn.Process(target=sleep_bare, args=(seconds, late), daemon=True)
-    with listening() as (ear, executor):
+    with listening() as (reader, executor):
         begin = time.monotonic()
         process = started()
-        spin_until(executor, ear, begin + START_LIMIT_SEC, first=True)
-        print(f'start to first odometry     {ear.odometry_at_sec - begin:8.2f} s')
+        spin_until(executor, reader, begin + START_LIMIT_SEC, first=True)
+        print(f'start to first odometry     {reader.odometry_at_sec - begin:8.2f} s')
         sleeper.start()
-        spin_until(executor, ear, time.monotonic() + 2.0)
-        ear.clock.clear()
+        spin_until(executor, reader, time.monotonic() + 2.0)
+        reader.clock.clear()
         used, begin = cpu_sec(process), time.monotonic()
-        spin_until(executor, ear, begin + seconds)
+        spin_until(executor, reader, begin + seconds)
         share = (cpu_sec(process) - used) / (time.monotonic() - begin)
         print(f'CPU in real time            {share:8.1%}')
-        times = np.array(ear.clock)
+        times = np.array(reader.clock)
         print(f'memory                      {memory_mb(process):8.0f} MB')
         stopped(process)
     errors = times[:, 0] - times[:, 1]
@@ -152,20 +154,20 @@ def real_time(seconds: float) -> None:
 
 def an_hour() -> None:
     """Drive in a circle for an hour of simulated time, and watch the memory and the physics."""
-    with listening() as (ear, executor):
+    with listening() as (reader, executor):
         process = started(real_time_factor=0.0, command_timeout_sec=60.0)
-        publisher = ear.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+        publisher = reader.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
         circle = Twist(linear=Vector3(x=0.5), angular=Vector3(z=-0.5))
-        ear.create_timer(0.1, lambda: publisher.publish(circle))
+        reader.create_timer(0.1, lambda: publisher.publish(circle))
         memory = []
         for quarter in range(1, 5):
-            while not ear.clock or ear.clock[-1][1] < 900.0 * quarter:
-                ear.clock = ear.clock[-1:]
+            while not reader.clock or reader.clock[-1][1] < 900.0 * quarter:
+                reader.clock = reader.clock[-1:]
                 executor.spin_once(timeout_sec=0.05)
             memory.append(f'{memory_mb(process):.0f}')
         print(f'memory after each 15 min    {", ".join(memory)} MB')
-        print(f'odometry moving, not finite {ear.moving}, {ear.nonfinite}')
-        print(f'warnings of the physics     {ear.warnings}')
+        print(f'odometry moving, not finite {reader.moving}, {reader.nonfinite}')
+        print(f'warnings of the physics     {reader.warnings}')
         stopped(process)
 
 

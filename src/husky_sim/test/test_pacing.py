@@ -19,10 +19,10 @@ def test_nothing_is_due_too_early() -> None:
     assert pacer.due(5.021) == 1
 
 
-def test_a_timer_that_trembles_loses_no_period() -> None:
+def test_a_timer_that_jitters_loses_no_period() -> None:
     pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
-    trembling = [0.02 * i + (0.001 if i % 3 else -0.001) for i in range(1, 100)]
-    assert [pacer.due(now) for now in trembling] == [1] * 99
+    jittered = [0.02 * i + (0.001 if i % 3 else -0.001) for i in range(1, 100)]
+    assert [pacer.due(now) for now in jittered] == [1] * 99
 
 
 @pytest.mark.parametrize('factor', [0.25, 1.0, 3.0, 50.0])
@@ -77,6 +77,6 @@ def test_periods_fall_due_at_ticks_after_a_late_first_one(late_sec: float) -> No
     pacer = Pacer(period_sec=0.02, real_time_factor=1.0)
     pacer.change(1.0, begin_sec=10.0)
     pacer.due(10.02 + late_sec)
-    trembling = [0.0001, 0.0008, 0.016, 0.0015] * 25
-    counts = [pacer.due(10.04 + 0.02 * k + late) for k, late in enumerate(trembling)]
+    jittered = [0.0001, 0.0008, 0.016, 0.0015] * 25
+    counts = [pacer.due(10.04 + 0.02 * k + late) for k, late in enumerate(jittered)]
     assert set(counts[1:]) == {1}
