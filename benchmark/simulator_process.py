@@ -93,7 +93,7 @@ def memory_mb(process: subprocess.Popen[bytes]) -> float:
 
 @contextlib.contextmanager
 def listening() -> Iterator[tuple[TopicReader, Any]]:
-    """Give an reader and the executor that costs least, so that the listener is not what is late."""
+    """Yield a reader and the executor that costs least: the reader must not be what is late."""
     reader, executor = TopicReader(), EventsExecutor()
     executor.add_node(reader)
     gc.freeze()

@@ -254,3 +254,23 @@ def test_the_driver_runs_without_mujoco(only_declared: dict[str, Path]) -> None:
     program += 'sys.exit(main(["follow_path", "--waypoints", "none.yaml"]))'
     done = run_alone(folder, program)
     assert (done.returncode, done.stderr) == (2, 'none.yaml: line 1, column 1: no such file\n')
+
+
+@pytest.mark.parametrize(
+    ('package', 'name', 'now'),
+    [
+        ('husky_driver', 'check', 'husky_grader'),
+        ('husky_driver', 'drive', 'husky_grader'),
+        ('husky_driver', 'grade', 'husky_grader'),
+        ('husky_sim', 'replay', 'husky_view'),
+        ('husky_sim', 'view', 'husky_view'),
+    ],
+)
+def test_a_moved_program_runs_and_says_where_it_is(package: str, name: str, now: str) -> None:
+    refused = ['--ros-args', '-p', 'viewer_port:=99999']
+    command = ['ros2', 'run', package, name, *(refused if name == 'view' else ['--help'])]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60.0)
+    moved, _, rest = done.stderr.partition('\n')
+    assert moved == f'{name} has moved: ros2 run {now} {name}'
+    assert done.returncode == (2 if name == 'view' else 0)
+    assert 'no free port' in rest if name == 'view' else 'usage:' in done.stdout
