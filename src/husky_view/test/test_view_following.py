@@ -51,6 +51,19 @@ def test_the_camera_stands_after_input_and_keeps_the_new_view() -> None:
     assert camera.offset is nearer
 
 
+def test_a_pose_that_reaches_the_page_late_undoes_no_input() -> None:
+    behind, nearer = np.array([-3.0, 0.0, 1.9]), np.array([0.0, 2.0, 1.0])
+    camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)
+    camera.report(behind)
+    robot = np.array([1.0, 0.0, 0.0])
+    assert camera.step(robot, now_sec=0.1)
+    camera.report(nearer)
+    assert not camera.step(robot, now_sec=0.2)
+    camera.report(behind)  # the pose sent at 0.1 s
+    assert camera.step(robot, now_sec=0.3 + USER_PAUSE_SEC), 'the page gets the new view again'
+    assert camera.offset is nearer
+
+
 def test_a_report_older_than_the_first_pose_is_not_input() -> None:
     behind, before = np.array([-3.0, 0.0, 1.9]), np.array([-9.0, -8.0, 9.0])
     camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)

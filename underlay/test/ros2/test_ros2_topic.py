@@ -84,8 +84,14 @@ def test_echo_names_what_it_refuses(
 
 def test_hz_measures_the_rate(world: Any) -> None:
     process = world.ros2('topic', 'hz', '/chatter')
-    line = next(line for line in process.stdout if line.startswith('average rate: '))
-    assert float(line.split()[-1]) == pytest.approx(20.0, rel=0.2)
+    rates = []
+    for line in process.stdout:
+        if line.startswith('average rate: '):
+            rates.append(float(line.split()[-1]))
+            # A busy machine delivers the first messages in a burst, which the mean outweighs.
+            if rates[-1] == pytest.approx(20.0, rel=0.2) or len(rates) == 10:
+                break
+    assert rates[-1] == pytest.approx(20.0, rel=0.2), rates
     assert 'window: ' in process.stdout.readline()
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=5)

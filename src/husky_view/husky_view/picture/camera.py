@@ -24,6 +24,9 @@ TIME_CONSTANT_SEC = 0.15
 USER_PAUSE_SEC = 0.3
 """A following camera stands so long after a person turned or zoomed it."""
 
+DELIVERY_SEC = 2.0
+"""A pose reaches the page within this time, also on a busy computer."""
+
 REPORT_TIMEOUT_SEC = 0.2
 """The next pose is sent when the page has reported the last one, or after this time: a pose sent
 earlier would override unseen what a person does meanwhile."""
@@ -50,7 +53,7 @@ class ChaseCamera:
         self.at = robot.copy()
         self.offset = offset
         self._begun_sec = self._before_sec = now_sec
-        self._paused_until_sec = -math.inf
+        self._paused_until_sec = self._stale_until_sec = -math.inf
         self._confirmed = False  # the page has reported the first pose
         self._reported: Array | None = None
         self._sent_sec = -math.inf
@@ -85,16 +88,18 @@ class ChaseCamera:
         self._confirmed = self._confirmed or now_sec - self._begun_sec > _FIRST_REPORT_SEC
         if offset is None or not np.any(offset):
             return
+        on_its_way = self._sent_sec > -math.inf
         self._sent_sec = -math.inf
         if _same(offset, self.offset):
             self._confirmed = True
             self._sent = self.offset
-        elif now_sec < self._paused_until_sec and _same(offset, self._sent):
+        elif now_sec < self._stale_until_sec and _same(offset, self._sent):
             # A pose that was still on its way has overridden the person's input.
             self._overridden = True
         elif self._confirmed:  # else the report is older than the first pose
             self.offset = offset
             self._paused_until_sec = now_sec + USER_PAUSE_SEC
+            self._stale_until_sec = now_sec + (DELIVERY_SEC if on_its_way else USER_PAUSE_SEC)
 
 
 def _same(one: Array, other: Array) -> bool:
