@@ -160,7 +160,7 @@ def test_a_replay_shows_the_collision_in_red(
     replay.wait_for_text('look at http://')
     address = replay.output.split('look at ')[1].split()[0]
     page = open_page(browser, address, *DESK, drawn=True)
-    page.get_by_role('button', name=' s ').first.click()
+    page.get_by_role('button', name='jersey_barrier_15').click()
     wait_until(
         lambda: red(screenshot(page)) > 30,
         timeout_sec=60.0,
