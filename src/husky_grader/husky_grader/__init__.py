@@ -1,3 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Judges runs: check of a course, rehearsal, score, live runs, classes, reports."""
+"""Judges runs: checks of courses, runs in process or live, scores, reports, whole classes."""
