@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+import subprocess
 
 from husky_runtime.domains import OwnDomain
 from playpen_testing import chromium
@@ -21,6 +22,17 @@ def browser() -> Iterator[Browser]:
     """Start a browser; until it ends, Playwright's event loop bars any other from this thread."""
     with start_browser(chromium.find_or_install()) as started:
         yield started
+
+
+@pytest.fixture(scope='session')
+def built_packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build every package as a copy; what `./lab` itself has built are links."""
+    folder = tmp_path_factory.mktemp('built')
+    bases = ['--build-base', str(folder / 'build'), '--install-base', str(folder / 'install')]
+    colcon = ['colcon', '--log-base', str(folder / 'log'), 'build', '--base-paths', 'src']
+    done = subprocess.run([*colcon, *bases], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder / 'install'
 
 
 @pytest.fixture

@@ -16,6 +16,8 @@ from typing import Any
 from urllib.request import urlopen
 from xml.etree import ElementTree
 
+from playpen_testing import chromium
+from playpen_testing.browser import errors, start_browser
 import pytest
 
 SVG = '{http://www.w3.org/2000/svg}'
@@ -67,6 +69,12 @@ TALK_ARROWS = {
     ('node:/talker_1', 'topic:/chatter'),
     ('node:/talker_2', 'topic:/chatter'),
     ('topic:/chatter', 'node:/listener'),
+}
+
+# What is lit while the pointer is over a shape: it, its arrows and what is at their other ends.
+LIT = {
+    'node:/talker_1': {'node:/talker_1', 'node:/talker_1>topic:/chatter', 'topic:/chatter'},
+    'topic:/chatter': {*TALK, *('>'.join(arrow) for arrow in TALK_ARROWS)},
 }
 
 
@@ -190,6 +198,21 @@ def test_the_page_shows_nodes_that_start_and_end(talk: Any) -> None:
     _wait_for_event(news, lambda keys: 'node:/talker_3' not in keys)
     assert urlopen(address + 'graph.png', timeout=20).read().startswith(b'\x89PNG')
     assert set(shapes(urlopen(address + 'graph.svg', timeout=20).read().decode())) == set(TALK)
+
+
+def test_the_page_lights_what_hangs_on_a_pointed_shape(talk: Any) -> None:
+    server = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
+    (address,) = re.findall(r'http://127\.0\.0\.1:\d+/', server.stdout.readline())
+    with start_browser(chromium.find_or_install()) as browser:
+        page = browser.new_page()
+        page.goto(address)
+        for shape, lit in LIT.items():
+            page.locator(f'[id="{shape}"]').hover()
+            keys = page.locator('#graph.lit .on').evaluate_all('on => on.map((part) => part.id)')
+            assert set(keys) == lit, shape
+        page.locator('h1').hover()
+        assert page.locator('#graph.lit').count() == 0
+        assert errors(page) == []
 
 
 def _wait_for_event(news: Iterator[dict[str, Any]], fact: Any) -> None:
