@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-from husky_grader.batch.batch_grader import BatchGrader
+from husky_grader.batch.batch_grader import BatchGrader, workers
 from husky_grader.batch.cache import key_of
 from husky_grader.batch.tables import names_of
 from husky_grader.grade import main as grade
@@ -267,6 +267,12 @@ def test_a_full_disk_gives_one_line_and_the_table(
     assert table[1].startswith('bob_path    0.0  refused')
     (line,) = (line for line in done.stderr.splitlines() if 'make room there' in line)
     assert 'its report cannot be written: File too large' in line
+
+
+def test_a_worker_that_is_ending_runs_no_handler() -> None:
+    with workers(1) as pool:
+        handler = pool.schedule(signal.getsignal, args=(signal.SIGTERM,)).result()
+    assert handler is signal.SIG_DFL
 
 
 def test_files_of_one_name_are_told_apart_by_their_folders() -> None:

@@ -67,7 +67,7 @@ class BatchGrader:
         return [self.results[number] for number in range(len(self.files))]
 
     def _grade(self, waiting: Sequence[int]) -> None:
-        with _workers(min(self._jobs, len(waiting))) as pool:
+        with workers(min(self._jobs, len(waiting))) as pool:
             futures: dict[Future[Grade], int] = {}
             for number in waiting:
                 folder = self._folder / self.names[number]
@@ -104,7 +104,7 @@ class BatchGrader:
 
 
 @contextmanager
-def _workers(count: int) -> Iterator[ProcessPool]:
+def workers(count: int) -> Iterator[ProcessPool]:
     """
     Open a pool of worker processes that never see Ctrl-C; at the end none is left.
 
@@ -113,8 +113,7 @@ def _workers(count: int) -> Iterator[ProcessPool]:
     """
     pool = ProcessPool(
         max_workers=count,
-        initializer=die_with_parent,
-        initargs=(signal.SIGKILL,),
+        initializer=_begin_worker,
         context=multiprocessing.get_context('spawn'),
     )
     resource_tracker.ensure_running()  # its start would unblock the signal again
@@ -129,6 +128,13 @@ def _workers(count: int) -> Iterator[ProcessPool]:
     finally:
         pool.stop()
         pool.join()
+
+
+def _begin_worker() -> None:
+    die_with_parent(signal.SIGKILL)
+    # The pool tells a worker to end and sends SIGTERM as well. A handler in Python is gone by then
+    # if the worker is quick, and Python prints a traceback.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def _grade_in_worker(file: str, folder: Path, world: str, stalled_cpu_sec: float) -> Grade:
