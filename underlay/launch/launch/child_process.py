@@ -52,7 +52,7 @@ class ChildProcess(asyncio.SubprocessProtocol):
         self._on_started = on_started
         self.complete: asyncio.Future[int] = asyncio.get_running_loop().create_future()
         self._open_pipes = {1, 2}
-        self._returncode: int | None = None
+        self.returncode: int | None = None
         self._transport: asyncio.SubprocessTransport | None = None
         self._terminals: list[asyncio.BaseTransport] = []
 
@@ -60,10 +60,6 @@ class ChildProcess(asyncio.SubprocessProtocol):
     def pid(self) -> int:
         assert self._transport is not None
         return self._transport.get_pid()
-
-    @property
-    def returncode(self) -> int | None:
-        return self._returncode
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.SubprocessTransport, transport)
@@ -79,13 +75,13 @@ class ChildProcess(asyncio.SubprocessProtocol):
 
     def on_pipe_closed(self, fd: int) -> None:
         self._open_pipes.discard(fd)
-        if not self._open_pipes and self._returncode is not None:
+        if not self._open_pipes and self.returncode is not None:
             self._finish()
 
     def process_exited(self) -> None:
         assert self._transport is not None
         returncode = self._transport.get_returncode()
-        self._returncode = 255 if returncode is None else returncode
+        self.returncode = 255 if returncode is None else returncode
         if not self._open_pipes:
             self._finish()
         else:
@@ -93,8 +89,8 @@ class ChildProcess(asyncio.SubprocessProtocol):
 
     def _finish(self) -> None:
         if not self.complete.done():
-            assert self._returncode is not None
-            self.complete.set_result(self._returncode)
+            assert self.returncode is not None
+            self.complete.set_result(self.returncode)
         self.close()
 
     def write(self, data: bytes) -> None:
@@ -110,7 +106,7 @@ class ChildProcess(asyncio.SubprocessProtocol):
         :raises ProcessLookupError: the child has ended.
         """
         assert self._transport is not None
-        if self._returncode is not None:
+        if self.returncode is not None:
             raise ProcessLookupError
         self._transport.send_signal(number)
 

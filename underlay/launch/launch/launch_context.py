@@ -36,8 +36,8 @@ class LaunchContext:
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
-        self.__argv = list(argv or [])
-        self.__noninteractive = noninteractive
+        self.argv = list(argv or [])
+        self.noninteractive = noninteractive
         self._event_queue: collections.deque[Event] = collections.deque()
         self._event_handlers: collections.deque[BaseEventHandler] = collections.deque()
         self._completion_futures: list[asyncio.Future[None]] = []
@@ -51,14 +51,6 @@ class LaunchContext:
         self.__environment_at_start = dict(os.environ)
         self.__is_shutdown = False
         self.__asyncio_loop: asyncio.AbstractEventLoop | None = None
-
-    @property
-    def argv(self) -> list[str]:
-        return self.__argv
-
-    @property
-    def noninteractive(self) -> bool:
-        return self.__noninteractive
 
     def _set_is_shutdown(self, state: bool) -> None:
         self.__is_shutdown = state

@@ -26,21 +26,21 @@ class LaunchDescription(LaunchDescriptionEntity):
         *,
         deprecated_reason: str | None = None,
     ) -> None:
-        self.__entities = list(initial_entities or [])
-        for entity in self.__entities:
+        self.entities = list(initial_entities or [])
+        for entity in self.entities:
             _check_entity(entity)
-        self.__deprecated_reason = deprecated_reason
+        self.deprecated_reason = deprecated_reason
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         del context
         if self.deprecated:
             warnings.warn(
-                f'this launch file is deprecated: {self.__deprecated_reason}', stacklevel=2
+                f'this launch file is deprecated: {self.deprecated_reason}', stacklevel=2
             )
-        return self.__entities
+        return self.entities
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        return self.__entities
+        return self.entities
 
     def get_launch_arguments(
         self, conditional_inclusion: bool = False
@@ -63,24 +63,16 @@ class LaunchDescription(LaunchDescriptionEntity):
                 unique.append((argument, includes))
         return unique
 
-    @property
-    def entities(self) -> list[LaunchDescriptionEntity]:
-        return self.__entities
-
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
         _check_entity(entity)
-        self.__entities.append(entity)
+        self.entities.append(entity)
 
     def add_action(self, action: LaunchDescriptionEntity) -> None:
         self.add_entity(action)
 
     @property
     def deprecated(self) -> bool:
-        return self.__deprecated_reason is not None
-
-    @property
-    def deprecated_reason(self) -> str | None:
-        return self.__deprecated_reason
+        return self.deprecated_reason is not None
 
 
 def _check_entity(entity: object) -> None:

@@ -22,7 +22,7 @@ class LaunchDescriptionSource:
         self.__launch_description = launch_description
         self.__location = normalize_to_list_of_substitutions(location)
         self.__expanded_location: str | None = None
-        self.__method = method
+        self.method = method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
         """Return the description where its place is plain text, else None."""
@@ -55,7 +55,3 @@ class LaunchDescriptionSource:
         if self.__expanded_location is None:
             return ' + '.join(str(sub.describe()) for sub in self.__location)
         return self.__expanded_location
-
-    @property
-    def method(self) -> str:
-        return self.__method

@@ -44,9 +44,9 @@ class LaunchService:
         self.__debug = debug
         self.__logger = get_logger('launch')
         log_launch_config(logger=self.__logger)
-        self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
-        self.__context.register_event_handler(OnIncludeLaunchDescription())
-        self.__context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
+        self.context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.context.register_event_handler(OnIncludeLaunchDescription())
+        self.context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
         self.__futures: list[asyncio.Future[None]] = []
         self.__lock = threading.RLock()
         self.__loop: asyncio.AbstractEventLoop | None = None
@@ -55,10 +55,6 @@ class LaunchService:
         self.__shutdown_when_idle = True
         self.__sigint_received = False
         self.__return_code = 0
-
-    @property
-    def context(self) -> LaunchContext:
-        return self.__context
 
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
@@ -75,9 +71,9 @@ class LaunchService:
         """Emit an event, from any thread; where the service does not run, for when it does."""
         with self.__lock:
             if self.__loop is None:
-                self.__context.emit_event_sync(event)
+                self.context.emit_event_sync(event)
             else:
-                self.__loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
+                self.__loop.call_soon_threadsafe(self.context.emit_event_sync, event)
         return None
 
     def include_launch_description(
@@ -122,9 +118,9 @@ class LaunchService:
         self.__shutdown_when_idle = shutdown_when_idle
         self.__shutting_down = self.__sigint_received = False
         self.__return_code = 0
-        self.__context._set_is_shutdown(False)
-        self.__context._set_asyncio_loop(self.__loop)
-        self.__context._wake = self.__wakeup.set
+        self.context._set_is_shutdown(False)
+        self.context._set_asyncio_loop(self.__loop)
+        self.context._wake = self.__wakeup.set
         previous = self.__install_signal_handlers(self.__loop)
         try:
             await self.__run_to_the_end()
@@ -132,8 +128,8 @@ class LaunchService:
             self.__restore_signal_handlers(self.__loop, previous)
             with self.__lock:
                 self.__loop = None
-                self.__context._wake = None
-                self.__context._set_asyncio_loop(None)
+                self.context._wake = None
+                self.context._set_asyncio_loop(None)
         return self.__return_code
 
     async def __run_to_the_end(self) -> None:
@@ -158,8 +154,8 @@ class LaunchService:
         assert self.__wakeup is not None
         while True:
             self.__wakeup.clear()
-            while self.__context._event_queue:
-                self.__process_event(self.__context._event_queue.popleft())
+            while self.context._event_queue:
+                self.__process_event(self.context._event_queue.popleft())
                 await asyncio.sleep(0)
             if self.__is_idle():
                 if self.__shutting_down:
@@ -171,14 +167,14 @@ class LaunchService:
 
     def __is_idle(self) -> bool:
         """Return whether nothing is under way; raise what went wrong in what is done."""
-        self.__watch(self.__context._completion_futures)
-        self.__context._completion_futures.clear()
+        self.__watch(self.context._completion_futures)
+        self.context._completion_futures.clear()
         done = [future for future in self.__futures if future.done()]
         self.__futures = [future for future in self.__futures if not future.done()]
         for future in done:
             if not future.cancelled() and future.exception() is not None:
                 raise future.exception()  # type: ignore[misc]
-        return not self.__futures and not self.__context._event_queue
+        return not self.__futures and not self.context._event_queue
 
     def __watch(self, futures: Iterable[asyncio.Future[None]]) -> None:
         for future in futures:
@@ -196,17 +192,17 @@ class LaunchService:
         """
         self.__logger.debug(f"processing event: '{event}'")
         first_error: Exception | None = None
-        for handler in tuple(self.__context._event_handlers):
+        for handler in tuple(self.context._event_handlers):
             if not handler.matches(event):
                 continue
-            self.__context._push_locals()
+            self.context._push_locals()
             try:
-                self.__visit(handler.handle(event, self.__context))
+                self.__visit(handler.handle(event, self.context))
             except Exception as error:
                 attach_location(error, handler)
                 first_error = first_error or error
             finally:
-                self.__context._pop_locals()
+                self.context._pop_locals()
         if first_error is not None:
             raise first_error
 
@@ -217,7 +213,7 @@ class LaunchService:
             entities = [entities]
         known = [entity for entity in entities if entity is not None]
         for entity in normalize_to_list_of_entities(known):
-            pairs = visit_all_entities_and_collect_futures(entity, self.__context)
+            pairs = visit_all_entities_and_collect_futures(entity, self.context)
             self.__watch(future for _, future in pairs)
 
     # ---- the end ----
@@ -225,13 +221,13 @@ class LaunchService:
     def __on_shutdown(self, event: Event, context: LaunchContext) -> None:
         del event, context
         self.__shutting_down = True
-        self.__context._set_is_shutdown(True)
+        self.context._set_is_shutdown(True)
 
     def __begin_shutdown(self, reason: str, due_to_sigint: bool) -> None:
         if not self.__shutting_down:
-            self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
+            self.context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
         self.__shutting_down = True
-        self.__context._set_is_shutdown(True)
+        self.context._set_is_shutdown(True)
 
     def __on_sigint(self) -> None:
         text = 'user interrupted with ctrl-c (SIGINT)'

@@ -34,16 +34,12 @@ class ParameterValue:
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
         self.__value = normalize_typed_substitution(value, value_type)
-        self.__value_type = value_type
+        self.value_type = value_type
         self.__evaluated: Any = None
 
     @property
     def value(self) -> Any:
         return self.__value if self.__evaluated is None else self.__evaluated
-
-    @property
-    def value_type(self) -> Any:
-        return self.__value_type
 
     def __str__(self) -> str:
         kind = getattr(self.value_type, '__name__', self.value_type)
@@ -101,16 +97,12 @@ class ParameterFile:
         if isinstance(param_file, (bytes, os.PathLike)):
             param_file = os.fsdecode(param_file)
         self.__param_file = normalize_to_list_of_substitutions(param_file)
-        self.__allow_substs = normalize_typed_substitution(allow_substs, bool)
+        self.allow_substs = normalize_typed_substitution(allow_substs, bool)
         self.__evaluated: Path | None = None
 
     @property
     def param_file(self) -> FilePath | list[Substitution]:
         return self.__param_file if self.__evaluated is None else self.__evaluated
-
-    @property
-    def allow_substs(self) -> Any:
-        return self.__allow_substs
 
     def __str__(self) -> str:
         return (
@@ -121,7 +113,7 @@ class ParameterFile:
     def evaluate(self, context: LaunchContext) -> Path:
         """Return the path, of a file with the substitutions performed where it has some."""
         path = Path(perform_substitutions(context, self.__param_file))
-        if perform_typed_substitution(context, self.__allow_substs, bool):
+        if perform_typed_substitution(context, self.allow_substs, bool):
             path = self.__substitute(context, path)
         self.__evaluated = path
         return path

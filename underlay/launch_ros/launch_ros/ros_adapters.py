@@ -26,12 +26,12 @@ class ROSAdapter:
     def __init__(
         self, *, argv: list[str] | None = None, use_sim_time: bool = False, autostart: bool = True
     ) -> None:
-        self.__argv = argv or []
+        self.argv = argv or []
         self.__use_sim_time = use_sim_time
         self.__thread: threading.Thread | None = None
-        self.__context: Any = None
-        self.__node: Any = None
-        self.__executor: Any = None
+        self.ros_context: Any = None
+        self.ros_node: Any = None
+        self.ros_executor: Any = None
         if autostart:
             self.start()
 
@@ -47,21 +47,21 @@ class ROSAdapter:
 
         if self.__thread is not None:
             raise RuntimeError('Cannot start a ROS adapter that is already running')
-        self.__context = rclpy.Context()
+        self.ros_context = rclpy.Context()
         # The signals belong to the launch.
         rclpy.init(
-            args=self.__argv,
-            context=self.__context,
+            args=self.argv,
+            context=self.ros_context,
             signal_handler_options=SignalHandlerOptions.NO,
         )
-        self.__node = rclpy.create_node(
+        self.ros_node = rclpy.create_node(
             f'launch_ros_{os.getpid()}',
-            context=self.__context,
+            context=self.ros_context,
             use_global_arguments=False,
             parameter_overrides=[Parameter('use_sim_time', value=self.__use_sim_time)],
         )
-        self.__executor = SingleThreadedExecutor(context=self.__context)
-        self.__executor.add_node(self.__node)
+        self.ros_executor = SingleThreadedExecutor(context=self.ros_context)
+        self.ros_executor.add_node(self.ros_node)
         self.__thread = threading.Thread(target=self.__spin, name='launch_ros', daemon=True)
         self.__thread.start()
 
@@ -69,7 +69,7 @@ class ROSAdapter:
         from rclpy.executors import ExternalShutdownException, ShutdownException
 
         try:
-            self.__executor.spin()
+            self.ros_executor.spin()
         except (ExternalShutdownException, ShutdownException):
             return
 
@@ -77,28 +77,12 @@ class ROSAdapter:
         """Stop spinning and destroy the node; may be called twice."""
         if self.__thread is None:
             return
-        self.__context.try_shutdown()
-        self.__executor.wake()
+        self.ros_context.try_shutdown()
+        self.ros_executor.wake()
         self.__thread.join(5.0)
-        self.__executor.shutdown(timeout_sec=0)
-        self.__node.destroy_node()
+        self.ros_executor.shutdown(timeout_sec=0)
+        self.ros_node.destroy_node()
         self.__thread = None
-
-    @property
-    def argv(self) -> list[str]:
-        return self.__argv
-
-    @property
-    def ros_context(self) -> Any:
-        return self.__context
-
-    @property
-    def ros_node(self) -> Node:
-        return self.__node
-
-    @property
-    def ros_executor(self) -> Any:
-        return self.__executor
 
 
 def _wants_sim_time(context: LaunchContext) -> bool:

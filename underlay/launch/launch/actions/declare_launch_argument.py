@@ -11,7 +11,6 @@ from ..action import Action
 from ..frontend import Entity, expose_action, Parser
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -35,8 +34,8 @@ class DeclareLaunchArgument(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.__name = name
-        self.__default_value = (
+        self.name = name
+        self.default_value = (
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
         )
         if choices is not None and len(choices) == 0:
@@ -48,18 +47,18 @@ class DeclareLaunchArgument(Action):
                 f'Provided default_value "{default_value}" is not in provided choices '
                 f'"{list(choices)}".'
             )
-        self.__choices = None if choices is None else list(choices)
-        self.__description = self.__describe(description)
+        self.choices = None if choices is None else list(choices)
+        self.description = self.__describe(description)
         # Set and read while the arguments of a launch description are collected.
         self._conditionally_included = False
 
     def __describe(self, description: str | None) -> str:
         if description is None:
-            return 'no description given' if not self.__choices else f'One of: {self.__choices}'
-        if not self.__choices:
+            return 'no description given' if not self.choices else f'One of: {self.choices}'
+        if not self.choices:
             return description
         stop = '' if description.endswith('.') else '.'
-        return f'{description}{stop} Valid choices are: {self.__choices}'
+        return f'{description}{stop} Valid choices are: {self.choices}'
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -78,22 +77,6 @@ class DeclareLaunchArgument(Action):
             ]
         return cls, kwargs
 
-    @property
-    def name(self) -> str:
-        return self.__name
-
-    @property
-    def default_value(self) -> list[Substitution] | None:
-        return self.__default_value
-
-    @property
-    def description(self) -> str:
-        return self.__description
-
-    @property
-    def choices(self) -> list[str] | None:
-        return self.__choices
-
     def execute(self, context: LaunchContext) -> None:
         if self.name not in context.launch_configurations:
             if self.default_value is None:
@@ -104,8 +87,8 @@ class DeclareLaunchArgument(Action):
             value = perform_substitutions(context, self.default_value)
             context.launch_configurations[self.name] = value
         value = context.launch_configurations[self.name]
-        if self.__choices is not None and value not in self.__choices:
+        if self.choices is not None and value not in self.choices:
             raise RuntimeError(
                 f'Argument "{self.name}" provided value "{value}" is not valid. Valid options '
-                f'are: {self.__choices}'
+                f'are: {self.choices}'
             )

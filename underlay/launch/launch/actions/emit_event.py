@@ -18,11 +18,7 @@ class EmitEvent(Action):
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         ensure_argument_type(event, Event, 'event', 'EmitEvent')
-        self.__event = event
-
-    @property
-    def event(self) -> Event:
-        return self.__event
+        self.event = event
 
     def execute(self, context: LaunchContext) -> None:
         context.emit_event_sync(self.event)

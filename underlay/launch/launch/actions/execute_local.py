@@ -62,7 +62,7 @@ class ExecuteLocal(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.__process_description = process_description
+        self.process_description = process_description
         self.__settings = ProcessSettings(
             shell=shell,
             sigterm_timeout=sigterm_timeout,
@@ -77,12 +77,9 @@ class ExecuteLocal(Action):
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
         self.__on_exit = on_exit
-        self.__process_event_args: dict[str, Any] | None = None
+        # Name, cmd, cwd, env and (once started) pid of the process, None before execution.
+        self.process_details: dict[str, Any] | None = None
         self.__run: ProcessRun | None = None
-
-    @property
-    def process_description(self) -> Executable:
-        return self.__process_description
 
     @property
     def shell(self) -> Any:
@@ -103,11 +100,6 @@ class ExecuteLocal(Action):
     @property
     def output(self) -> Any:
         return self.__settings.output
-
-    @property
-    def process_details(self) -> dict[str, Any] | None:
-        """Name, cmd, cwd, env and (once started) pid of the process, None before execution."""
-        return self.__process_event_args
 
     @property
     def return_code(self) -> int | None:
@@ -134,9 +126,9 @@ class ExecuteLocal(Action):
 
     def prepare(self, context: LaunchContext) -> None:
         """Perform the substitutions; subclasses add to it."""
-        description = self.__process_description
+        description = self.process_description
         description.prepare(context, self)
-        self.__process_event_args = {
+        self.process_details = {
             'action': self,
             'name': description.final_name,
             'cmd': description.final_cmd,
@@ -146,9 +138,9 @@ class ExecuteLocal(Action):
         self.__settings.perform(context)
 
     def execute(self, context: LaunchContext) -> _Entities:
-        if self.__process_event_args is not None:
+        if self.process_details is not None:
             raise RuntimeError(
-                f"{type(self).__name__} action '{self.__process_description.final_name}': "
+                f"{type(self).__name__} action '{self.process_description.final_name}': "
                 'executed more than once'
             )
         self.prepare(context)
@@ -193,8 +185,8 @@ class ExecuteLocal(Action):
 
     @property
     def __details(self) -> dict[str, Any]:
-        assert self.__process_event_args is not None
-        return self.__process_event_args
+        assert self.process_details is not None
+        return self.process_details
 
     # ---- events ----
 

@@ -48,10 +48,10 @@ class IncludeLaunchDescription(Action):
         super().__init__(**kwargs)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
-        self.__source = launch_description_source
+        self.launch_description_source = launch_description_source
         if isinstance(launch_arguments, dict):
             launch_arguments = launch_arguments.items()
-        self.__launch_arguments = tuple(launch_arguments or ())
+        self.launch_arguments = tuple(launch_arguments or ())
         self.__outer_place: dict[str, Any] = {}
 
     @classmethod
@@ -68,23 +68,13 @@ class IncludeLaunchDescription(Action):
         kwargs['launch_arguments'] = arguments
         return cls, kwargs
 
-    @property
-    def launch_description_source(self) -> LaunchDescriptionSource:
-        return self.__source
-
-    @property
-    def launch_arguments(
-        self,
-    ) -> tuple[tuple[SomeSubstitutionsType, SomeSubstitutionsType], ...]:
-        return self.__launch_arguments
-
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        description = self.__source.try_get_launch_description_without_context()
+        description = self.launch_description_source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 
     def _try_get_arguments_names_without_context(self) -> list[str] | None:
         names = []
-        for name, _ in self.__launch_arguments:
+        for name, _ in self.launch_arguments:
             subs = normalize_to_list_of_substitutions(name)
             if not all(isinstance(sub, TextSubstitution) for sub in subs):
                 return None
@@ -92,7 +82,7 @@ class IncludeLaunchDescription(Action):
         return names
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        description = self.__source.get_launch_description(context)
+        description = self.launch_description_source.get_launch_description(context)
         self.__enter_place(context)
         self.__check_arguments(context, description)
         return [
@@ -104,12 +94,12 @@ class IncludeLaunchDescription(Action):
     def __enter_place(self, context: LaunchContext) -> None:
         known = context.get_locals_as_dict()
         self.__outer_place = {name: known[name] for name in _PLACE if name in known}
-        path = Path(self.__source.location).absolute()
+        path = Path(self.launch_description_source.location).absolute()
         if path.exists():
             path = Path(os.path.normpath(path))
             place = {_PLACE[0]: str(path), _PLACE[1]: str(path.parent)}
         else:
-            place = dict.fromkeys(_PLACE, self.__source.location)
+            place = dict.fromkeys(_PLACE, self.launch_description_source.location)
         context.extend_globals(place)
         context.extend_locals(place)
 

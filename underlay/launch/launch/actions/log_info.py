@@ -11,7 +11,6 @@ from ..frontend import Entity, expose_action, Parser
 from ..launch_context import LaunchContext
 from ..logging import get_logger
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -21,17 +20,13 @@ class LogInfo(Action):
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__msg = normalize_to_list_of_substitutions(msg)
+        self.msg = normalize_to_list_of_substitutions(msg)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         kwargs = super().parse(entity, parser)[1]
         kwargs['msg'] = parser.parse_substitution(entity.get_attr('message'))
         return cls, kwargs
-
-    @property
-    def msg(self) -> list[Substitution]:
-        return self.__msg
 
     def execute(self, context: LaunchContext) -> None:
         get_logger('launch.user').info(perform_substitutions(context, self.msg))

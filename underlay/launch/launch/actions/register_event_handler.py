@@ -20,15 +20,11 @@ class RegisterEventHandler(Action):
         ensure_argument_type(
             event_handler, BaseEventHandler, 'event_handler', 'RegisterEventHandler'
         )
-        self.__event_handler = event_handler
-
-    @property
-    def event_handler(self) -> BaseEventHandler:
-        return self.__event_handler
+        self.event_handler = event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        context.register_event_handler(self.__event_handler)
+        context.register_event_handler(self.event_handler)
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Any]]:
-        description, entities = self.__event_handler.describe()
+        description, entities = self.event_handler.describe()
         return [(description, entities)] if entities else []

@@ -10,7 +10,6 @@ from ..action import Action
 from ..frontend import Entity, expose_action, Parser
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -22,8 +21,8 @@ class SetEnvironmentVariable(Action):
         self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any
     ) -> None:
         super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
+        self.name = normalize_to_list_of_substitutions(name)
+        self.value = normalize_to_list_of_substitutions(value)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -31,14 +30,6 @@ class SetEnvironmentVariable(Action):
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
         kwargs['value'] = parser.parse_substitution(entity.get_attr('value'))
         return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self.__value
 
     def execute(self, context: LaunchContext) -> None:
         name = perform_substitutions(context, self.name)

@@ -45,12 +45,12 @@ class TimerAction(Action):
     ) -> None:
         super().__init__(**kwargs)
         period = float(period) if isinstance(period, (int, str)) else period
-        self.__period = normalize_typed_substitution(period, float)
-        self.__actions = list(actions)
+        self.period = normalize_typed_substitution(period, float)
+        self.actions = list(actions)
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self.__completed: asyncio.Future[None] | None = None
         self.__alarm: Alarm | None = None
-        self.__canceled = False
+        self.is_canceled = False
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -60,27 +60,15 @@ class TimerAction(Action):
         kwargs['actions'] = [parser.parse_action(child) for child in entity.children]
         return cls, kwargs
 
-    @property
-    def period(self) -> Any:
-        return self.__period
-
-    @property
-    def actions(self) -> list[LaunchDescriptionEntity]:
-        return self.__actions
-
-    @property
-    def is_canceled(self) -> bool:
-        return self.__canceled
-
     def describe(self) -> str:
-        return f'TimerAction(period={self.__period}, actions=<actions>)'
+        return f'TimerAction(period={self.period}, actions=<actions>)'
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Any]]:
-        return [(f'after {self.__period} second(s)', self.__actions)]
+        return [(f'after {self.period} second(s)', self.actions)]
 
     def cancel(self) -> None:
         """Let it never come to the actions; does nothing where it already has."""
-        self.__canceled = True
+        self.is_canceled = True
         if self.__alarm is not None:
             self.__alarm.cancel()
         self.__complete()
@@ -88,7 +76,7 @@ class TimerAction(Action):
     def reset(self) -> None:
         """Make it ready to be executed once more."""
         self.cancel()
-        self.__canceled = False
+        self.is_canceled = False
         self.__completed = None
 
     def __complete(self) -> None:
@@ -99,7 +87,7 @@ class TimerAction(Action):
         """Return the actions, when the period is over."""
         context.extend_locals({'timer_action': self})
         self.__complete()
-        return [] if self.__canceled else self.__actions
+        return [] if self.is_canceled else self.actions
 
     def __on_shutdown(self, event: Event, context: LaunchContext) -> None:
         del event
@@ -112,10 +100,10 @@ class TimerAction(Action):
         return context.asyncio_loop.call_later(period_sec, context.emit_event_sync, event)
 
     def execute(self, context: LaunchContext) -> None:
-        if self.__canceled:
+        if self.is_canceled:
             return
         assert context.asyncio_loop is not None
-        period = perform_typed_substitution(context, self.__period, float)
+        period = perform_typed_substitution(context, self.period, float)
         event = TimerEvent(timer_action=self)
         self.__completed = context.asyncio_loop.create_future()
         self.__alarm = self._start_alarm(context, period, event)

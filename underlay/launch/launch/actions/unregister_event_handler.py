@@ -16,11 +16,7 @@ class UnregisterEventHandler(Action):
 
     def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__event_handler = event_handler
-
-    @property
-    def event_handler(self) -> BaseEventHandler:
-        return self.__event_handler
+        self.event_handler = event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        context.unregister_event_handler(self.__event_handler)
+        context.unregister_event_handler(self.event_handler)

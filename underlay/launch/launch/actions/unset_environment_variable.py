@@ -10,7 +10,6 @@ from ..action import Action
 from ..frontend import Entity, expose_action, Parser
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -20,17 +19,13 @@ class UnsetEnvironmentVariable(Action):
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
+        self.name = normalize_to_list_of_substitutions(name)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         kwargs = super().parse(entity, parser)[1]
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
         return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
 
     def execute(self, context: LaunchContext) -> None:
         context.environment.pop(perform_substitutions(context, self.name), None)

@@ -63,9 +63,9 @@ class Executable:
         additional_env: _Env | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
-        self.__cmd = [normalize_to_list_of_substitutions(part) for part in cmd]
-        self.__arguments = [normalize_to_list_of_substitutions(part) for part in arguments or ()]
-        self.__prefix = normalize_to_list_of_substitutions(
+        self.cmd = [normalize_to_list_of_substitutions(part) for part in cmd]
+        self.arguments = [normalize_to_list_of_substitutions(part) for part in arguments or ()]
+        self.prefix = normalize_to_list_of_substitutions(
             LaunchConfiguration('launch-prefix', default='') if prefix is None else prefix
         )
         self.__prefix_filter = (
@@ -75,86 +75,39 @@ class Executable:
             if prefix is None
             else None
         )
-        self.__name = None if name is None else normalize_to_list_of_substitutions(name)
-        self.__cwd = None if cwd is None else normalize_to_list_of_substitutions(cwd)
-        self.__env = _normalize_env(env)
-        self.__additional_env = _normalize_env(additional_env)
-        self.__final_name: str | None = None
-        self.__final_cmd: list[str] | None = None
-        self.__final_cwd: str | None = None
-        self.__final_env: dict[str, str] | None = None
-
-    @property
-    def name(self) -> list[Substitution] | None:
-        return self.__name
-
-    @property
-    def prefix(self) -> list[Substitution]:
-        return self.__prefix
-
-    @property
-    def cmd(self) -> list[list[Substitution]]:
-        return self.__cmd
-
-    @property
-    def cwd(self) -> list[Substitution] | None:
-        return self.__cwd
-
-    @property
-    def env(self) -> _Pairs | None:
-        return self.__env
-
-    @property
-    def additional_env(self) -> _Pairs | None:
-        return self.__additional_env
-
-    @property
-    def arguments(self) -> list[list[Substitution]]:
-        return self.__arguments
-
-    @property
-    def final_name(self) -> str | None:
-        """The unique name of the process, once prepared."""
-        return self.__final_name
-
-    @property
-    def final_cmd(self) -> list[str] | None:
-        return self.__final_cmd
-
-    @property
-    def final_cwd(self) -> str | None:
-        return self.__final_cwd
-
-    @property
-    def final_env(self) -> dict[str, str] | None:
-        return self.__final_env
+        self.name = None if name is None else normalize_to_list_of_substitutions(name)
+        self.cwd = None if cwd is None else normalize_to_list_of_substitutions(cwd)
+        self.env = _normalize_env(env)
+        self.additional_env = _normalize_env(additional_env)
+        # The unique name of the process and the rest, once prepared.
+        self.final_name: str | None = None
+        self.final_cmd: list[str] | None = None
+        self.final_cwd: str | None = None
+        self.final_env: dict[str, str] | None = None
 
     def prepare(self, context: LaunchContext, action: Action) -> None:
         """Perform the substitutions and give the process its name."""
         del action
-        parts = self.__cmd + self.__arguments
+        parts = self.cmd + self.arguments
         cmd = [perform_substitutions(context, part) for part in parts]
         if not cmd or not cmd[0].strip():
             raise ValueError(f'the command {cmd} is empty: its first item is the program')
         program = Path(cmd[0]).name
         name = program
-        if self.__name is not None:
-            name = perform_substitutions(context, self.__name)
-        self.__final_name = f'{name}-{next(_process_numbers)}'
-        self.__final_cmd = self.__prefix_words(context, program) + cmd
-        if self.__cwd is not None:
-            self.__final_cwd = str(Path(perform_substitutions(context, self.__cwd)).expanduser())
-        if self.__env is None:
-            env = dict(context.environment)
-        else:
-            env = _perform_env(context, self.__env)
-        env.update(_perform_env(context, self.__additional_env or []))
+        if self.name is not None:
+            name = perform_substitutions(context, self.name)
+        self.final_name = f'{name}-{next(_process_numbers)}'
+        self.final_cmd = self.__prefix_words(context, program) + cmd
+        if self.cwd is not None:
+            self.final_cwd = str(Path(perform_substitutions(context, self.cwd)).expanduser())
+        env = dict(context.environment) if self.env is None else _perform_env(context, self.env)
+        env.update(_perform_env(context, self.additional_env or []))
         # A node's print() is to be seen when it happens, not when 8 KiB have come together.
         env.setdefault('PYTHONUNBUFFERED', '1')
-        self.__final_env = env
+        self.final_env = env
 
     def __prefix_words(self, context: LaunchContext, program: str) -> list[str]:
-        words = shlex.split(perform_substitutions(context, self.__prefix))
+        words = shlex.split(perform_substitutions(context, self.prefix))
         if self.__prefix_filter is not None:
             pattern = perform_substitutions(context, self.__prefix_filter)
             if pattern and re.match(pattern, program) is None:

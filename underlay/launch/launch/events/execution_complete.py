@@ -18,8 +18,4 @@ class ExecutionComplete(Event):
     name = 'launch.events.ExecutionComplete'
 
     def __init__(self, *, action: Action) -> None:
-        self.__action = action
-
-    @property
-    def action(self) -> Action:
-        return self.__action
+        self.action = action

@@ -18,8 +18,4 @@ class IncludeLaunchDescription(Event):
     name = 'launch.events.IncludeLaunchDescription'
 
     def __init__(self, launch_description: LaunchDescription) -> None:
-        self.__launch_description = launch_description
-
-    @property
-    def launch_description(self) -> LaunchDescription:
-        return self.__launch_description
+        self.launch_description = launch_description

@@ -18,8 +18,4 @@ class TimerEvent(Event):
     name = 'launch.events.TimerEvent'
 
     def __init__(self, *, timer_action: TimerAction) -> None:
-        self.__timer_action = timer_action
-
-    @property
-    def timer_action(self) -> TimerAction:
-        return self.__timer_action
+        self.timer_action = timer_action

@@ -22,17 +22,13 @@ class AnonName(Substitution):
     """Becomes a name with a unique tail, the same one each time in one launch."""
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
+        self.name = normalize_to_list_of_substitutions(name)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 1:
             raise TypeError(f'anon substitution expects 1 argument, got {len(data)}')
         return cls, {'name': data[0]}
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
 
     def describe(self) -> str:
         return f'AnonName({" + ".join(sub.describe() for sub in self.name)})'

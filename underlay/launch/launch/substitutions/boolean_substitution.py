@@ -32,17 +32,13 @@ class NotSubstitution(Substitution):
     """Becomes 'true' where its value says false, and 'false' where it says true."""
 
     def __init__(self, value: SomeSubstitutionsType) -> None:
-        self.__value = normalize_to_list_of_substitutions(value)
+        self.value = normalize_to_list_of_substitutions(value)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 1:
             raise TypeError(f'not substitution expects 1 argument, got {len(data)}')
         return cls, {'value': data[0]}
-
-    @property
-    def value(self) -> list[Substitution]:
-        return self.__value
 
     def describe(self) -> str:
         return f'NotSubstitution({self.value})'
@@ -55,22 +51,14 @@ class _TwoSided(Substitution):
     """Base of the substitutions with a left and a right value."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
-        self.__left = normalize_to_list_of_substitutions(left)
-        self.__right = normalize_to_list_of_substitutions(right)
+        self.left = normalize_to_list_of_substitutions(left)
+        self.right = normalize_to_list_of_substitutions(right)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 2:
             raise TypeError(f'{cls.__name__} expects 2 arguments, got {len(data)}')
         return cls, {'left': data[0], 'right': data[1]}
-
-    @property
-    def left(self) -> list[Substitution]:
-        return self.__left
-
-    @property
-    def right(self) -> list[Substitution]:
-        return self.__right
 
     def describe(self) -> str:
         return f'{type(self).__name__}({self.left} {self.right})'
@@ -96,15 +84,11 @@ class _ManyValued(Substitution):
     """Base of the substitutions with any number of values."""
 
     def __init__(self, *args: SomeSubstitutionsType) -> None:
-        self.__args = [normalize_to_list_of_substitutions(arg) for arg in args]
+        self.args = [normalize_to_list_of_substitutions(arg) for arg in args]
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         return cls, {'args': data}
-
-    @property
-    def args(self) -> list[list[Substitution]]:
-        return self.__args
 
     def describe(self) -> str:
         return f'{type(self).__name__}({" ".join(str(arg) for arg in self.args)})'

@@ -31,8 +31,8 @@ class Command(Substitution):
     def __init__(
         self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = 'fail'
     ) -> None:
-        self.__command = normalize_to_list_of_substitutions(command)
-        self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
+        self.command = normalize_to_list_of_substitutions(command)
+        self.on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
@@ -42,14 +42,6 @@ class Command(Substitution):
         if len(data) == 2:
             kwargs['on_stderr'] = data[1]
         return cls, kwargs
-
-    @property
-    def command(self) -> list[Substitution]:
-        return self.__command
-
-    @property
-    def on_stderr(self) -> list[Substitution]:
-        return self.__on_stderr
 
     def describe(self) -> str:
         return f'Command({" + ".join(sub.describe() for sub in self.command)})'

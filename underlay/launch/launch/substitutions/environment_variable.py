@@ -22,8 +22,8 @@ class EnvironmentVariable(Substitution):
     def __init__(
         self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None
     ) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__default_value = (
+        self.name = normalize_to_list_of_substitutions(name)
+        self.default_value = (
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
         )
 
@@ -36,14 +36,6 @@ class EnvironmentVariable(Substitution):
             kwargs['default_value'] = data[1]
         return cls, kwargs
 
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
-
-    @property
-    def default_value(self) -> list[Substitution] | None:
-        return self.__default_value
-
     def describe(self) -> str:
         return f'EnvVar({" + ".join(sub.describe() for sub in self.name)})'
 
@@ -52,6 +44,6 @@ class EnvironmentVariable(Substitution):
         value = context.environment.get(name)
         if value is not None:
             return value
-        if self.__default_value is None:
+        if self.default_value is None:
             raise SubstitutionFailure(f"environment variable '{name}' does not exist")
-        return perform_substitutions(context, self.__default_value)
+        return perform_substitutions(context, self.default_value)

@@ -42,22 +42,14 @@ class EqualsSubstitution(Substitution):
     """Becomes 'true' where both are the same text, truth value or number, else 'false'."""
 
     def __init__(self, left: Any, right: Any) -> None:
-        self.__left = _normalize(left)
-        self.__right = _normalize(right)
+        self.left = _normalize(left)
+        self.right = _normalize(right)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 2:
             raise TypeError(f'{cls.__name__} expects 2 arguments, got {len(data)}')
         return cls, {'left': data[0], 'right': data[1]}
-
-    @property
-    def left(self) -> list[Substitution]:
-        return self.__left
-
-    @property
-    def right(self) -> list[Substitution]:
-        return self.__right
 
     def describe(self) -> str:
         return f'{type(self).__name__}({self.left} {self.right})'

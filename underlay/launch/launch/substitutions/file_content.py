@@ -21,17 +21,13 @@ class FileContent(Substitution):
     """Becomes the content of a text file."""
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
-        self.__path = normalize_to_list_of_substitutions(path)
+        self.path = normalize_to_list_of_substitutions(path)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 1:
             raise TypeError(f'file-content substitution expects 1 argument, got {len(data)}')
         return cls, {'path': data[0]}
-
-    @property
-    def path(self) -> list[Substitution]:
-        return self.__path
 
     def describe(self) -> str:
         return f'FileContent({" + ".join(sub.describe() for sub in self.path)})'

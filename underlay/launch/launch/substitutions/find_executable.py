@@ -21,17 +21,13 @@ class FindExecutable(Substitution):
     """Becomes the full path of an executable on the PATH."""
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
+        self.name = normalize_to_list_of_substitutions(name)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 1:
             raise AttributeError(f'find-exec substitution expects 1 argument, got {len(data)}')
         return cls, {'name': data[0]}
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
 
     def describe(self) -> str:
         return f'FindExec({" + ".join(sub.describe() for sub in self.name)})'

@@ -22,7 +22,7 @@ class ForEachVar(Substitution):
     def __init__(
         self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None
     ) -> None:
-        self._name = normalize_to_list_of_substitutions(name)
+        self.name = normalize_to_list_of_substitutions(name)
         self._default_value = (
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
         )
@@ -36,15 +36,11 @@ class ForEachVar(Substitution):
             kwargs['default_value'] = data[1]
         return cls, kwargs
 
-    @property
-    def name(self) -> list[Substitution]:
-        return self._name
-
     def describe(self) -> str:
-        return f'{type(self).__name__}({" + ".join(sub.describe() for sub in self._name)})'
+        return f'{type(self).__name__}({" + ".join(sub.describe() for sub in self.name)})'
 
     def perform(self, context: LaunchContext) -> str:
-        name = perform_substitutions(context, self._name)
+        name = perform_substitutions(context, self.name)
         known = context.get_locals_as_dict()
         if name in known:
             return str(known[name])

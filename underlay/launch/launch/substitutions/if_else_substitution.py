@@ -28,9 +28,9 @@ class IfElseSubstitution(Substitution):
     ) -> None:
         if if_value == '' and else_value == '':
             raise RuntimeError('One of if_value and else_value must be specified')
-        self._condition = normalize_to_list_of_substitutions(condition)
-        self._if_value = normalize_to_list_of_substitutions(if_value)
-        self._else_value = normalize_to_list_of_substitutions(else_value)
+        self.condition = normalize_to_list_of_substitutions(condition)
+        self.if_value = normalize_to_list_of_substitutions(if_value)
+        self.else_value = normalize_to_list_of_substitutions(else_value)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
@@ -40,18 +40,6 @@ class IfElseSubstitution(Substitution):
         if len(data) == 3:
             kwargs['else_value'] = data[2]
         return cls, kwargs
-
-    @property
-    def condition(self) -> list[Substitution]:
-        return self._condition
-
-    @property
-    def if_value(self) -> list[Substitution]:
-        return self._if_value
-
-    @property
-    def else_value(self) -> list[Substitution]:
-        return self._else_value
 
     def describe(self) -> str:
         return f'IfElseSubstitution({self.condition}, {self.if_value}, {self.else_value})'

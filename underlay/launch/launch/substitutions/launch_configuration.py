@@ -29,7 +29,7 @@ class LaunchConfiguration(Substitution):
         *,
         default: Any | Iterable[Any] | None = None,
     ) -> None:
-        self.__variable_name = normalize_to_list_of_substitutions(variable_name)
+        self.variable_name = normalize_to_list_of_substitutions(variable_name)
         self.__default: list[Substitution] | None = None
         if default is not None:
             items = default if isinstance(default, (list, tuple)) else [default]
@@ -45,10 +45,6 @@ class LaunchConfiguration(Substitution):
         if len(data) == 2:
             kwargs['default'] = data[1]
         return cls, kwargs
-
-    @property
-    def variable_name(self) -> list[Substitution]:
-        return self.__variable_name
 
     def describe(self) -> str:
         return f'LaunchConfig({" + ".join(sub.describe() for sub in self.variable_name)})'

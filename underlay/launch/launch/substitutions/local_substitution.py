@@ -12,15 +12,11 @@ class LocalSubstitution(Substitution):
     """Becomes ``str()`` of an expression on the locals, as ``event.reason`` in a handler."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
-        self.__expression = expression
+        self.expression = expression
         self.__description = description
 
-    @property
-    def expression(self) -> str:
-        return self.__expression
-
     def describe(self) -> str:
-        return f"LocalVar('{self.__description or self.__expression}')"
+        return f"LocalVar('{self.__description or self.expression}')"
 
     def perform(self, context: LaunchContext) -> str:
-        return str(eval(f'context.locals.{self.__expression}', {}, {'context': context}))
+        return str(eval(f'context.locals.{self.expression}', {}, {'context': context}))

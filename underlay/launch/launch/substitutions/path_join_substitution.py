@@ -23,18 +23,14 @@ class PathJoinSubstitution(Substitution):
     """
 
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
-        self.__substitutions = [normalize_to_list_of_substitutions(part) for part in substitutions]
+        self.substitutions = [normalize_to_list_of_substitutions(part) for part in substitutions]
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         return cls, {'substitutions': data}
 
-    @property
-    def substitutions(self) -> list[list[Substitution]]:
-        return self.__substitutions
-
     def __truediv__(self, part: SomeSubstitutionsType) -> PathJoinSubstitution:
-        return PathJoinSubstitution([*self.__substitutions, part])
+        return PathJoinSubstitution([*self.substitutions, part])
 
     def describe(self) -> str:
         parts = [' + '.join(sub.describe() for sub in part) for part in self.substitutions]

@@ -27,8 +27,8 @@ class PythonExpression(Substitution):
     def __init__(
         self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ('math',)
     ) -> None:
-        self.__expression = normalize_to_list_of_substitutions(expression)
-        self.__python_modules = normalize_to_list_of_substitutions(python_modules)
+        self.expression = normalize_to_list_of_substitutions(expression)
+        self.python_modules = normalize_to_list_of_substitutions(python_modules)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
@@ -39,14 +39,6 @@ class PythonExpression(Substitution):
             names = ''.join(sub.text for sub in data[1])
             kwargs['python_modules'] = [name.strip() for name in names.split(',')]
         return cls, kwargs
-
-    @property
-    def expression(self) -> list[Substitution]:
-        return self.__expression
-
-    @property
-    def python_modules(self) -> list[Substitution]:
-        return self.__python_modules
 
     def describe(self) -> str:
         return 'PythonExpr({}, [{}])'.format(

@@ -23,22 +23,14 @@ class StringJoinSubstitution(Substitution):
         substitutions: Iterable[SomeSubstitutionsType],
         delimiter: SomeSubstitutionsType = '',
     ) -> None:
-        self.__substitutions = [normalize_to_list_of_substitutions(part) for part in substitutions]
-        self.__delimiter = normalize_to_list_of_substitutions(delimiter)
+        self.substitutions = [normalize_to_list_of_substitutions(part) for part in substitutions]
+        self.delimiter = normalize_to_list_of_substitutions(delimiter)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) < 2:
             raise TypeError('string-join substitution expects a delimiter and at least one text')
         return cls, {'delimiter': data[0], 'substitutions': data[1:]}
-
-    @property
-    def substitutions(self) -> list[list[Substitution]]:
-        return self.__substitutions
-
-    @property
-    def delimiter(self) -> list[Substitution]:
-        return self.__delimiter
 
     def describe(self) -> str:
         parts = [' + '.join(sub.describe() for sub in part) for part in self.substitutions]

@@ -17,11 +17,7 @@ class TextSubstitution(Substitution):
                 f"TextSubstitution expected text as 'text', got {text!r} of type "
                 f'{type(text).__name__}: write it as text'
             )
-        self.__text = text
-
-    @property
-    def text(self) -> str:
-        return self.__text
+        self.text = text
 
     def describe(self) -> str:
         return f"'{self.text}'"

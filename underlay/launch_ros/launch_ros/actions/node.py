@@ -83,16 +83,16 @@ class Node(ExecuteProcess):
             cmd += ['--ros-args', *_list(ros_arguments, 'ros_arguments')]
         cmd += ['--ros-args']
         super().__init__(cmd=cmd, name=exec_name, **kwargs)
-        self.__package = package
-        self.__node_executable = executable
+        self.node_package = package
+        self.node_executable = executable
         self.__node_name = name
         self.__node_namespace = namespace
         self.__parameters = () if parameters is None else normalize_parameters(parameters)
         self.__remappings = [] if remappings is None else normalize_remap_rules(remappings)
         self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME
-        self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
+        self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
         self.__final_node_name: str | None = None
-        self.__expanded_remappings: list[tuple[str, str]] | None = None
+        self.expanded_remapping_rules: list[tuple[str, str]] | None = None
 
     @staticmethod
     def parse_nested_parameters(params: Iterable[Entity], parser: Parser) -> list[Any]:
@@ -121,27 +121,11 @@ class Node(ExecuteProcess):
         return cls, kwargs
 
     @property
-    def node_package(self) -> SomeSubstitutionsType | None:
-        return self.__package
-
-    @property
-    def node_executable(self) -> SomeSubstitutionsType:
-        return self.__node_executable
-
-    @property
     def node_name(self) -> str:
         """The name with its namespace, once the action is executed."""
         if self.__final_node_name is None:
             raise RuntimeError("cannot access 'node_name' before executing action")
         return self.__final_node_name
-
-    @property
-    def expanded_node_namespace(self) -> str:
-        return self.__expanded_node_namespace
-
-    @property
-    def expanded_remapping_rules(self) -> list[tuple[str, str]] | None:
-        return self.__expanded_remappings
 
     def is_node_name_fully_specified(self) -> bool:
         unknown = (self.UNSPECIFIED_NODE_NAME, self.UNSPECIFIED_NODE_NAMESPACE)
@@ -176,10 +160,10 @@ class Node(ExecuteProcess):
         namespace = make_namespace_absolute(prefix_namespace(base, namespace))
         if namespace is not None:
             validate_namespace(namespace)
-            self.__expanded_node_namespace = namespace
+            self.expanded_node_namespace = namespace
             words += ['-r', f'__ns:={namespace}']
         self.__final_node_name = prefix_namespace(
-            self.__expanded_node_namespace, self.__expanded_node_name
+            self.expanded_node_namespace, self.__expanded_node_name
         )
         return words
 
@@ -220,7 +204,7 @@ class Node(ExecuteProcess):
             pairs.append(
                 (perform_substitutions(context, source), perform_substitutions(context, target))
             )
-        self.__expanded_remappings = pairs
+        self.expanded_remapping_rules = pairs
         words: list[str] = []
         for source, target in pairs:
             words += ['-r', f'{source}:={target}']

@@ -10,7 +10,6 @@ from launch.action import Action
 from launch.frontend import Entity, expose_action, Parser
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 from ..utilities import make_namespace_absolute, prefix_namespace
@@ -24,17 +23,13 @@ class PushROSNamespace(Action):
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__namespace = normalize_to_list_of_substitutions(namespace)
+        self.namespace = normalize_to_list_of_substitutions(namespace)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         kwargs = super().parse(entity, parser)[1]
         kwargs['namespace'] = parser.parse_substitution(entity.get_attr('namespace'))
         return cls, kwargs
-
-    @property
-    def namespace(self) -> list[Substitution]:
-        return self.__namespace
 
     def execute(self, context: LaunchContext) -> None:
         pushed = perform_substitutions(context, self.namespace)

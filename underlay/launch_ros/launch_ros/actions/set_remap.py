@@ -10,7 +10,6 @@ from launch.action import Action
 from launch.frontend import Entity, expose_action, Parser
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -22,8 +21,8 @@ class SetRemap(Action):
         self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any
     ) -> None:
         super().__init__(**kwargs)
-        self.__src = normalize_to_list_of_substitutions(src)
-        self.__dst = normalize_to_list_of_substitutions(dst)
+        self.src = normalize_to_list_of_substitutions(src)
+        self.dst = normalize_to_list_of_substitutions(dst)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -31,14 +30,6 @@ class SetRemap(Action):
         kwargs['src'] = parser.parse_substitution(entity.get_attr('from'))
         kwargs['dst'] = parser.parse_substitution(entity.get_attr('to'))
         return cls, kwargs
-
-    @property
-    def src(self) -> list[Substitution]:
-        return self.__src
-
-    @property
-    def dst(self) -> list[Substitution]:
-        return self.__dst
 
     def execute(self, context: LaunchContext) -> None:
         pair = perform_substitutions(context, self.src), perform_substitutions(context, self.dst)

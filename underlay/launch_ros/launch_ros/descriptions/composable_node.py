@@ -35,13 +35,13 @@ class ComposableNode:
         extra_arguments: Any = None,
         condition: Condition | None = None,
     ) -> None:
-        self.__package = normalize_to_list_of_substitutions(package)
-        self.__plugin = normalize_to_list_of_substitutions(plugin)
-        self.__name = _optional(name)
-        self.__namespace = _optional(namespace)
-        self.__parameters = None if parameters is None else normalize_parameters(parameters)
-        self.__remappings = None if remappings is None else normalize_remap_rules(remappings)
-        self.__extra_arguments = (
+        self.package = normalize_to_list_of_substitutions(package)
+        self.node_plugin = normalize_to_list_of_substitutions(plugin)
+        self.node_name = _optional(name)
+        self.node_namespace = _optional(namespace)
+        self.parameters = None if parameters is None else normalize_parameters(parameters)
+        self.remappings = None if remappings is None else normalize_remap_rules(remappings)
+        self.extra_arguments = (
             None if extra_arguments is None else normalize_parameters(extra_arguments)
         )
         self.__condition = condition
@@ -69,34 +69,6 @@ class ComposableNode:
         kwargs['remappings'] = parse_remappings(entity, parser)
         entity.assert_entity_completely_parsed()
         return cls, kwargs
-
-    @property
-    def package(self) -> list[Substitution]:
-        return self.__package
-
-    @property
-    def node_plugin(self) -> list[Substitution]:
-        return self.__plugin
-
-    @property
-    def node_name(self) -> list[Substitution] | None:
-        return self.__name
-
-    @property
-    def node_namespace(self) -> list[Substitution] | None:
-        return self.__namespace
-
-    @property
-    def parameters(self) -> Any:
-        return self.__parameters
-
-    @property
-    def remappings(self) -> Any:
-        return self.__remappings
-
-    @property
-    def extra_arguments(self) -> Any:
-        return self.__extra_arguments
 
     def condition(self) -> Condition | None:
         return self.__condition

@@ -26,17 +26,13 @@ class ExecutableInPackage(FindPackagePrefix):
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         super().__init__(package)
-        self.__executable = normalize_to_list_of_substitutions(executable)
+        self.executable = normalize_to_list_of_substitutions(executable)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 2:
             raise AttributeError(f'exec-in-pkg substitution expects 2 arguments, got {len(data)}')
         return cls, {'executable': data[0], 'package': data[1]}
-
-    @property
-    def executable(self) -> list[Substitution]:
-        return self.__executable
 
     def describe(self) -> str:
         package = ' + '.join(sub.describe() for sub in self.package)

@@ -20,17 +20,13 @@ class FindPackage(Substitution):
     """Base of the substitutions for a folder of a package on the AMENT_PREFIX_PATH."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
-        self.__package = normalize_to_list_of_substitutions(package)
+        self.package = normalize_to_list_of_substitutions(package)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
         if len(data) != 1:
             raise AttributeError(f'{cls.__name__} expects 1 argument, got {len(data)}')
         return cls, {'package': data[0]}
-
-    @property
-    def package(self) -> list[Substitution]:
-        return self.__package
 
     def __truediv__(self, part: SomeSubstitutionsType) -> PathJoinSubstitution:
         return PathJoinSubstitution([self, part])

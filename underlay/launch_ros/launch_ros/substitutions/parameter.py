@@ -22,7 +22,7 @@ class Parameter(Substitution):
     def __init__(
         self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None
     ) -> None:
-        self.__name = normalize_to_list_of_substitutions(name)
+        self.name = normalize_to_list_of_substitutions(name)
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)
 
     @classmethod
@@ -33,10 +33,6 @@ class Parameter(Substitution):
         if len(data) == 2:
             kwargs['default'] = data[1]
         return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        return self.__name
 
     def describe(self) -> str:
         return f'Parameter({" + ".join(sub.describe() for sub in self.name)})'

@@ -10,15 +10,13 @@ from .running_process_event import RunningProcessEvent
 
 
 class ProcessExited(RunningProcessEvent):
-    """Emitted when a process has ended."""
+    """Emitted when a process has ended.
+
+    :param returncode: the exit status, or minus the signal that ended it.
+    """
 
     name = 'launch.events.process.ProcessExited'
 
     def __init__(self, *, returncode: int, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__returncode = returncode
-
-    @property
-    def returncode(self) -> int:
-        """The exit status, or minus the signal that ended it."""
-        return self.__returncode
+        self.returncode = returncode

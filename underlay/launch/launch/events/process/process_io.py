@@ -19,21 +19,7 @@ class ProcessIO(RunningProcessEvent):
 
     def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__text = text
-        self.__fd = fd
-
-    @property
-    def text(self) -> bytes:
-        return self.__text
-
-    @property
-    def from_stdin(self) -> bool:
-        return self.__fd == 0
-
-    @property
-    def from_stdout(self) -> bool:
-        return self.__fd == 1
-
-    @property
-    def from_stderr(self) -> bool:
-        return self.__fd == 2
+        self.text = text
+        self.from_stdin = fd == 0
+        self.from_stdout = fd == 1
+        self.from_stderr = fd == 2

@@ -16,8 +16,4 @@ class ProcessTargetedEvent(Event):
     name = 'launch.events.process.ProcessTargetedEvent'
 
     def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
-        self.__process_matcher = process_matcher
-
-    @property
-    def process_matcher(self) -> Callable[[Any], bool]:
-        return self.__process_matcher
+        self.process_matcher = process_matcher

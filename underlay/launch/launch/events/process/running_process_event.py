@@ -31,37 +31,9 @@ class RunningProcessEvent(Event):
         pid: int,
         **_kwargs: Any,
     ) -> None:
-        self.__action = action
-        self.__name = name
-        self.__cmd = cmd
-        self.__cwd = cwd
-        self.__env = env
-        self.__pid = pid
-
-    @property
-    def action(self) -> ExecuteLocal:
-        return self.__action
-
-    @property
-    def execute_process_action(self) -> ExecuteLocal:
-        return self.__action
-
-    @property
-    def process_name(self) -> str:
-        return self.__name
-
-    @property
-    def cmd(self) -> list[str]:
-        return self.__cmd
-
-    @property
-    def cwd(self) -> str | None:
-        return self.__cwd
-
-    @property
-    def env(self) -> dict[str, str] | None:
-        return self.__env
-
-    @property
-    def pid(self) -> int:
-        return self.__pid
+        self.action = self.execute_process_action = action
+        self.process_name = name
+        self.cmd = cmd
+        self.cwd = cwd
+        self.env = env
+        self.pid = pid

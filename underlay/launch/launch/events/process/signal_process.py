@@ -24,14 +24,7 @@ class SignalProcess(ProcessTargetedEvent):
     ) -> None:
         super().__init__(process_matcher=process_matcher)
         if isinstance(signal_number, str):
-            self.__signal = signals.Signals[signal_number]
+            self.signal = signals.Signals[signal_number]
         else:
-            self.__signal = signals.Signals(signal_number)
-
-    @property
-    def signal(self) -> signals.Signals:
-        return self.__signal
-
-    @property
-    def signal_name(self) -> str:
-        return self.__signal.name
+            self.signal = signals.Signals(signal_number)
+        self.signal_name = self.signal.name

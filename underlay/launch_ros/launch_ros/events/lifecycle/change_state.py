@@ -53,13 +53,5 @@ class ChangeState(Event):
         if transition_id not in self.valid_transitions:
             known = ', '.join(f'{key} ({name})' for key, name in self.valid_transitions.items())
             raise ValueError(f'transition_id={transition_id!r} is none of {known}')
-        self.__lifecycle_node_matcher = lifecycle_node_matcher
-        self.__transition_id = transition_id
-
-    @property
-    def lifecycle_node_matcher(self) -> Callable[[LifecycleNode], bool]:
-        return self.__lifecycle_node_matcher
-
-    @property
-    def transition_id(self) -> int:
-        return self.__transition_id
+        self.lifecycle_node_matcher = lifecycle_node_matcher
+        self.transition_id = transition_id

@@ -23,29 +23,21 @@ class StateTransition(Event):
     name = 'launch_ros.events.lifecycle.StateTransition'
 
     def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
-        self.__action = action
-        self.__msg = msg
-
-    @property
-    def action(self) -> LifecycleNode:
-        return self.__action
-
-    @property
-    def msg(self) -> Any:
-        return self.__msg
+        self.action = action
+        self.msg = msg
 
     @property
     def timestamp(self) -> int:
-        return int(self.__msg.timestamp)
+        return int(self.msg.timestamp)
 
     @property
     def transition(self) -> str:
-        return str(self.__msg.transition.label)
+        return str(self.msg.transition.label)
 
     @property
     def start_state(self) -> str:
-        return ChangeState.valid_states[self.__msg.start_state.id]
+        return ChangeState.valid_states[self.msg.start_state.id]
 
     @property
     def goal_state(self) -> str:
-        return ChangeState.valid_states[self.__msg.goal_state.id]
+        return ChangeState.valid_states[self.msg.goal_state.id]
