@@ -16,7 +16,8 @@ from .utilities import normalize_to_list_of_substitutions
 _Tree = tuple[str, list[Any]]
 
 
-def _substitutions(subs: Any) -> str:
+def format_substitutions(subs: Any) -> str:
+    """Return the substitutions of text, a substitution or a list, as they describe themselves."""
     return ' + '.join(sub.describe() for sub in normalize_to_list_of_substitutions(subs))
 
 
@@ -24,11 +25,11 @@ def _process(action: ExecuteProcess) -> str:
     description = action.process_description
     env = description.env
     return 'ExecuteProcess(cmd=[{}], cwd={}, env={}, shell={})'.format(
-        ', '.join(_substitutions(part) for part in description.cmd),
-        None if description.cwd is None else f"'{_substitutions(description.cwd)}'",
+        ', '.join(format_substitutions(part) for part in description.cmd),
+        None if description.cwd is None else f"'{format_substitutions(description.cwd)}'",
         None
         if env is None
-        else {_substitutions(name): _substitutions(value) for name, value in env},
+        else {format_substitutions(name): format_substitutions(value) for name, value in env},
         action.shell,
     )
 
@@ -44,7 +45,7 @@ def _entities(entities: Iterable[LaunchDescriptionEntity]) -> list[_Tree]:
 
 def _entity(entity: LaunchDescriptionEntity) -> _Tree:
     if isinstance(entity, LogInfo):
-        return f'LogInfo({_substitutions(entity.msg)})', []
+        return f'LogInfo({format_substitutions(entity.msg)})', []
     if isinstance(entity, EmitEvent):
         return f"EmitEvent(event='{entity.event.name}')", []
     if isinstance(entity, ExecuteProcess):

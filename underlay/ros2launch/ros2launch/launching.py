@@ -10,6 +10,7 @@ from pathlib import Path
 import launch
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.launch_introspector import format_substitutions
 from ros2cli.errors import CommandError
 
 
@@ -54,17 +55,10 @@ def print_arguments(path: Path) -> int:
         for line in lines:
             print(f'        {line}')
         if argument.default_value is not None:
-            print(f'        (default: {_shown(argument.default_value)})')
+            print(f'        (default: {format_substitutions(argument.default_value)})')
     if not declared:
         print('\n  No arguments.')
     return 0
-
-
-def _shown(substitutions: object) -> str:
-    from launch.utilities import normalize_to_list_of_substitutions
-
-    parts = normalize_to_list_of_substitutions(substitutions)
-    return ' + '.join(part.describe() for part in parts)
 
 
 def _load(path: Path) -> launch.LaunchDescription:

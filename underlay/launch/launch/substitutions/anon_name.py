@@ -4,16 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import os
 import random
 import socket
-from typing import Any, cast
+from typing import cast
 
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -21,14 +20,10 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 class AnonName(Substitution):
     """Becomes a name with a unique tail, the same one each time in one launch."""
 
+    _arguments = MarkupArguments('name', of='anon substitution')
+
     def __init__(self, name: SomeSubstitutionsType) -> None:
         self.name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 1:
-            raise TypeError(f'anon substitution expects 1 argument, got {len(data)}')
-        return cls, {'name': data[0]}
 
     def describe(self) -> str:
         return f'AnonName({" + ".join(sub.describe() for sub in self.name)})'

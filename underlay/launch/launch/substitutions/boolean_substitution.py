@@ -10,7 +10,7 @@ from typing import Any
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions
 from ..utilities.type_utils import perform_typed_substitution
 from .substitution_failure import SubstitutionFailure
@@ -31,14 +31,10 @@ def _text(truth: bool) -> str:
 class NotSubstitution(Substitution):
     """Becomes 'true' where its value says false, and 'false' where it says true."""
 
+    _arguments = MarkupArguments('value', of='not substitution')
+
     def __init__(self, value: SomeSubstitutionsType) -> None:
         self.value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 1:
-            raise TypeError(f'not substitution expects 1 argument, got {len(data)}')
-        return cls, {'value': data[0]}
 
     def describe(self) -> str:
         return f'NotSubstitution({self.value})'
@@ -47,25 +43,21 @@ class NotSubstitution(Substitution):
         return _text(not _truth(context, self.value))
 
 
-class _TwoSided(Substitution):
+class TwoSided(Substitution):
     """Base of the substitutions with a left and a right value."""
+
+    _arguments = MarkupArguments('left', 'right')
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         self.left = normalize_to_list_of_substitutions(left)
         self.right = normalize_to_list_of_substitutions(right)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 2:
-            raise TypeError(f'{cls.__name__} expects 2 arguments, got {len(data)}')
-        return cls, {'left': data[0], 'right': data[1]}
 
     def describe(self) -> str:
         return f'{type(self).__name__}({self.left} {self.right})'
 
 
 @expose_substitution('and')
-class AndSubstitution(_TwoSided):
+class AndSubstitution(TwoSided):
     """Becomes 'true' where both values say true."""
 
     def perform(self, context: LaunchContext) -> str:
@@ -73,7 +65,7 @@ class AndSubstitution(_TwoSided):
 
 
 @expose_substitution('or')
-class OrSubstitution(_TwoSided):
+class OrSubstitution(TwoSided):
     """Becomes 'true' where at least one of two values says true."""
 
     def perform(self, context: LaunchContext) -> str:

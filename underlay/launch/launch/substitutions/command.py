@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import shlex
 import subprocess
-from typing import Any
 
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..logging import get_logger
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -28,20 +26,15 @@ class Command(Substitution):
         'capture' (that output follows the other).
     """
 
+    _arguments = MarkupArguments(
+        'command', 'on_stderr', required=1, of='command substitution', error=ValueError
+    )
+
     def __init__(
         self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = 'fail'
     ) -> None:
         self.command = normalize_to_list_of_substitutions(command)
         self.on_stderr = normalize_to_list_of_substitutions(on_stderr)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 1 <= len(data) <= 2:
-            raise ValueError(f'command substitution expects 1 or 2 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'command': data[0]}
-        if len(data) == 2:
-            kwargs['on_stderr'] = data[1]
-        return cls, kwargs
 
     def describe(self) -> str:
         return f'Command({" + ".join(sub.describe() for sub in self.command)})'

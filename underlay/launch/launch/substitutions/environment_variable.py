@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -19,6 +16,8 @@ from .substitution_failure import SubstitutionFailure
 class EnvironmentVariable(Substitution):
     """Becomes the value of an environment variable, as it is then."""
 
+    _arguments = MarkupArguments('name', 'default_value', required=1, of='env substitution')
+
     def __init__(
         self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None
     ) -> None:
@@ -26,15 +25,6 @@ class EnvironmentVariable(Substitution):
         self.default_value = (
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
         )
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 1 <= len(data) <= 2:
-            raise TypeError(f'env substitution expects 1 or 2 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'name': data[0]}
-        if len(data) == 2:
-            kwargs['default_value'] = data[1]
-        return cls, kwargs
 
     def describe(self) -> str:
         return f'EnvVar({" + ".join(sub.describe() for sub in self.name)})'

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
 from typing import Any
 
@@ -13,6 +12,7 @@ from ..launch_context import LaunchContext
 from ..substitution import Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from ..utilities.type_utils import is_substitution
+from .boolean_substitution import TwoSided
 
 
 def _normalize(value: Any) -> list[Substitution]:
@@ -38,21 +38,11 @@ def _are_equal(left: str, right: str) -> bool:
 
 
 @expose_substitution('equals')
-class EqualsSubstitution(Substitution):
+class EqualsSubstitution(TwoSided):
     """Becomes 'true' where both are the same text, truth value or number, else 'false'."""
 
     def __init__(self, left: Any, right: Any) -> None:
-        self.left = _normalize(left)
-        self.right = _normalize(right)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 2:
-            raise TypeError(f'{cls.__name__} expects 2 arguments, got {len(data)}')
-        return cls, {'left': data[0], 'right': data[1]}
-
-    def describe(self) -> str:
-        return f'{type(self).__name__}({self.left} {self.right})'
+        super().__init__(_normalize(left), _normalize(right))
 
     def perform(self, context: LaunchContext) -> str:
         left = perform_substitutions(context, self.left)

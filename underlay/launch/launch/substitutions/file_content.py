@@ -4,14 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -20,14 +18,10 @@ from .substitution_failure import SubstitutionFailure
 class FileContent(Substitution):
     """Becomes the content of a text file."""
 
+    _arguments = MarkupArguments('path', of='file-content substitution')
+
     def __init__(self, path: SomeSubstitutionsType) -> None:
         self.path = normalize_to_list_of_substitutions(path)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 1:
-            raise TypeError(f'file-content substitution expects 1 argument, got {len(data)}')
-        return cls, {'path': data[0]}
 
     def describe(self) -> str:
         return f'FileContent({" + ".join(sub.describe() for sub in self.path)})'

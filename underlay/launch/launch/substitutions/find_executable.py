@@ -4,14 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import shutil
-from typing import Any
 
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -20,14 +18,10 @@ from .substitution_failure import SubstitutionFailure
 class FindExecutable(Substitution):
     """Becomes the full path of an executable on the PATH."""
 
+    _arguments = MarkupArguments('name', of='find-exec substitution', error=AttributeError)
+
     def __init__(self, name: SomeSubstitutionsType) -> None:
         self.name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 1:
-            raise AttributeError(f'find-exec substitution expects 1 argument, got {len(data)}')
-        return cls, {'name': data[0]}
 
     def describe(self) -> str:
         return f'FindExec({" + ".join(sub.describe() for sub in self.name)})'

@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -19,6 +16,8 @@ from .substitution_failure import SubstitutionFailure
 class ForEachVar(Substitution):
     """Becomes the value that a variable has in the present turn of a ForEach."""
 
+    _arguments = MarkupArguments('name', 'default_value', required=1, error=ValueError)
+
     def __init__(
         self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None
     ) -> None:
@@ -26,15 +25,6 @@ class ForEachVar(Substitution):
         self._default_value = (
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
         )
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 1 <= len(data) <= 2:
-            raise ValueError(f'{cls.__name__} expects 1 or 2 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'name': data[0]}
-        if len(data) == 2:
-            kwargs['default_value'] = data[1]
-        return cls, kwargs
 
     def describe(self) -> str:
         return f'{type(self).__name__}({" + ".join(sub.describe() for sub in self.name)})'

@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from ..utilities.type_utils import perform_typed_substitution
 from .substitution_failure import SubstitutionFailure
@@ -19,6 +16,10 @@ from .substitution_failure import SubstitutionFailure
 @expose_substitution('if')
 class IfElseSubstitution(Substitution):
     """Becomes one text where the condition says true, the other one where it says false."""
+
+    _arguments = MarkupArguments(
+        'condition', 'if_value', 'else_value', required=2, of='if substitution'
+    )
 
     def __init__(
         self,
@@ -31,15 +32,6 @@ class IfElseSubstitution(Substitution):
         self.condition = normalize_to_list_of_substitutions(condition)
         self.if_value = normalize_to_list_of_substitutions(if_value)
         self.else_value = normalize_to_list_of_substitutions(else_value)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 2 <= len(data) <= 3:
-            raise TypeError(f'if substitution expects 2 or 3 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'condition': data[0], 'if_value': data[1]}
-        if len(data) == 3:
-            kwargs['else_value'] = data[2]
-        return cls, kwargs
 
     def describe(self) -> str:
         return f'IfElseSubstitution({self.condition}, {self.if_value}, {self.else_value})'

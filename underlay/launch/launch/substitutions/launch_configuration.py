@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 import difflib
 from typing import Any, cast
 
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -22,6 +22,8 @@ class LaunchConfiguration(Substitution):
 
     :param default: where it is not set; without it that is an error.
     """
+
+    _arguments = MarkupArguments('variable_name', 'default', required=1, of='var substitution')
 
     def __init__(
         self,
@@ -36,15 +38,6 @@ class LaunchConfiguration(Substitution):
             self.__default = normalize_to_list_of_substitutions(
                 [item if isinstance(item, Substitution) else str(item) for item in items]
             )
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 1 <= len(data) <= 2:
-            raise TypeError(f'var substitution expects 1 or 2 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'variable_name': data[0]}
-        if len(data) == 2:
-            kwargs['default'] = data[1]
-        return cls, kwargs
 
     def describe(self) -> str:
         return f'LaunchConfig({" + ".join(sub.describe() for sub in self.variable_name)})'

@@ -11,7 +11,7 @@ from typing import Any
 from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .substitution_failure import SubstitutionFailure
 
@@ -24,6 +24,10 @@ class PythonExpression(Substitution):
         known by itself.
     """
 
+    _arguments = MarkupArguments(
+        'expression', 'python_modules', required=1, of='eval substitution'
+    )
+
     def __init__(
         self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ('math',)
     ) -> None:
@@ -32,11 +36,9 @@ class PythonExpression(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 1 <= len(data) <= 2:
-            raise TypeError(f'eval substitution expects 1 or 2 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'expression': data[0]}
-        if len(data) == 2:
-            names = ''.join(sub.text for sub in data[1])
+        kwargs = super().parse(data)[1]
+        if 'python_modules' in kwargs:
+            names = ''.join(sub.text for sub in kwargs['python_modules'])
             kwargs['python_modules'] = [name.strip() for name in names.split(',')]
         return cls, kwargs
 

@@ -14,11 +14,15 @@ from .substitution_failure import SubstitutionFailure
 class ThisLaunchFile(Substitution):
     """Becomes the path of the launch file it stands in."""
 
+    _local = 'current_launch_file_path'
+
     def describe(self) -> str:
-        return 'ThisLaunchFile()'
+        return f'{type(self).__name__}()'
 
     def perform(self, context: LaunchContext) -> str:
         known = context.get_locals_as_dict()
-        if 'current_launch_file_path' not in known:
-            raise SubstitutionFailure('ThisLaunchFile used outside of a launch file (in a script)')
-        return str(known['current_launch_file_path'])
+        if self._local not in known:
+            raise SubstitutionFailure(
+                f'{type(self).__name__} used outside of a launch file (in a script)'
+            )
+        return str(known[self._local])

@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import difflib
 import os
 from pathlib import Path
-from typing import Any
 
 from launch.frontend import expose_substitution
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import MarkupArguments
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -24,15 +22,13 @@ from .find_package import FindPackagePrefix
 class ExecutableInPackage(FindPackagePrefix):
     """Becomes the path of an executable of a package."""
 
+    _arguments = MarkupArguments(
+        'executable', 'package', of='exec-in-pkg substitution', error=AttributeError
+    )
+
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         super().__init__(package)
         self.executable = normalize_to_list_of_substitutions(executable)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 2:
-            raise AttributeError(f'exec-in-pkg substitution expects 2 arguments, got {len(data)}')
-        return cls, {'executable': data[0], 'package': data[1]}
 
     def describe(self) -> str:
         package = ' + '.join(sub.describe() for sub in self.package)

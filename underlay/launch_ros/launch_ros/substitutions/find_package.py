@@ -4,14 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import difflib
-from typing import Any, cast
+from typing import cast
 
 from launch.frontend import expose_substitution
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import MarkupArguments, Substitution
 from launch.substitutions import PathJoinSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -19,14 +18,10 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 class FindPackage(Substitution):
     """Base of the substitutions for a folder of a package on the AMENT_PREFIX_PATH."""
 
+    _arguments = MarkupArguments('package', error=AttributeError)
+
     def __init__(self, package: SomeSubstitutionsType) -> None:
         self.package = normalize_to_list_of_substitutions(package)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if len(data) != 1:
-            raise AttributeError(f'{cls.__name__} expects 1 argument, got {len(data)}')
-        return cls, {'package': data[0]}
 
     def __truediv__(self, part: SomeSubstitutionsType) -> PathJoinSubstitution:
         return PathJoinSubstitution([self, part])

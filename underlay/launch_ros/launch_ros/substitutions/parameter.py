@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from launch.frontend import expose_substitution
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
+from launch.substitution import MarkupArguments, Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -19,20 +16,13 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 class Parameter(Substitution):
     """Becomes the value that SetParameter gave to a parameter."""
 
+    _arguments = MarkupArguments('name', 'default', required=1, of='param substitution')
+
     def __init__(
         self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None
     ) -> None:
         self.name = normalize_to_list_of_substitutions(name)
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)
-
-    @classmethod
-    def parse(cls, data: Sequence[Any]) -> tuple[type[Substitution], dict[str, Any]]:
-        if not 1 <= len(data) <= 2:
-            raise TypeError(f'param substitution expects 1 or 2 arguments, got {len(data)}')
-        kwargs: dict[str, Any] = {'name': data[0]}
-        if len(data) == 2:
-            kwargs['default'] = data[1]
-        return cls, kwargs
 
     def describe(self) -> str:
         return f'Parameter({" + ".join(sub.describe() for sub in self.name)})'
