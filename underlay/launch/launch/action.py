@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from typing import Any, TYPE_CHECKING
+from collections.abc import Mapping
+from typing import Any, ClassVar, TYPE_CHECKING
 
 from .condition import Condition
 from .launch_context import LaunchContext
@@ -23,6 +24,9 @@ class Action(LaunchDescriptionEntity):
     :param condition: without it, or where it holds, the action is executed.
     """
 
+    # The attributes of its element in a markup file that are text and never left out, by the
+    # arguments they become.
+    _attributes: ClassVar[Mapping[str, str]] = {}
     _location: tuple[str, int] | None
 
     def __new__(cls, *_args: Any, **_kwargs: Any) -> Self:
@@ -33,8 +37,8 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
 
-    @staticmethod
-    def parse(entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """Return the class and the keyword arguments that an entity of a launch file means."""
         from .conditions import IfCondition, UnlessCondition
 
@@ -47,7 +51,9 @@ class Action(LaunchDescriptionEntity):
             kwargs['condition'] = IfCondition(parser.parse_substitution(if_text))
         if unless_text is not None:
             kwargs['condition'] = UnlessCondition(parser.parse_substitution(unless_text))
-        return Action, kwargs
+        for argument, attribute in cls._attributes.items():
+            kwargs[argument] = parser.parse_substitution(entity.get_attr(attribute))
+        return cls, kwargs
 
     @property
     def condition(self) -> Condition | None:

@@ -19,6 +19,8 @@ from ..utilities.type_utils import normalize_typed_substitution, perform_typed_s
 class AppendEnvironmentVariable(Action):
     """Appends a value to a variable as PATH, or puts it before with ``prepend``."""
 
+    _attributes = {'name': 'name', 'value': 'value'}
+
     def __init__(
         self,
         name: SomeSubstitutionsType,
@@ -36,8 +38,6 @@ class AppendEnvironmentVariable(Action):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         kwargs = super().parse(entity, parser)[1]
-        kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
-        kwargs['value'] = parser.parse_substitution(entity.get_attr('value'))
         prepend = entity.get_attr('prepend', optional=True, data_type=bool)
         if prepend is not None:
             kwargs['prepend'] = parser.parse_if_substitutions(prepend)

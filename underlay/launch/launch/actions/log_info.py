@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..action import Action
-from ..frontend import Entity, expose_action, Parser
+from ..frontend import expose_action
 from ..launch_context import LaunchContext
 from ..logging import get_logger
 from ..some_substitutions_type import SomeSubstitutionsType
@@ -18,15 +18,11 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 class LogInfo(Action):
     """Logs a message when it is executed."""
 
+    _attributes = {'msg': 'message'}
+
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.msg = normalize_to_list_of_substitutions(msg)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['msg'] = parser.parse_substitution(entity.get_attr('message'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         get_logger('launch.user').info(perform_substitutions(context, self.msg))

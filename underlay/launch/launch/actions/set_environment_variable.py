@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..action import Action
-from ..frontend import Entity, expose_action, Parser
+from ..frontend import expose_action
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -17,19 +17,14 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 class SetEnvironmentVariable(Action):
     """Sets a variable in the environment of what is started afterwards."""
 
+    _attributes = {'name': 'name', 'value': 'value'}
+
     def __init__(
         self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any
     ) -> None:
         super().__init__(**kwargs)
         self.name = normalize_to_list_of_substitutions(name)
         self.value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
-        kwargs['value'] = parser.parse_substitution(entity.get_attr('value'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         name = perform_substitutions(context, self.name)

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..action import Action
-from ..frontend import Entity, expose_action, Parser
+from ..frontend import expose_action
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -17,15 +17,11 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 class UnsetLaunchConfiguration(Action):
     """Forgets a launch configuration, if it is set."""
 
+    _attributes = {'name': 'name'}
+
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         context.launch_configurations.pop(perform_substitutions(context, self.name), None)

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.action import Action
-from launch.frontend import Entity, expose_action, Parser
+from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -21,15 +21,11 @@ from ..utilities.namespace_utils import validate_namespace
 class PushROSNamespace(Action):
     """Puts the nodes that follow, in its scope, below a namespace."""
 
+    _attributes = {'namespace': 'namespace'}
+
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.namespace = normalize_to_list_of_substitutions(namespace)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['namespace'] = parser.parse_substitution(entity.get_attr('namespace'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         pushed = perform_substitutions(context, self.namespace)

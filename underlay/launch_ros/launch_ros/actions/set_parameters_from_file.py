@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.action import Action
-from launch.frontend import Entity, expose_action, Parser
+from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 
@@ -18,16 +18,12 @@ from ..parameter_descriptions import ParameterFile
 class SetParametersFromFile(Action):
     """Gives a parameter file to the nodes that follow in its scope; their own settings win."""
 
+    _attributes = {'filename': 'filename'}
+
     def __init__(self, filename: ParameterFile | SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         is_file = isinstance(filename, ParameterFile)
         self.__file: ParameterFile = filename if is_file else ParameterFile(filename)  # type: ignore[assignment, arg-type]
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['filename'] = parser.parse_substitution(entity.get_attr('filename'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         path = self.__file.evaluate(context)

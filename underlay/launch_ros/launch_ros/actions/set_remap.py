@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.action import Action
-from launch.frontend import Entity, expose_action, Parser
+from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -17,19 +17,14 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 class SetRemap(Action):
     """Remaps a name in the nodes that follow in its scope."""
 
+    _attributes = {'src': 'from', 'dst': 'to'}
+
     def __init__(
         self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any
     ) -> None:
         super().__init__(**kwargs)
         self.src = normalize_to_list_of_substitutions(src)
         self.dst = normalize_to_list_of_substitutions(dst)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['src'] = parser.parse_substitution(entity.get_attr('from'))
-        kwargs['dst'] = parser.parse_substitution(entity.get_attr('to'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         pair = perform_substitutions(context, self.src), perform_substitutions(context, self.dst)

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.action import Action
-from launch.frontend import Entity, expose_action, Parser
+from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -17,15 +17,11 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 class SetROSLogDir(Action):
     """Sets ROS_LOG_DIR of what is started afterwards."""
 
+    _attributes = {'new_log_dir': 'path'}
+
     def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__new_log_dir = normalize_to_list_of_substitutions(new_log_dir)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        kwargs = super().parse(entity, parser)[1]
-        kwargs['new_log_dir'] = parser.parse_substitution(entity.get_attr('path'))
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         context.environment['ROS_LOG_DIR'] = perform_substitutions(context, self.__new_log_dir)
