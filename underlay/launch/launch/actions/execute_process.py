@@ -114,13 +114,9 @@ class ExecuteProcess(ExecuteLocal):
                     f'but got `{on_exit}`'
                 )
         if 'env' not in ignored:
-            pairs = {}
-            for env in entity.get_attr('env', data_type=list[Entity], optional=True) or ():
-                name = tuple(parser.parse_substitution(env.get_attr('name')))
-                pairs[name] = parser.parse_substitution(env.get_attr('value'))
-                env.assert_entity_completely_parsed()
+            pairs = parser.parse_pairs(entity, 'env', 'name', 'value')
             if pairs:
-                kwargs['additional_env'] = pairs
+                kwargs['additional_env'] = {tuple(name): value for name, value in pairs}
         return cls, kwargs
 
     @property

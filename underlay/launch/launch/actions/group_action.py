@@ -53,12 +53,8 @@ class GroupAction(Action):
             value = entity.get_attr(name, data_type=bool, optional=True, can_be_str=False)
             if value is not None:
                 kwargs[name] = value
-        kept = {}
-        for keep in entity.get_attr('keep', data_type=list[Entity], optional=True) or ():
-            key = tuple(parser.parse_substitution(keep.get_attr('name')))
-            kept[key] = parser.parse_substitution(keep.get_attr('value'))
-            keep.assert_entity_completely_parsed()
-        kwargs['launch_configurations'] = kept
+        kept = parser.parse_pairs(entity, 'keep', 'name', 'value')
+        kwargs['launch_configurations'] = {tuple(name): value for name, value in kept}
         kwargs['actions'] = [
             parser.parse_action(child) for child in entity.children if child.type_name != 'keep'
         ]

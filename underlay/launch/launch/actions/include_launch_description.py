@@ -59,13 +59,10 @@ class IncludeLaunchDescription(Action):
         kwargs = super().parse(entity, parser)[1]
         file = parser.parse_substitution(entity.get_attr('file'))
         kwargs['launch_description_source'] = file
-        arguments = []
-        for tag in ('let', 'arg'):
-            for arg in entity.get_attr(tag, data_type=list[Entity], optional=True) or ():
-                name = parser.parse_substitution(arg.get_attr('name'))
-                arguments.append((name, parser.parse_substitution(arg.get_attr('value'))))
-                arg.assert_entity_completely_parsed()
-        kwargs['launch_arguments'] = arguments
+        kwargs['launch_arguments'] = [
+            *parser.parse_pairs(entity, 'let', 'name', 'value'),
+            *parser.parse_pairs(entity, 'arg', 'name', 'value'),
+        ]
         return cls, kwargs
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:

@@ -29,12 +29,8 @@ class ResetLaunchConfigurations(Action):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         kwargs = super().parse(entity, parser)[1]
-        kept = {}
-        for keep in entity.get_attr('keep', data_type=list[Entity], optional=True) or ():
-            name = tuple(parser.parse_substitution(keep.get_attr('name')))
-            kept[name] = parser.parse_substitution(keep.get_attr('value'))
-            keep.assert_entity_completely_parsed()
-        kwargs['launch_configurations'] = kept
+        kept = parser.parse_pairs(entity, 'keep', 'name', 'value')
+        kwargs['launch_configurations'] = {tuple(name): value for name, value in kept}
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:

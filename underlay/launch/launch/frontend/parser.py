@@ -80,6 +80,17 @@ class Parser:
     def parse_if_substitutions(self, value: Any) -> Any:
         return parse_if_substitutions(value)
 
+    def parse_pairs(
+        self, entity: Entity, tag: str, first: str, second: str
+    ) -> list[tuple[list[Substitution], list[Substitution]]]:
+        """Return two attributes of each child with the tag, which may have no others."""
+        pairs = []
+        for child in entity.get_attr(tag, data_type=list[Entity], optional=True) or ():
+            text = self.parse_substitution(child.get_attr(first))
+            pairs.append((text, self.parse_substitution(child.get_attr(second))))
+            child.assert_entity_completely_parsed()
+        return pairs
+
     def escape_characters(self, value: str) -> str:
         return replace_escaped_characters(value)
 

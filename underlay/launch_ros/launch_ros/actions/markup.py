@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters and remappings in markup launch files."""
+"""Parameters in markup launch files."""
 
 from __future__ import annotations
 
@@ -59,20 +59,3 @@ def parse_nested_parameters(params: Iterable[Entity], parser: Parser) -> list[An
             )
         )
     return found
-
-
-def parse_remappings(entity: Entity, parser: Parser) -> list[Any] | None:
-    """Return the ``remap`` elements as pairs."""
-    remaps = entity.get_attr('remap', data_type=list[Entity], optional=True)
-    if remaps is None:
-        return None
-    rules = []
-    for remap in remaps:
-        rules.append(
-            (
-                parser.parse_substitution(remap.get_attr('from')),
-                parser.parse_substitution(remap.get_attr('to')),
-            )
-        )
-        remap.assert_entity_completely_parsed()
-    return rules

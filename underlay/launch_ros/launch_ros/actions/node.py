@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 import json
 from pathlib import Path
 from typing import Any
@@ -34,7 +34,7 @@ from ..utilities import (
     prefix_namespace,
 )
 from ..utilities.namespace_utils import validate_namespace, validate_node_name
-from .markup import parse_nested_parameters, parse_remappings
+from .markup import parse_nested_parameters
 
 _TEXTS = {
     'name': 'name',
@@ -112,8 +112,8 @@ class Node(ExecuteProcess):
             if text is not None:
                 kwargs[keyword] = parser.parse_substitution(text)
         kwargs['executable'] = parser.parse_substitution(entity.get_attr('exec'))
-        remappings = parse_remappings(entity, parser)
-        if remappings is not None:
+        remappings = parser.parse_pairs(entity, 'remap', 'from', 'to')
+        if remappings:
             kwargs['remappings'] = remappings
         parameters = entity.get_attr('param', data_type=list[Entity], optional=True)
         if parameters is not None:
@@ -225,13 +225,9 @@ class Node(ExecuteProcess):
 
 
 def _list(words: Any, name: str) -> list[SomeSubstitutionsType]:
-    if isinstance(words, str) or not isinstance(words, Sequence):
-        words = (
-            list(words) if isinstance(words, Iterable) and not isinstance(words, str) else words
-        )
     if words is None:
         return []
-    if not isinstance(words, Sequence) or isinstance(words, str):
+    if not isinstance(words, Iterable) or isinstance(words, str):
         raise TypeError(f"Node '{name}' is {words!r}: write it as a list, as ['--flag', 'value']")
     return list(words)
 

@@ -48,7 +48,7 @@ class ComposableNode:
 
     @classmethod
     def parse(cls, parser: Parser, entity: Entity) -> tuple[type[ComposableNode], dict[str, Any]]:
-        from ..actions.markup import parse_nested_parameters, parse_remappings
+        from ..actions.markup import parse_nested_parameters
 
         kwargs: dict[str, Any] = {
             'package': parser.parse_substitution(entity.get_attr('pkg')),
@@ -66,7 +66,7 @@ class ComposableNode:
             items = entity.get_attr(tag, data_type=list[Entity], optional=True)
             if items:
                 kwargs[keyword] = parse_nested_parameters(items, parser)
-        kwargs['remappings'] = parse_remappings(entity, parser)
+        kwargs['remappings'] = parser.parse_pairs(entity, 'remap', 'from', 'to') or None
         entity.assert_entity_completely_parsed()
         return cls, kwargs
 
