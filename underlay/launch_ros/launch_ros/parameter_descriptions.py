@@ -120,21 +120,18 @@ class ParameterFile:
 
     @staticmethod
     def __substitute(context: LaunchContext, path: Path) -> Path:
-        try:
-            text = yaml.safe_dump(yaml.safe_load(path.read_text(encoding='utf-8')))
-        except yaml.YAMLError as error:
-            raise SubstitutionFailure(
-                f"the parameter file '{path}' is not valid YAML, before applying substitutions: "
-                f'{error}'
-            ) from None
+        def load(text: str, when: str) -> Any:
+            try:
+                return yaml.safe_load(text)
+            except yaml.YAMLError as error:
+                raise SubstitutionFailure(
+                    f"the parameter file '{path}' is not valid YAML, {when} applying "
+                    f'substitutions: {error}'
+                ) from None
+
+        text = yaml.safe_dump(load(path.read_text(encoding='utf-8'), 'before'))
         text = perform_substitutions(context, parse_substitution(text))
-        try:
-            yaml.safe_load(text)
-        except yaml.YAMLError as error:
-            raise SubstitutionFailure(
-                f"the parameter file '{path}' is not valid YAML, after applying substitutions: "
-                f'{error}'
-            ) from None
+        load(text, 'after')
         return write_temporary_file(text)
 
     def cleanup(self) -> None:

@@ -100,8 +100,7 @@ def _coerce(value: str, data_type: Any, can_be_str: bool) -> Any:
     scalar, is_list = extract_type(data_type)
     if is_list:
         loaded = _load_yaml(value, f"Cannot convert value '{value}' to a list of '{scalar}'")
-        allowed = (str, scalar) if can_be_str else (scalar,)
-        if not isinstance(loaded, list) or not all(isinstance(item, allowed) for item in loaded):
+        if not is_instance_of(loaded, data_type, can_be_str):
             raise ValueError(f"Cannot convert value '{value}' to a list of '{scalar}'")
         return loaded
     if scalar is bool:

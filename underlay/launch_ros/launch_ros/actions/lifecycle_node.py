@@ -60,11 +60,8 @@ class LifecycleNode(Node):
         self._perform_substitutions(context)
         if self.UNSPECIFIED_NODE_NAME in self.node_name:
             raise RuntimeError('node_name unexpectedly incomplete for lifecycle node')
-        if self.UNSPECIFIED_NODE_NAMESPACE in self.node_name:
-            # Without a namespace the node is at the root, and its services are there.
-            name = self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, '')
-        else:
-            name = self.node_name
+        # Without a namespace the node is at the root, and its services are there.
+        name = self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, '')
         self.__manager = LifecycleEvents(self, name, context)
         entities = super().execute(context) or []
         if perform_typed_substitution(context, self.__autostart, bool):

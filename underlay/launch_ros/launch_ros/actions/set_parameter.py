@@ -20,7 +20,7 @@ class SetParameter(Action):
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        name = name if isinstance(name, (str, tuple)) else _hashable(name)
+        name = tuple(name) if isinstance(name, list) else name
         self.__param_dict = normalize_parameter_dict({name: value})
 
     @classmethod
@@ -37,7 +37,3 @@ class SetParameter(Action):
         # A new list: an enclosing scope keeps its own.
         known = context.launch_configurations.get('global_params', [])
         context.launch_configurations['global_params'] = [*known, *values.items()]
-
-
-def _hashable(name: Any) -> Any:
-    return tuple(name) if isinstance(name, list) else name

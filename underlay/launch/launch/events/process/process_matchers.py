@@ -6,35 +6,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ...actions import ExecuteLocal
 
 
-def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
-    def matcher(action: ExecuteLocal) -> bool:
-        details = action.process_details
-        return details is not None and details.get('pid') == pid
+def _matcher(holds: Callable[[dict[str, Any]], bool]) -> Callable[[ExecuteLocal], bool]:
+    """Return a predicate on the details of the process, which an action has once executed."""
+    return lambda action: action.process_details is not None and holds(action.process_details)
 
-    return matcher
+
+def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
+    return _matcher(lambda details: details.get('pid') == pid)
 
 
 def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
     """Return a predicate on the name that launch gave, as ``talker-1``."""
-
-    def matcher(action: ExecuteLocal) -> bool:
-        details = action.process_details
-        return details is not None and bool(details['name'] == name)
-
-    return matcher
+    return _matcher(lambda details: bool(details['name'] == name))
 
 
 def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
     """Return a predicate on the last part of the path of the executable."""
-
-    def matcher(action: ExecuteLocal) -> bool:
-        details = action.process_details
-        return details is not None and Path(details['cmd'][0]).name == executable
-
-    return matcher
+    return _matcher(lambda details: Path(details['cmd'][0]).name == executable)
