@@ -5,14 +5,20 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 import contextlib
+import ctypes
 import os
 import pty
+import shutil
 import signal
+import sys
 from typing import Any, cast
 
-from .child_start import interrupts_held_back, preparation
+from interrupt_while_loading import takes_blocked_interrupt
+
+_PR_SET_PDEATHSIG = 1  # linux/prctl.h
+_ORPHANED_STATUS = 128 + signal.SIGTERM
 
 # How long after its end the output of a child is awaited; a grandchild may hold the pipe open.
 _DRAIN_SEC = 0.5
@@ -123,6 +129,42 @@ class ChildProcess(asyncio.SubprocessProtocol):
         self._terminals.append(transport)
 
 
+@contextlib.contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Let no interrupt meet a child before its program does; it would be lost there.
+
+    Several of these may overlap in one asyncio loop, for none forks after the first wait.
+    """
+    signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+
+
+def _preparation(cmd: Sequence[str], *, shell: bool) -> Callable[[], None]:
+    """Return what the child calls before it becomes the command.
+
+    It ends when the launch ends, also when that is killed. Upstream leaves it running. Where
+    Python takes the signal later, an interrupt stays held back.
+    """
+    program = None if shell else shutil.which(cmd[0])
+    holds_back = program is not None and takes_blocked_interrupt(program)
+    prctl = ctypes.CDLL(None).prctl if sys.platform == 'linux' else None
+    parent = os.getpid()
+
+    def prepare() -> None:
+        if prctl is not None:
+            prctl(_PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+            if os.getppid() != parent:
+                os._exit(_ORPHANED_STATUS)
+        if not holds_back:
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+
+    return prepare
+
+
 async def start_child_process(
     cmd: Sequence[str],
     *,
@@ -147,11 +189,11 @@ async def start_child_process(
     child = ChildProcess(on_output, on_started)
     pairs = [pty.openpty(), pty.openpty()] if emulate_tty else []
     options: dict[str, Any] = {'cwd': cwd, 'env': env}
-    options['preexec_fn'] = preparation(cmd, shell=shell)
+    options['preexec_fn'] = _preparation(cmd, shell=shell)
     if pairs:
         options.update(stdout=pairs[0][1], stderr=pairs[1][1])
     try:
-        with interrupts_held_back():
+        with _interrupts_held_back():
             if shell:
                 await loop.subprocess_shell(lambda: child, ' '.join(cmd), **options)
             else:

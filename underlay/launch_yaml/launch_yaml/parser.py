@@ -5,12 +5,49 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from launch.frontend import Parser as BaseParser
+from launch.source_location import located_error
+import yaml
 
 from .entity import Entity
-from .located_yaml import read_yaml
+
+
+class _LocatedDict(dict[Any, Any]):
+    """A mapping with the line it begins at."""
+
+    line = 0
+
+
+class _Loader(yaml.SafeLoader):
+    def construct_located(self, node: yaml.MappingNode) -> _LocatedDict:
+        self.flatten_mapping(node)
+        mapping = _LocatedDict(self.construct_mapping(node, deep=True))
+        if len(mapping) != len(node.value):
+            raise yaml.constructor.ConstructorError(
+                None, None, 'a key is given twice', node.start_mark
+            )
+        mapping.line = node.start_mark.line + 1
+        return mapping
+
+
+_Loader.add_constructor('tag:yaml.org,2002:map', _Loader.construct_located)
+
+
+def _read_yaml(text: str, name: str) -> Any:
+    """Return what a document says.
+
+    :raises ValueError: the document is not well formed; says where.
+    """
+    try:
+        return yaml.load(text, Loader=_Loader)  # a SafeLoader
+    except yaml.YAMLError as error:
+        what = str(getattr(error, 'problem', None) or error)
+        failure = ValueError(f'YAML syntax error: {what}')
+        mark = getattr(error, 'problem_mark', None)
+        line = 1 if mark is None else mark.line + 1
+        raise located_error(failure, (name, line)) from None
 
 
 class Parser(BaseParser):
@@ -22,7 +59,7 @@ class Parser(BaseParser):
             with Path(file).open(encoding='utf-8') as opened:
                 return cls.load(opened)
         name = str(getattr(file, 'name', '<text>'))
-        tree = read_yaml(file.read(), name)
+        tree = _read_yaml(file.read(), name)
         if not isinstance(tree, dict) or len(tree) != 1:
             raise RuntimeError("a launch file in YAML is one mapping, with the key 'launch:'")
         ((type_name, element),) = tree.items()

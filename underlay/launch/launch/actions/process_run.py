@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import asyncio
+import codecs
 from collections.abc import Callable
+import logging
 import signal
 from typing import Any
 
@@ -13,9 +15,45 @@ from ..child_process import ChildProcess, printable_command, start_child_process
 from ..events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
 from ..launch_context import LaunchContext
 from ..logging import get_logger, get_output_loggers
-from .process_output import ProcessOutput
 from .process_settings import ProcessSettings
 from .timer_action import TimerAction
+
+
+class _Output:
+    """Logs one stream of a process line by line.
+
+    :param format_line: makes the logged text of a line.
+    :param cached: keep everything for :attr:`text`.
+    """
+
+    def __init__(
+        self, logger: logging.Logger, format_line: Callable[[str], str], *, cached: bool
+    ) -> None:
+        self.logger = logger
+        self.format_line = format_line
+        self._decoder = codecs.getincrementaldecoder('utf-8')('replace')
+        self._rest = ''
+        self._cache: list[str] | None = [] if cached else None
+
+    @property
+    def text(self) -> str:
+        """Everything written so far; only where it is cached."""
+        return ''.join(self._cache or ())
+
+    def feed(self, data: bytes) -> None:
+        text = self._decoder.decode(data)
+        if self._cache is not None:
+            self._cache.append(text)
+        *lines, self._rest = (self._rest + text).split('\n')
+        for line in lines:
+            self.logger.info(self.format_line(line))
+
+    def flush(self) -> None:
+        """Log a last line without an end."""
+        self._rest += self._decoder.decode(b'', True)
+        if self._rest:
+            self.logger.info(self.format_line(self._rest))
+        self._rest = ''
 
 
 class ProcessRun:
@@ -47,7 +85,7 @@ class ProcessRun:
         self._logger = get_logger(details['name'])
         self._cmd = printable_command(details['cmd'])
         loggers = get_output_loggers(details['name'], settings.output)
-        self.outputs = [ProcessOutput(logger, format_line, cached=cached) for logger in loggers]
+        self.outputs = [_Output(logger, format_line, cached=cached) for logger in loggers]
         self.child: ChildProcess | None = None
         self.return_code: int | None = None
         self.timers: list[TimerAction] = []

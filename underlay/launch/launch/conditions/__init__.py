@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Conditions of actions."""
 
-from .evaluate_condition_expression import evaluate_condition_expression
-from .if_condition import IfCondition
+from .if_condition import evaluate_condition_expression, IfCondition
 from .invalid_condition_expression_error import InvalidConditionExpressionError
 from .launch_configuration_equals import LaunchConfigurationEquals
 from .launch_configuration_not_equals import LaunchConfigurationNotEquals

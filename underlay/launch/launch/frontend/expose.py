@@ -6,7 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import difflib
+import functools
+import importlib
 from typing import Any, TYPE_CHECKING, TypeVar
+import warnings
+
+from entry_point_index import entry_points, load
 
 if TYPE_CHECKING:
     from ..action import Action
@@ -46,9 +51,19 @@ def expose_action(name: str) -> Callable[[_Exposed], _Exposed]:
     return _expose(name, action_parse_methods, 'action')
 
 
-def _find(name: str, methods: dict[str, Callable[..., Any]], what: str) -> Callable[..., Any]:
-    from .extensions import load_extensions
+@functools.cache
+def load_extensions() -> None:
+    """Import what belongs to launch, and what distributions register."""
+    for name in ('launch.actions', 'launch.substitutions'):
+        importlib.import_module(name)
+    for name, target in entry_points('launch.frontend.launch_extension').items():
+        try:
+            load(target)
+        except Exception as error:
+            warnings.warn(f'Failed to load the launch extension {name}: {error}', stacklevel=2)
 
+
+def _find(name: str, methods: dict[str, Callable[..., Any]], what: str) -> Callable[..., Any]:
     load_extensions()
     if name not in methods:
         near = difflib.get_close_matches(name, list(methods), 1)

@@ -13,7 +13,7 @@ from ..invalid_launch_file_error import InvalidLaunchFileError
 from ..source_location import attach_location
 from ..substitution import Substitution
 from .entity import Entity
-from .expose import instantiate_action
+from .expose import instantiate_action, load_extensions
 from .parse_substitution import (
     parse_if_substitutions,
     parse_substitution,
@@ -44,8 +44,6 @@ class Parser:
     @classmethod
     def load_launch_extensions(cls) -> None:
         """Make the actions and substitutions of launch and launch_ros known."""
-        from .extensions import load_extensions
-
         load_extensions()
 
     @classmethod

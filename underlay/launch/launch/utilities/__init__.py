@@ -14,13 +14,11 @@ from .normalizing import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
-from .signal_names import get_signal_name
 from .visiting import visit_all_entities_and_collect_futures
 
 __all__ = [
     'create_future',
     'ensure_argument_type',
-    'get_signal_name',
     'is_a',
     'is_a_subclass',
     'isclassinstance',

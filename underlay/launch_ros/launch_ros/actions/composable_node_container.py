@@ -14,7 +14,7 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 
 from ..descriptions import ComposableNode
-from .component_containers import REFUSAL
+from .load_composable_nodes import REFUSAL
 from .node import Node
 
 

@@ -12,7 +12,12 @@ from launch.frontend import Entity, expose_action, Parser
 from launch.launch_context import LaunchContext
 
 from ..descriptions import ComposableNode
-from .component_containers import REFUSAL
+
+REFUSAL = (
+    'component containers are C++ programs that this installation from the Python package index '
+    'does not have: run the node as a Node with an executable of its package, or use a full ROS 2 '
+    'Jazzy'
+)
 
 
 @expose_action('load_composable_node')
