@@ -9,8 +9,7 @@ from typing import TextIO
 
 from launch.frontend import Parser as BaseParser
 
-from .element import read_xml
-from .entity import Entity
+from .entity import Entity, read_xml
 
 
 class Parser(BaseParser):

@@ -26,10 +26,9 @@ class Entity(BaseEntity):
         parent: Entity | None = None,
     ) -> None:
         self.__element = {} if element is None else element
-        self.__type_name = type_name
-        self.__file = file
-        self.__line = line
-        self.__parent = parent
+        self.type_name = type_name
+        self.parent = parent
+        self.location: tuple[str, int] = file, line
         self.__read_keys: set[str] = set()
         if not isinstance(self.__element, (Mapping, list)):
             raise located_error(
@@ -40,40 +39,30 @@ class Entity(BaseEntity):
             )
 
     @property
-    def type_name(self) -> str:
-        return self.__type_name
-
-    @property
-    def parent(self) -> Entity | None:
-        return self.__parent
-
-    @property
-    def location(self) -> tuple[str, int]:
-        return self.__file, self.__line
-
-    @property
     def children(self) -> list[BaseEntity]:
         children = self.__element
         if isinstance(children, Mapping):
             if 'children' not in children:
-                raise ValueError(f"Expected entity `{self.__type_name}` to have 'children'")
+                raise ValueError(f"Expected entity `{self.type_name}` to have 'children'")
             self.__read_keys.add('children')
             children = children['children']
         if not isinstance(children, list):
-            raise TypeError(f'Expected a list in `{self.__type_name}`, got {children!r}')
+            raise TypeError(f'Expected a list in `{self.type_name}`, got {children!r}')
         return [self.__child(child) for child in children]
 
     def __child(self, child: Any) -> Entity:
         if not isinstance(child, Mapping) or len(child) != 1:
             raise RuntimeError(
-                f'{child!r} in `{self.__type_name}`: Subentities must be dictionaries with a '
+                f'{child!r} in `{self.type_name}`: Subentities must be dictionaries with a '
                 'single key, as "- node: ..." (check the indentation)'
             )
         ((name, element),) = child.items()
-        return self.__entity(element, str(name), getattr(child, 'line', self.__line))
+        return self.__entity(element, str(name), child)
 
-    def __entity(self, element: Any, name: str, line: int) -> Entity:
-        return Entity(element, name, file=self.__file, line=line, parent=self)
+    def __entity(self, element: Any, name: str, mapping: Any) -> Entity:
+        """Return an entity that begins at the line of the mapping."""
+        file, line = self.location
+        return Entity(element, name, file=file, line=getattr(mapping, 'line', line), parent=self)
 
     def assert_entity_completely_parsed(self) -> None:
         if isinstance(self.__element, list):
@@ -81,7 +70,7 @@ class Entity(BaseEntity):
         unread = {str(key) for key in self.__element} - self.__read_keys
         if unread:
             raise ValueError(
-                f'Unexpected key(s) found in `{self.__type_name}`: {", ".join(sorted(unread))}'
+                f'Unexpected key(s) found in `{self.type_name}`: {", ".join(sorted(unread))}'
             )
 
     def get_attr(
@@ -95,15 +84,13 @@ class Entity(BaseEntity):
         if not isinstance(self.__element, Mapping) or name not in self.__element:
             if optional:
                 return None
-            raise AttributeError(f"Can not find attribute '{name}' in Entity '{self.__type_name}'")
+            raise AttributeError(f"Can not find attribute '{name}' in Entity '{self.type_name}'")
         self.__read_keys.add(name)
         value = self.__element[name]
-        where = f"Attribute '{name}' of Entity '{self.__type_name}'"
+        where = f"Attribute '{name}' of Entity '{self.type_name}'"
         if check_is_list_entity(data_type):
             if isinstance(value, list) and all(isinstance(item, Mapping) for item in value):
-                return [
-                    self.__entity(item, name, getattr(item, 'line', self.__line)) for item in value
-                ]
+                return [self.__entity(item, name, item) for item in value]
             raise TypeError(f'{where} expected to be a list of dictionaries, got {value!r}')
         if not is_instance_of(value, data_type, can_be_str=can_be_str):
             kind = getattr(data_type, '__name__', data_type)

@@ -8,25 +8,19 @@ from typing import Any
 
 
 class Entity:
-    """Base of one element of a markup launch file."""
+    """Base of one element of a markup launch file.
 
-    @property
-    def type_name(self) -> str:
-        """Name of the element, as 'node'."""
-        raise NotImplementedError
+    ``type_name`` is the name of the element, as 'node', and ``location`` its file and line, where
+    they are known.
+    """
 
-    @property
-    def parent(self) -> Entity | None:
-        raise NotImplementedError
+    type_name: str
+    parent: Entity | None
+    location: tuple[str, int] | None = None
 
     @property
     def children(self) -> list[Entity]:
         raise NotImplementedError
-
-    @property
-    def location(self) -> tuple[str, int] | None:
-        """File and line, where they are known."""
-        return None
 
     def assert_entity_completely_parsed(self) -> None:
         """Refuse attributes and children that no parser has read.
