@@ -27,7 +27,6 @@ class Action(LaunchDescriptionEntity):
     # The attributes of its element in a markup file that are text and never left out, by the
     # arguments they become.
     _attributes: ClassVar[Mapping[str, str]] = {}
-    _location: tuple[str, int] | None
 
     def __new__(cls, *_args: Any, **_kwargs: Any) -> Self:
         action = super().__new__(cls)

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 class LaunchDescriptionEntity:
     """Base of launch descriptions and actions."""
 
+    # File and line where it was written, for error messages.
+    _location: tuple[str, int] | None = None
+
     def describe(self) -> str:
         return self.__repr__()
 

@@ -199,7 +199,7 @@ class LaunchService:
             try:
                 self.__visit(handler.handle(event, self.context))
             except Exception as error:
-                attach_location(error, handler)
+                attach_location(error, None)
                 first_error = first_error or error
             finally:
                 self.context._pop_locals()

@@ -51,10 +51,9 @@ def located_error(error: Exception, location: tuple[str, int] | None) -> Excepti
     return error
 
 
-def attach_location(error: Exception, entity: object) -> None:
+def attach_location(error: Exception, location: tuple[str, int] | None) -> None:
     """Note at an error where it came from, unless an inner place is already known."""
-    location = traceback_location(error.__traceback__) or getattr(entity, '_location', None)
-    located_error(error, location)
+    located_error(error, traceback_location(error.__traceback__) or location)
 
 
 def describe_error(error: BaseException) -> str:

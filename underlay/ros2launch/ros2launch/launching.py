@@ -14,18 +14,6 @@ from launch.launch_introspector import format_substitutions
 from ros2cli.errors import CommandError
 
 
-def launch_service_description(
-    path: Path, arguments: Sequence[tuple[str, str]]
-) -> launch.LaunchDescription:
-    return launch.LaunchDescription(
-        [
-            IncludeLaunchDescription(
-                AnyLaunchDescriptionSource(str(path)), launch_arguments=arguments
-            )
-        ]
-    )
-
-
 def launch_file(
     path: Path,
     arguments: Sequence[tuple[str, str]],
@@ -36,7 +24,9 @@ def launch_file(
 ) -> int:
     """Run a launch file to its end; return the exit status."""
     service = launch.LaunchService(argv=list(words), noninteractive=noninteractive, debug=debug)
-    service.include_launch_description(launch_service_description(path, arguments))
+    source = AnyLaunchDescriptionSource(str(path))
+    include = IncludeLaunchDescription(source, launch_arguments=arguments)
+    service.include_launch_description(launch.LaunchDescription([include]))
     return int(service.run())
 
 

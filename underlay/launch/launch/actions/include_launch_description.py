@@ -123,5 +123,5 @@ class IncludeLaunchDescription(Action):
                     f"'{argument.name}' (description: '{argument.description}'), given: "
                     f'[{", ".join(given)}]'
                 )
-                attach_location(error, argument)
+                attach_location(error, argument._location)
                 raise error

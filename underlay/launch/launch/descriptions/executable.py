@@ -65,16 +65,11 @@ class Executable:
     ) -> None:
         self.cmd = [normalize_to_list_of_substitutions(part) for part in cmd]
         self.arguments = [normalize_to_list_of_substitutions(part) for part in arguments or ()]
-        self.prefix = normalize_to_list_of_substitutions(
-            LaunchConfiguration('launch-prefix', default='') if prefix is None else prefix
-        )
-        self.__prefix_filter = (
-            normalize_to_list_of_substitutions(
-                LaunchConfiguration('launch-prefix-filter', default='')
-            )
-            if prefix is None
-            else None
-        )
+        self.__prefix_filter: list[Substitution] = []
+        if prefix is None:
+            prefix = LaunchConfiguration('launch-prefix', default='')
+            self.__prefix_filter = [LaunchConfiguration('launch-prefix-filter', default='')]
+        self.prefix = normalize_to_list_of_substitutions(prefix)
         self.name = None if name is None else normalize_to_list_of_substitutions(name)
         self.cwd = None if cwd is None else normalize_to_list_of_substitutions(cwd)
         self.env = _normalize_env(env)
@@ -108,8 +103,7 @@ class Executable:
 
     def __prefix_words(self, context: LaunchContext, program: str) -> list[str]:
         words = shlex.split(perform_substitutions(context, self.prefix))
-        if self.__prefix_filter is not None:
-            pattern = perform_substitutions(context, self.__prefix_filter)
-            if pattern and re.match(pattern, program) is None:
-                return []
+        pattern = perform_substitutions(context, self.__prefix_filter)
+        if pattern and re.match(pattern, program) is None:
+            return []
         return words

@@ -108,19 +108,15 @@ def parse_substitution(value: str) -> list[Substitution]:
     return _Reader(str(value)).fragments('', '')
 
 
-def _parse_if_substitutions(value: str) -> Any:
+def parse_if_substitutions(value: Any) -> Any:
+    """Return a value with every text in it parsed; one without substitutions stays text."""
     from ..substitutions import TextSubstitution
 
+    if isinstance(value, list):
+        return [parse_if_substitutions(item) for item in value]
+    if not isinstance(value, str):
+        return value
     parsed = parse_substitution(value)
     if len(parsed) == 1 and isinstance(parsed[0], TextSubstitution):
         return parsed[0].text
     return parsed
-
-
-def parse_if_substitutions(value: Any) -> Any:
-    """Return a value with every text in it parsed; one without substitutions stays text."""
-    if isinstance(value, str):
-        return _parse_if_substitutions(value)
-    if isinstance(value, list):
-        return [parse_if_substitutions(item) for item in value]
-    return value

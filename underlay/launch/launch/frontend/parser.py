@@ -29,13 +29,6 @@ class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     """Raised when a markup launch file cannot be read."""
 
 
-class _At:
-    """Carries the place of an entity, which is not an action yet."""
-
-    def __init__(self, entity: Entity) -> None:
-        self._location = entity.location
-
-
 class Parser:
     """Base of the parsers of the markup languages, which implement :meth:`load`."""
 
@@ -68,7 +61,7 @@ class Parser:
             action = instantiate_action(entity, self)
             entity.assert_entity_completely_parsed()
         except Exception as error:
-            attach_location(error, _At(entity))
+            attach_location(error, entity.location)
             raise
         return action
 
@@ -103,7 +96,7 @@ class Parser:
             deprecated = entity.get_attr('deprecated', optional=True)
             entity.assert_entity_completely_parsed()
         except Exception as error:
-            attach_location(error, _At(entity))
+            attach_location(error, entity.location)
             raise
         return LaunchDescription(actions, deprecated_reason=deprecated)
 

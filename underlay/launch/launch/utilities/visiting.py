@@ -27,7 +27,7 @@ def visit_all_entities_and_collect_futures(
     try:
         sub_entities = entity.visit(context)
     except Exception as error:
-        attach_location(error, entity)
+        attach_location(error, entity._location)
         raise
     for sub_entity in sub_entities or ():
         if not isinstance(sub_entity, LaunchDescriptionEntity):
@@ -35,7 +35,7 @@ def visit_all_entities_and_collect_futures(
                 f'{sub_entity!r} is not a launch action or description, but '
                 f'{type(entity).__name__} yields it'
             )
-            attach_location(failure, entity)
+            attach_location(failure, entity._location)
             raise failure
         pairs.extend(visit_all_entities_and_collect_futures(sub_entity, context))
     future = entity.get_asyncio_future()
