@@ -21,15 +21,9 @@ from .opaque_function import OpaqueFunction
 _Entities = list[LaunchDescriptionEntity] | None
 
 
-class _Turn(Action):
-    """Sets the variables of one turn of a loop, or takes them away."""
-
-    def __init__(self, values: Mapping[str, Any], **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__values = dict(values)
-
-    def execute(self, context: LaunchContext) -> None:
-        context.extend_locals(self.__values)
+def _turn(values: Mapping[str, Any]) -> OpaqueFunction:
+    """Return what sets the variables of one turn of a loop."""
+    return OpaqueFunction(function=lambda context: context.extend_locals(values))
 
 
 @expose_action('for_each')
@@ -59,7 +53,7 @@ class ForEach(Action):
         children = entity.children
 
         def function(**values: Any) -> list[LaunchDescriptionEntity]:
-            return [_Turn(values), *(parser.parse_action(child) for child in children)]
+            return [_turn(values), *(parser.parse_action(child) for child in children)]
 
         kwargs['function'] = function
         return cls, kwargs
@@ -129,7 +123,7 @@ class ForLoop(Action):
         entities: list[LaunchDescriptionEntity] = []
         for index in range(length):
             if name is not None:
-                entities.append(_Turn({name: index}))
+                entities.append(_turn({name: index}))
             entities.append(
                 OpaqueFunction(function=lambda _context, turn=index: self.__function(turn))
             )

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args, get_origin
 
 from .entity import Entity
 
@@ -22,12 +22,8 @@ _IDENTIFIERS: dict[str, Any] = {
 
 def check_is_list_entity(data_type: Any) -> bool:
     """Return whether elements are asked for, not a value."""
-    arguments = getattr(data_type, '__args__', ())
-    return bool(
-        getattr(data_type, '__origin__', None) is list  # of list[...] and typing.List[...]
-        and arguments
-        and isinstance(arguments[0], type)
-        and issubclass(arguments[0], Entity)
+    return get_origin(data_type) is list and any(
+        isinstance(kind, type) and issubclass(kind, Entity) for kind in get_args(data_type)
     )
 
 

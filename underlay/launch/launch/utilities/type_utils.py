@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TYPE_CHECKING
+from typing import Any, get_args, get_origin, TYPE_CHECKING
 
 import yaml
 
@@ -33,9 +33,8 @@ def extract_type(data_type: Any) -> tuple[type, bool]:
     """
     if data_type in ScalarTypesTuple:
         return data_type, False
-    arguments = getattr(data_type, '__args__', ())
-    is_list = getattr(data_type, '__origin__', None) is list  # of list[int] and typing.List[int]
-    if is_list and arguments and arguments[0] in ScalarTypesTuple:
+    arguments = get_args(data_type)
+    if get_origin(data_type) is list and arguments and arguments[0] in ScalarTypesTuple:
         return arguments[0], True
     raise ValueError(f'Unrecognized data type: {data_type}')
 

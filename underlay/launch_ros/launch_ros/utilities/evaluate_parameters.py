@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from launch.launch_context import LaunchContext
+from launch.substitution import Substitution
 from launch.utilities import perform_substitutions
 import yaml
 
@@ -20,7 +21,8 @@ _ALLOWED = (
 )
 
 
-def _from_yaml(name: str, text: str) -> Any:
+def _perform(context: LaunchContext, name: str, subs: tuple[Substitution, ...]) -> Any:
+    text = perform_substitutions(context, subs)
     try:
         return yaml.safe_load(text)
     except yaml.YAMLError:
@@ -49,13 +51,10 @@ def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
     if isinstance(value, ParameterValue):
         return _check(name, value.evaluate(context))
     if isinstance(value, tuple):
-        return _check(name, _from_yaml(name, perform_substitutions(context, value)))
+        return _check(name, _perform(context, name, value))
     if isinstance(value, list):
         items = [
-            _from_yaml(name, perform_substitutions(context, item))
-            if isinstance(item, tuple)
-            else item
-            for item in value
+            _perform(context, name, item) if isinstance(item, tuple) else item for item in value
         ]
         return _check(name, items)
     return _check(name, value)
