@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import argparse
+
 PLUGIN_SYSTEM_VERSION = '0.1'
 
 
@@ -26,6 +28,19 @@ def satisfies_version(version: str, caret_range: str) -> None:
         raise PluginException(
             f"the interface has version {version}, but the extension needs '{caret_range}'"
         )
+
+
+class Extension:
+    """Base of commands and verbs; the docstring of each is its help."""
+
+    NAME: str | None = None
+    EXTENSION_POINT_VERSION = '0.1'
+
+    def __init__(self) -> None:
+        satisfies_version(PLUGIN_SYSTEM_VERSION, '^0.1')
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        pass
 
 
 def _numbers(version: str) -> tuple[int, ...]:

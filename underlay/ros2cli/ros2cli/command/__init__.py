@@ -11,7 +11,7 @@ from typing import Any
 
 from entry_point_index import docstring, entry_points, load
 
-from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION, satisfies_version
+from ros2cli.plugin_system import Extension
 from ros2cli.verb import VerbExtension
 
 # What a full ROS 2 has besides; each is refused with a line that says so.
@@ -25,20 +25,11 @@ _LEFT_OUT = {
 }  # fmt: skip
 
 
-class CommandExtension:
-    """Base of a command: `ros2 COMMAND`; its docstring is its help.
+class CommandExtension(Extension):
+    """Base of a command: `ros2 COMMAND`.
 
     A package registers its command in the entry point group 'ros2cli.command'.
     """
-
-    NAME: str | None = None
-    EXTENSION_POINT_VERSION = '0.1'
-
-    def __init__(self) -> None:
-        satisfies_version(PLUGIN_SYSTEM_VERSION, '^0.1')
-
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        pass
 
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace

@@ -26,17 +26,17 @@ from ros2cli.settings import settings_from_environment
 class CommandNode:
     """A node with its executor."""
 
-    def __init__(self, name: str | None = None, *, use_sim_time: bool = False) -> None:
+    def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None) -> None:
         settings_from_environment()
         rclpy.init(args=[])
-        overrides = [Parameter('use_sim_time', value=True)] if use_sim_time else []
+        use_sim_time = bool(getattr(args, 'use_sim_time', False))
         try:
             self.node = Node(
-                name or f'{names.COMMAND_NODE}{os.getpid()}',
+                node_name or f'{names.COMMAND_NODE}{os.getpid()}',
                 use_global_arguments=False,
                 enable_rosout=False,
                 start_parameter_services=False,
-                parameter_overrides=overrides,
+                parameter_overrides=[Parameter('use_sim_time', value=use_sim_time)],
             )
         except InvalidNodeNameException as error:
             rclpy.try_shutdown()
@@ -66,7 +66,7 @@ class DirectNode(CommandNode):
     """The node as upstream's verbs use it: a context manager that has what the node has."""
 
     def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None) -> None:
-        super().__init__(node_name, use_sim_time=bool(getattr(args, 'use_sim_time', False)))
+        super().__init__(args, node_name=node_name)
         self._args = args
 
     def __enter__(self) -> DirectNode:
@@ -91,7 +91,7 @@ def command_node(
     args: argparse.Namespace | None = None, *, name: str | None = None
 ) -> Iterator[CommandNode]:
     """Give a node for the time of a command; Ctrl-C and SIGTERM end it cleanly."""
-    node = CommandNode(name, use_sim_time=bool(getattr(args, 'use_sim_time', False)))
+    node = CommandNode(args, node_name=name)
     try:
         yield node
     except ExternalShutdownException:

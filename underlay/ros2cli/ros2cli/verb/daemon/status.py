@@ -3,16 +3,8 @@
 
 from __future__ import annotations
 
-import argparse
-
-from ros2cli.verb import VerbExtension
+from ros2cli.verb.daemon import DaemonVerb
 
 
-class StatusVerb(VerbExtension):
+class StatusVerb(DaemonVerb):
     """Output the status of the daemon."""
-
-    def main(self, *, args: argparse.Namespace) -> None:
-        print(
-            'There is no daemon here, and none is needed: each command reads the graph itself, '
-            'completely, in a quarter of a second'
-        )
