@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+import copy
 
 from rclpy.duration import Duration
 from rclpy.qos import (
@@ -19,8 +20,12 @@ from rclpy.qos import (
 from ros2cli.arguments import nonnegative_float, nonnegative_int
 from rtps_graph.graph import Endpoint
 
-_CHOSEN = ('qos_profile', 'qos_depth', 'qos_history', 'qos_reliability', 'qos_durability',
-           'qos_liveliness', 'qos_liveliness_lease_duration_seconds')  # fmt: skip
+_POLICIES = {
+    'history': (HistoryPolicy, 'History of samples'),
+    'reliability': (ReliabilityPolicy, 'Quality of service reliability'),
+    'durability': (DurabilityPolicy, 'Quality of service durability'),
+    'liveliness': (LivelinessPolicy, 'Quality of service liveliness'),
+}
 
 
 def add_arguments(
@@ -38,12 +43,7 @@ def add_arguments(
         type=nonnegative_int,
         help=f'Queue size setting to {verb} with (overrides depth value of --qos-profile option)',
     )
-    for option, policy, text in (
-        ('history', HistoryPolicy, 'History of samples'),
-        ('reliability', ReliabilityPolicy, 'Quality of service reliability'),
-        ('durability', DurabilityPolicy, 'Quality of service durability'),
-        ('liveliness', LivelinessPolicy, 'Quality of service liveliness'),
-    ):
+    for option, (policy, text) in _POLICIES.items():
         parser.add_argument(
             f'--qos-{option}',
             choices=policy.short_keys(),
@@ -62,19 +62,14 @@ def profile(args: argparse.Namespace, *, default_preset: str = 'default') -> QoS
     """Build the profile that the options ask for."""
     preset = QoSPresetProfiles.get_from_short_key(args.qos_profile or default_preset)
     # A preset is shared by the process; the options change a copy.
-    chosen = QoSProfile(**{name[1:]: getattr(preset, name) for name in QoSProfile.__slots__})
+    chosen = copy.copy(preset)
     if args.qos_depth is not None:
         chosen.depth = args.qos_depth
-    if args.qos_history:
-        chosen.history = HistoryPolicy.get_from_short_key(args.qos_history)
-    if args.qos_reliability:
-        chosen.reliability = ReliabilityPolicy.get_from_short_key(args.qos_reliability)
-    if args.qos_durability:
-        chosen.durability = DurabilityPolicy.get_from_short_key(args.qos_durability)
-        if chosen.durability == DurabilityPolicy.TRANSIENT_LOCAL and chosen.depth == 0:
-            chosen.depth = 1
-    if args.qos_liveliness:
-        chosen.liveliness = LivelinessPolicy.get_from_short_key(args.qos_liveliness)
+    for option, (policy, _) in _POLICIES.items():
+        if key := getattr(args, f'qos_{option}'):
+            setattr(chosen, option, policy.get_from_short_key(key))
+    if args.qos_durability == 'transient_local' and chosen.depth == 0:
+        chosen.depth = 1
     if args.qos_liveliness_lease_duration_seconds is not None:
         lease_ns = int(args.qos_liveliness_lease_duration_seconds * 10**9)
         chosen.liveliness_lease_duration = Duration(nanoseconds=lease_ns)
@@ -84,7 +79,7 @@ def profile(args: argparse.Namespace, *, default_preset: str = 'default') -> QoS
 def profile_for(args: argparse.Namespace, publishers: Sequence[Endpoint]) -> QoSProfile:
     """Build a subscription's profile that fits what is published, unless options ask otherwise."""
     chosen = profile(args)
-    if any(getattr(args, name) is not None for name in _CHOSEN[2:5]) or args.qos_profile:
+    if args.qos_profile or args.qos_history or args.qos_reliability or args.qos_durability:
         return chosen
     if publishers and not all(endpoint.qos.reliable for endpoint in publishers):
         chosen.reliability = ReliabilityPolicy.BEST_EFFORT
