@@ -1,84 +1,122 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Types of command-line arguments, with messages that say what is allowed."""
+"""Arguments of the verbs: flags, numbers, and names for which the Tab key offers what there is."""
 
 from __future__ import annotations
 
-from argparse import ArgumentTypeError
+import argparse
+from collections.abc import Callable, Iterable, Mapping
+import contextlib
 import math
 from typing import Any
 
-import yaml
+from ros2_diagnosis import packages
+from rtps_graph.graph import Graph
 
-from ros2cli.errors import CommandError
-
-
-def positive_float(text: str) -> float:
-    number = _number(text)
-    if not number > 0:
-        raise ArgumentTypeError(f"'{text}' is refused: it must be a number above 0")
-    return number
+# A parser, or a group of its arguments.
+Parser = argparse._ActionsContainer
 
 
-def nonnegative_float(text: str) -> float:
-    number = _number(text)
-    if not number >= 0:
-        raise ArgumentTypeError(f"'{text}' is refused: it must be a number, 0 or more")
-    return number
+def add_flags(parser: Parser, flags: Mapping[str, str]) -> None:
+    """Add options that take no value; given are their helps by their spellings, '-a --all'."""
+    for spellings, text in flags.items():
+        parser.add_argument(*spellings.split(), action='store_true', help=text)
 
 
-def positive_int(text: str) -> int:
-    number = _whole(text)
-    if number < 1:
-        raise ArgumentTypeError(f"'{text}' is refused: it must be a whole number above 0")
-    return number
+# Numbers
 
 
-def nonnegative_int(text: str) -> int:
-    number = _whole(text)
-    if number < 0:
-        raise ArgumentTypeError(f"'{text}' is refused: it must be a whole number, 0 or more")
-    return number
+def _number(
+    kind: Callable[[str], float], allowed: str, is_allowed: Callable[[float], bool]
+) -> Callable[[str], Any]:
+    def parse(text: str) -> float:
+        with contextlib.suppress(ValueError):
+            number = kind(text)
+            if is_allowed(number):
+                return number
+        raise argparse.ArgumentTypeError(f"'{text}' is refused: it must be {allowed}")
+
+    return parse
 
 
-def yaml_mapping(text: str) -> dict[str, Any]:
-    """Read the values of a message.
+positive_float = _number(float, 'a number above 0', lambda number: 0 < number < math.inf)
+nonnegative_float = _number(float, 'a number, 0 or more', lambda number: 0 <= number < math.inf)
+positive_int = _number(int, 'a whole number above 0', lambda number: number > 0)
+nonnegative_int = _number(int, 'a whole number, 0 or more', lambda number: number >= 0)
 
-    :raises CommandError: the text is no YAML, or no dictionary.
+# Names
+
+
+def add_completed(
+    parser: Parser,
+    name: str,
+    choices: Callable[[argparse.Namespace], Iterable[str]],
+    **options: Any,
+) -> None:
+    """Add an argument for which Tab offers what a function finds for the arguments so far."""
+
+    def complete(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+        try:
+            return list(choices(parsed_args))
+        except Exception:
+            return []  # A completion has nowhere to say what went wrong.
+
+    parser.add_argument(name, **options).completer = complete  # type: ignore[attr-defined]
+
+
+def add_package(parser: Parser, **options: Any) -> None:
+    add_completed(parser, 'package_name', lambda _: sorted(packages.installed()), **options)
+
+
+def add_topic(parser: Parser, name: str = 'topic_name', **options: Any) -> None:
+    add_completed(parser, name, lambda _: _graph().topics(), **options)
+
+
+def add_service(parser: Parser, **options: Any) -> None:
+    add_completed(parser, 'service_name', lambda _: _graph().services(), **options)
+
+
+def add_action(parser: Parser, **options: Any) -> None:
+    add_completed(parser, 'action_name', lambda _: _graph().actions(), **options)
+
+
+def add_node(parser: Parser, **options: Any) -> None:
+    def names(_: argparse.Namespace) -> list[str]:
+        return [node.full_name for node in _graph().nodes if not node.is_hidden]
+
+    add_completed(parser, 'node_name', names, **options)
+
+
+def add_type(parser: Parser, name: str, kind: str, **options: Any) -> None:
+    """Add the name of an interface.
+
+    :param kind: 'msg', 'srv', 'action', or '' for all.
     """
-    values = yaml_value(text)
-    if values is None:
-        return {}
-    if not isinstance(values, dict):
-        raise CommandError(
-            'The passed value needs to be a dictionary in YAML format: '
-            f'"{{field: value}}"; {text!r} is a {type(values).__name__}'
-        )
-    return values
+
+    def names(_: argparse.Namespace) -> list[str]:
+        from ros2cli import interfaces
+
+        return interfaces.known(kind)
+
+    add_completed(parser, name, names, **options)
 
 
-def yaml_value(text: str) -> Any:
-    """Read one YAML value.
+def add_values(parser: Parser, name: str, type_key: str, **options: Any) -> None:
+    """Add a value in YAML; offered is the default one of the type, on one line, to be changed."""
 
-    :raises CommandError: the text is no YAML.
-    """
-    try:
-        return yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError, OverflowError, RecursionError) as error:
-        reason = ' '.join(str(error).split())
-        raise CommandError(f'{text!r} is no YAML: {reason}') from None
+    def prototype(args: argparse.Namespace) -> list[str]:
+        from rosidl_runtime_py import message_to_yaml
+        from rosidl_runtime_py.utilities import get_interface
 
+        from ros2cli import interfaces
 
-def _number(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        return math.nan
-    return number if math.isfinite(number) else math.nan
+        filled_in = interfaces.filled_in(get_interface(getattr(args, type_key, None) or ''))
+        return [message_to_yaml(filled_in(), flow_style=True).strip()]
+
+    add_completed(parser, name, prototype, nargs='?', default='{}', **options)
 
 
-def _whole(text: str) -> int:
-    try:
-        return int(text)
-    except ValueError:
-        return -1
+def _graph() -> Graph:
+    from ros2cli import discovery
+
+    return discovery.read_graph()

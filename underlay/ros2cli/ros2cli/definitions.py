@@ -12,6 +12,7 @@ import re
 from ros2_diagnosis import nearest
 from rosidl_runtime_py import get_interface_path
 
+from ros2cli import interfaces
 from ros2cli.errors import CommandError
 
 _FIELD = re.compile(
@@ -47,10 +48,7 @@ def text_of(interface: str) -> str:
     except ValueError as error:
         raise CommandError(str(error)) from None
     except LookupError as error:
-        from rosidl_runtime_py import get_interfaces
-
-        known = [f'{p}/{name}' for p, names in get_interfaces().items() for name in names]
-        hint = nearest.hint(interface, known, at_most=0)
+        hint = nearest.hint(interface, interfaces.known(), at_most=0)
         raise CommandError(f'{error.args[0]}{hint}') from None
 
 

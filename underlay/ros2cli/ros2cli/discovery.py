@@ -7,10 +7,12 @@ from __future__ import annotations
 import argparse
 import sys
 
-from rtps_graph import graph
+from rtps_graph import graph, names
 from rtps_graph.observer import Observer
 from rtps_graph.settings import Settings
 
+from ros2cli import arguments
+from ros2cli.errors import CommandError
 from ros2cli.settings import settings_from_environment
 
 DEFAULT_TIMEOUT_SEC = 3.0
@@ -26,11 +28,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='Spin time in seconds to wait for discovery of other hosts; the nodes of this host '
         'are counted, so that nothing has to be waited for',
     )
-    parser.add_argument(
-        '-s', '--use-sim-time', action='store_true', help='Enable ROS simulation time'
-    )
-    parser.add_argument(
-        '--no-daemon', action='store_true', help='Accepted; there is no daemon: graphs are exact'
+    arguments.add_flags(
+        parser,
+        {
+            '-s --use-sim-time': 'Enable ROS simulation time',
+            '--no-daemon': 'Accepted; there is no daemon: graphs are exact',
+        },
     )
 
 
@@ -58,6 +61,20 @@ def read_graph(args: argparse.Namespace | None = None, *, quiet: bool = False) -
     if not quiet:
         _print_hints(settings, found)
     return found
+
+
+def types_of(known: dict[str, list[str]], kind: str, name: str) -> list[str]:
+    """Return the types of a topic or a service (`kind`).
+
+    :raises CommandError: there is none of this name.
+    """
+    full_name = names.expand(name)
+    if full_name not in known:
+        from ros2_diagnosis import nearest
+
+        hint = nearest.hint(full_name, known, at_most=0)
+        raise CommandError(f"Unknown {kind} '{name}'{hint}")
+    return known[full_name]
 
 
 def _print_hints(settings: Settings, found: graph.Graph) -> None:

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Find the classes of messages, services and actions, or say why not."""
+"""Find the classes of messages, services and actions, and fill them, or say why not."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from collections.abc import Callable
 from typing import Any
 
 from ros2_diagnosis import nearest, packages
-from rosidl_runtime_py import get_interfaces
+from rosidl_runtime_py import get_interfaces, set_message_fields
 from rosidl_runtime_py.utilities import get_action, get_message, get_service
+import yaml
 
 from ros2cli.errors import CommandError
+
+_EXAMPLES = {'message': ', as std_msgs/msg/String', 'service': ', as std_srvs/srv/Empty'}
 
 
 def message(name: str) -> Any:
@@ -26,13 +29,53 @@ def action(name: str) -> Any:
     return _load(name, 'action', 'action', get_action)
 
 
+def known(kind: str = '') -> list[str]:
+    """List all interfaces; of one kind ('msg', 'srv' or 'action') where it is given."""
+    return [
+        f'{package}/{name}'
+        for package, names in get_interfaces().items()
+        for name in names
+        if name.startswith(kind)
+    ]
+
+
+def check_full_name(name: str) -> None:
+    if len(name.split('/')) != 3:
+        raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'")
+
+
+def filled_in(interface: Any) -> Any:
+    """Return the message that a person fills in: a request of a service, a goal of an action."""
+    for part in ('Request', 'Goal'):
+        interface = getattr(interface, part, interface)
+    return interface
+
+
+def yaml_mapping(text: str) -> dict[str, Any]:
+    """Read the values of a message.
+
+    :raises CommandError: the text is no YAML, or no dictionary.
+    """
+    try:
+        values = yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError, OverflowError, RecursionError) as error:
+        reason = ' '.join(str(error).split())
+        raise CommandError(f'{text!r} is no YAML: {reason}') from None
+    if values is None:
+        return {}
+    if not isinstance(values, dict):
+        raise CommandError(
+            'The passed value needs to be a dictionary in YAML format: '
+            f'"{{field: value}}"; {text!r} is a {type(values).__name__}'
+        )
+    return values
+
+
 def populate(msg: Any, values: dict[str, Any], **options: bool) -> list[Callable[..., None]]:
     """Fill a message from YAML.
 
     :raises CommandError: a value does not fit.
     """
-    from rosidl_runtime_py import set_message_fields
-
     try:
         return set_message_fields(msg, values, **options)
     except (AttributeError, TypeError, ValueError, RecursionError) as error:
@@ -40,14 +83,13 @@ def populate(msg: Any, values: dict[str, Any], **options: bool) -> list[Callable
 
 
 def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> Any:
+    package, last = name.partition('/')[0], name.rpartition('/')[2]
     try:
         return get(name)
     except ValueError as error:
-        raise CommandError(
-            f'The passed {what} type is invalid: {error}' + _example(namespace)
-        ) from None
+        example = _EXAMPLES.get(what, '')
+        raise CommandError(f'The passed {what} type is invalid: {error}{example}') from None
     except ModuleNotFoundError:
-        package = name.partition('/')[0]
         if package not in packages.installed():
             raise CommandError(
                 f"The passed {what} type is invalid: package '{package}' not found: "
@@ -55,14 +97,9 @@ def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> An
             ) from None
     except (AttributeError, ImportError):
         pass
-    known = get_interfaces().get(name.partition('/')[0], [])
-    names = [k.rpartition('/')[2] for k in known if k.startswith(namespace)]
+    installed = get_interfaces().get(package, [])
+    names = [each.rpartition('/')[2] for each in installed if each.startswith(namespace)]
     raise CommandError(
-        f"The passed {what} type is invalid: package '{name.partition('/')[0]}' has no "
-        f"{what} '{name.rpartition('/')[2]}'{nearest.hint(name.rpartition('/')[2], names)}"
+        f"The passed {what} type is invalid: package '{package}' has no {what} '{last}'"
+        f'{nearest.hint(last, names)}'
     ) from None
-
-
-def _example(namespace: str) -> str:
-    examples = {'msg': 'std_msgs/msg/String', 'srv': 'std_srvs/srv/Empty'}
-    return f', as {examples[namespace]}' if namespace in examples else ''

@@ -17,8 +17,7 @@ from rcl_interfaces.srv import (
 )
 from rclpy.parameter import parameter_value_to_python
 from ros2_diagnosis import nearest
-from ros2cli import completion, discovery
-from ros2cli.arguments import nonnegative_float
+from ros2cli import arguments, discovery
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2service import services
@@ -44,18 +43,14 @@ _INT64 = range(-(2**63), 2**63)
 def add_arguments(parser: argparse.ArgumentParser, *, node_is_optional: bool = False) -> None:
     """Add the options and the node of a verb."""
     discovery.add_arguments(parser)
-    completion.node(
-        parser.add_argument(
-            'node_name', nargs='?' if node_is_optional else None, help='Name of the ROS node'
-        )
+    arguments.add_node(
+        parser, nargs='?' if node_is_optional else None, help='Name of the ROS node'
     )
-    parser.add_argument(
-        '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
-    )
+    arguments.add_flags(parser, {'--include-hidden-nodes': 'Consider hidden nodes as well'})
     parser.add_argument(
         '--timeout',
         metavar='N',
-        type=nonnegative_float,
+        type=arguments.nonnegative_float,
         default=1.0,
         help='Wait for N seconds until node becomes available (default %(default)s sec)',
     )
@@ -63,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser, *, node_is_optional: bool = F
 
 def add_parameter(parser: argparse.ArgumentParser, name: str, **options: Any) -> None:
     """Add the argument that names parameters of the node."""
-    completion.attach(parser.add_argument(name, **options), _parameters)
+    arguments.add_completed(parser, name, _parameters, **options)
 
 
 def _parameters(args: argparse.Namespace) -> list[str]:

@@ -7,39 +7,37 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2cli.arguments import nonnegative_int
+from ros2cli import arguments
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 
 _TRUNCATE_LENGTH = 128
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        '--csv',
-        action='store_true',
-        help='Output all recursive fields separated by commas (e.g. for plotting).',
-    )
-    parser.add_argument(
-        '--full-length',
-        '-f',
-        action='store_true',
-        help='Output all elements for arrays, bytes, and string with a length > '
-        "'--truncate-length', by default they are truncated after '--truncate-length' elements "
-        "with '...'",
+    arguments.add_flags(
+        parser,
+        {
+            '--csv': 'Output all recursive fields separated by commas (e.g. for plotting).',
+            '--full-length -f': 'Output all elements for arrays, bytes, and string with a length '
+            "> '--truncate-length', by default they are truncated after '--truncate-length' "
+            "elements with '...'",
+        },
     )
     parser.add_argument(
         '--truncate-length',
         '-l',
-        type=nonnegative_int,
+        type=arguments.nonnegative_int,
         default=_TRUNCATE_LENGTH,
         help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
     )
-    for option, text in (
-        ('--no-arr', "Don't print array fields of messages"),
-        ('--no-str', "Don't print string fields of messages"),
-        ('--flow-style', 'Print collections in the flow style, on one line'),
-    ):
-        parser.add_argument(option, action='store_true', help=text)
+    arguments.add_flags(
+        parser,
+        {
+            '--no-arr': "Don't print array fields of messages",
+            '--no-str': "Don't print string fields of messages",
+            '--flow-style': 'Print collections in the flow style, on one line',
+        },
+    )
 
 
 def show(value: Any, args: argparse.Namespace) -> None:

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
-from ros2cli import arguments, interfaces
+from ros2cli import interfaces
 from ros2cli.errors import CommandError
 from ros2launch.command import launch
 from ros2param import params
@@ -80,7 +80,7 @@ def test_a_message_is_filled_and_sent_or_refused(name: str, value: Any, seed: in
 @settings(max_examples=300, deadline=None)
 @given(st.text(alphabet='{}[]:,"\'&*!|>%@`-# \n\tabx019.~', max_size=30) | st.text(max_size=30))
 def test_any_text_is_yaml_or_refused(text: str) -> None:
-    refusal, values = _refusal(arguments.yaml_mapping, text)
+    refusal, values = _refusal(interfaces.yaml_mapping, text)
     assert isinstance(values, dict) or (refusal and '\n' not in refusal)
 
 

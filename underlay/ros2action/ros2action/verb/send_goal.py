@@ -9,8 +9,7 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 from rclpy.action import ActionClient
-from ros2cli import completion, interfaces
-from ros2cli.arguments import positive_float, yaml_mapping
+from ros2cli import arguments, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
@@ -32,31 +31,26 @@ class SendGoalVerb(VerbExtension):
     """Send an action goal."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.action_name(
-            parser.add_argument('action_name', help="Name of the ROS action (e.g. '/fibonacci')")
-        )
-        completion.action_type(
-            parser.add_argument(
-                'action_type',
-                help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')",
-            )
+        arguments.add_action(parser, help="Name of the ROS action (e.g. '/fibonacci')")
+        arguments.add_type(
+            parser,
+            'action_type',
+            'action',
+            help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')",
         )
         group = parser.add_mutually_exclusive_group()
-        goal = group.add_argument(
+        arguments.add_values(
+            group,
             'goal',
-            nargs='?',
-            default='{}',
+            'action_type',
             help="Goal request values in YAML format (e.g. '{order: 10}')",
         )
-        completion.values(goal, 'action_type')
         group.add_argument('--stdin', action='store_true', help='Read goal from standard input')
-        parser.add_argument(
-            '-f', '--feedback', action='store_true', help='Echo feedback messages for the goal'
-        )
+        arguments.add_flags(parser, {'-f --feedback': 'Echo feedback messages for the goal'})
         parser.add_argument(
             '-t',
             '--timeout',
-            type=positive_float,
+            type=arguments.positive_float,
             help='Maximum time in seconds to wait for the action server and its result',
         )
 
@@ -64,7 +58,7 @@ class SendGoalVerb(VerbExtension):
         action_class = interfaces.action(args.action_type)
         goal = action_class.Goal()
         text = sys.stdin.read() if args.stdin else args.goal
-        interfaces.populate(goal, yaml_mapping(text))
+        interfaces.populate(goal, interfaces.yaml_mapping(text))
         with command_node(args) as node:
             client = ActionClient(node.node, action_class, topics.checked_name(args.action_name))
             try:

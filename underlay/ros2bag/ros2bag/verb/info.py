@@ -8,6 +8,7 @@ from datetime import datetime
 import math
 from pathlib import Path
 
+from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 
 from ros2bag import metadata, reader
@@ -18,9 +19,7 @@ class InfoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         parser.add_argument('bag_path', type=Path, help='Bag to open')
-        parser.add_argument(
-            '-t', '--topic-name', action='store_true', help='Only display topic names.'
-        )
+        arguments.add_flags(parser, {'-t --topic-name': 'Only display topic names.'})
         parser.add_argument(
             '-s',
             '--storage',

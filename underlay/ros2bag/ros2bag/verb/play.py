@@ -9,8 +9,7 @@ import time
 from typing import Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from ros2cli import discovery, interfaces
-from ros2cli.arguments import nonnegative_float, positive_float
+from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
@@ -40,7 +39,7 @@ class PlayVerb(VerbExtension):
         parser.add_argument(
             '-r',
             '--rate',
-            type=positive_float,
+            type=arguments.positive_float,
             default=1.0,
             help='rate at which to play back messages',
         )
@@ -51,18 +50,13 @@ class PlayVerb(VerbExtension):
             metavar='topic',
             help='topics to replay (default: all)',
         )
-        parser.add_argument(
-            '-l',
-            '--loop',
-            action='store_true',
-            help='enables loop playback when playing a bagfile',
-        )
+        arguments.add_flags(parser, {'-l --loop': 'enables loop playback when playing a bagfile'})
         parser.add_argument(
             '--remap', '-m', nargs='+', default=[], help='list of topics to be remapped: old:=new'
         )
         parser.add_argument(
             '--clock',
-            type=positive_float,
+            type=arguments.positive_float,
             nargs='?',
             const=_DEFAULT_CLOCK_HZ,
             metavar='Hz',
@@ -71,19 +65,17 @@ class PlayVerb(VerbExtension):
         parser.add_argument(
             '-d',
             '--delay',
-            type=nonnegative_float,
+            type=arguments.nonnegative_float,
             default=0.0,
             help='Sleep N seconds before play',
         )
         parser.add_argument(
             '--start-offset',
-            type=nonnegative_float,
+            type=arguments.nonnegative_float,
             default=0.0,
             help='Start the playback player this many seconds into the bag file.',
         )
-        parser.add_argument(
-            '--disable-keyboard-controls', action='store_true', help='Accepted: there are none.'
-        )
+        arguments.add_flags(parser, {'--disable-keyboard-controls': 'Accepted: there are none.'})
 
     def main(self, *, args: argparse.Namespace) -> None:
         bag = reader.read_record(args.bag_path)

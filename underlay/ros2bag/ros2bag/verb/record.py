@@ -10,7 +10,7 @@ import time
 from typing import Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from ros2cli import completion, discovery, interfaces
+from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
@@ -28,10 +28,8 @@ class RecordVerb(VerbExtension):
     """Record ROS data to a bag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.topic(
-            parser.add_argument(
-                'topics_positional', nargs='*', metavar='topics', help='Topics to be recorded'
-            )
+        arguments.add_topic(
+            parser, 'topics_positional', nargs='*', metavar='topics', help='Topics to be recorded'
         )
         parser.add_argument(
             '--topics', nargs='+', default=[], metavar='Topic', help='List of topics to record.'
@@ -53,16 +51,13 @@ class RecordVerb(VerbExtension):
             metavar='Topic',
             help='Topics not to record.',
         )
-        parser.add_argument(
-            '--include-hidden-topics',
-            action='store_true',
-            help='Discover and record hidden topics.',
-        )
-        parser.add_argument(
-            '--no-discovery',
-            action='store_true',
-            help='Disables topic auto discovery during recording: only topics present at startup '
-            'will be recorded.',
+        arguments.add_flags(
+            parser,
+            {
+                '--include-hidden-topics': 'Discover and record hidden topics.',
+                '--no-discovery': 'Disables topic auto discovery during recording: only topics '
+                'present at startup will be recorded.',
+            },
         )
         parser.add_argument(
             '-o',

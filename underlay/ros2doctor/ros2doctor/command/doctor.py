@@ -9,7 +9,7 @@ import platform
 import sys
 
 from ros2_diagnosis import packages
-from ros2cli import discovery
+from ros2cli import arguments, discovery
 from ros2cli.command import CommandExtension
 from ros2cli.settings import settings_from_environment
 
@@ -25,18 +25,19 @@ class DoctorCommand(CommandExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         group = parser.add_mutually_exclusive_group()
-        group.add_argument('--report', '-r', action='store_true', help='Print all reports.')
-        group.add_argument(
-            '--report-failed',
-            '-rf',
-            action='store_true',
-            help='Print reports of failed checks only.',
+        arguments.add_flags(
+            group,
+            {
+                '--report -r': 'Print all reports.',
+                '--report-failed -rf': 'Print reports of failed checks only.',
+            },
         )
-        parser.add_argument(
-            '--include-warnings',
-            '-iw',
-            action='store_true',
-            help='Include warnings as failed checks. Warnings are ignored by default.',
+        arguments.add_flags(
+            parser,
+            {
+                '--include-warnings -iw': 'Include warnings as failed checks. Warnings are '
+                'ignored by default.'
+            },
         )
         discovery.add_arguments(parser)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 from rosidl_runtime_py import (
     get_action_interfaces,
@@ -17,14 +18,13 @@ class ListVerb(VerbExtension):
     """List all interface types available."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        parser.add_argument(
-            '-m', '--only-msgs', action='store_true', help='Print out only the message types'
-        )
-        parser.add_argument(
-            '-s', '--only-srvs', action='store_true', help='Print out only the service types'
-        )
-        parser.add_argument(
-            '-a', '--only-actions', action='store_true', help='Print out only the action types'
+        arguments.add_flags(
+            parser,
+            {
+                '-m --only-msgs': 'Print out only the message types',
+                '-s --only-srvs': 'Print out only the service types',
+                '-a --only-actions': 'Print out only the action types',
+            },
         )
 
     def main(self, *, args: argparse.Namespace) -> None:

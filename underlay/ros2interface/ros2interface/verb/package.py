@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2_diagnosis import packages
-from ros2cli import completion
+from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 from rosidl_runtime_py import get_interfaces
 
@@ -15,9 +15,7 @@ class PackageVerb(VerbExtension):
     """Output a list of available interface types within one package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.package(
-            parser.add_argument('package_name', help="Name of the ROS package (e.g. 'std_msgs')")
-        )
+        arguments.add_package(parser, help="Name of the ROS package (e.g. 'std_msgs')")
 
     def main(self, *, args: argparse.Namespace) -> None:
         packages.prefix_of(args.package_name)

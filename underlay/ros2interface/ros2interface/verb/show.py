@@ -6,8 +6,8 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ros2cli import completion, definitions
-from ros2cli.errors import CommandError, UsageError
+from ros2cli import arguments, definitions, interfaces
+from ros2cli.errors import UsageError
 from ros2cli.verb import VerbExtension
 
 
@@ -16,21 +16,20 @@ class ShowVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         group = parser.add_mutually_exclusive_group()
-        group.add_argument(
-            '--all-comments',
-            action='store_true',
-            help='Show all comments, including for nested interface definitions',
+        arguments.add_flags(
+            group,
+            {
+                '--all-comments': 'Show all comments, including for nested interface definitions',
+                '--no-comments': 'Show no comments or whitespace',
+            },
         )
-        group.add_argument(
-            '--no-comments', action='store_true', help='Show no comments or whitespace'
-        )
-        completion.any_interface(
-            parser.add_argument(
-                'type',
-                help="Show an interface definition (e.g. 'std_msgs/msg/String'). Passing '-' "
-                "reads the argument from stdin (e.g. 'ros2 topic type /chatter | ros2 interface "
-                "show -').",
-            )
+        arguments.add_type(
+            parser,
+            'type',
+            '',
+            help="Show an interface definition (e.g. 'std_msgs/msg/String'). Passing '-' "
+            "reads the argument from stdin (e.g. 'ros2 topic type /chatter | ros2 interface "
+            "show -').",
         )
 
     def main(self, *, args: argparse.Namespace) -> None:
@@ -39,8 +38,7 @@ class ShowVerb(VerbExtension):
             if sys.stdin.isatty():
                 raise UsageError("ros2 interface show: '-' expects the type from a pipe")
             name = sys.stdin.readline().strip()
-        if len(name.split('/')) != 3:
-            raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'")
+        interfaces.check_full_name(name)
         _show(name, comments=not args.no_comments, nested_comments=args.all_comments, indent='')
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ros2_diagnosis import nearest, packages, workspaces
-from ros2cli import completion
+from ros2cli.arguments import add_completed, add_package
 from ros2cli.command import CommandExtension
 from ros2cli.errors import CommandError
 from ros2cli.settings import settings_from_environment
@@ -68,13 +68,9 @@ class LaunchCommand(CommandExtension):
             help='Regex pattern for filtering which executables the --launch-prefix is applied to '
             'by matching the executable name.',
         )
-        completion.package(
-            parser.add_argument(
-                'package_name', help='Name of the ROS package which contains the launch file'
-            )
-        )
-        completion.launch_file(
-            parser.add_argument('launch_file_name', nargs='?', help='Name of the launch file')
+        add_package(parser, help='Name of the ROS package which contains the launch file')
+        add_completed(
+            parser, 'launch_file_name', _launch_files, nargs='?', help='Name of the launch file'
         )
         parser.add_argument(
             'launch_arguments',
@@ -106,6 +102,10 @@ class LaunchCommand(CommandExtension):
         return launching.launch_file(
             path, arguments, words, noninteractive=args.noninteractive, debug=args.debug
         )
+
+
+def _launch_files(args: argparse.Namespace) -> list[str]:
+    return [path.name for path in packages.launch_files(packages.share_of(args.package_name))]
 
 
 def find_launch_file(

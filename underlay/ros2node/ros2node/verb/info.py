@@ -7,7 +7,7 @@ import argparse
 import sys
 
 from ros2_diagnosis import nearest
-from ros2cli import completion, discovery
+from ros2cli import arguments, discovery
 from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
 from rtps_graph import names
@@ -19,15 +19,9 @@ class InfoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.node(
-            parser.add_argument(
-                'node_name', help='Fully qualified node name to request information'
-            )
-        )
-        parser.add_argument(
-            '--include-hidden',
-            action='store_true',
-            help='Display hidden topics, services, and actions as well',
+        arguments.add_node(parser, help='Fully qualified node name to request information')
+        arguments.add_flags(
+            parser, {'--include-hidden': 'Display hidden topics, services, and actions as well'}
         )
 
     def main(self, *, args: argparse.Namespace) -> None:

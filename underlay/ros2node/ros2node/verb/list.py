@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ros2cli import discovery
+from ros2cli import arguments, discovery
 from ros2cli.verb import VerbExtension
 
 
@@ -15,14 +15,12 @@ class ListVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        parser.add_argument(
-            '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
-        )
-        parser.add_argument(
-            '-c',
-            '--count-nodes',
-            action='store_true',
-            help='Only display the number of nodes discovered',
+        arguments.add_flags(
+            parser,
+            {
+                '-a --all': 'Display all nodes even hidden ones',
+                '-c --count-nodes': 'Only display the number of nodes discovered',
+            },
         )
 
     def main(self, *, args: argparse.Namespace) -> None:

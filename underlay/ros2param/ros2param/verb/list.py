@@ -7,6 +7,7 @@ import argparse
 import re
 
 from ros2_diagnosis import nearest
+from ros2cli import arguments
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
@@ -26,9 +27,7 @@ class ListVerb(VerbExtension):
             default=[],
             help='Only list parameters with the provided prefixes',
         )
-        parser.add_argument(
-            '--param-type', action='store_true', help='Print parameter types with parameter names'
-        )
+        arguments.add_flags(parser, {'--param-type': 'Print parameter types with parameter names'})
         parser.add_argument(
             '--filter', metavar='REGEX', help='Only list parameters matching the provided regex'
         )

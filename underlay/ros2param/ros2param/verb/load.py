@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rcl_interfaces.msg import Parameter
+from ros2cli import arguments
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
@@ -24,10 +25,9 @@ class LoadVerb(VerbExtension):
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         params.add_arguments(parser)
         parser.add_argument('parameter_file', help='Parameter file')
-        parser.add_argument(
-            '--no-use-wildcard',
-            action='store_true',
-            help="Do not load parameters in the '/**' namespace into the node",
+        arguments.add_flags(
+            parser,
+            {'--no-use-wildcard': "Do not load parameters in the '/**' namespace into the node"},
         )
 
     def main(self, *, args: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2_diagnosis import packages
-from ros2cli import completion
+from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 
 
@@ -14,12 +14,8 @@ class ExecutablesVerb(VerbExtension):
     """Output a list of package specific executables."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.package(
-            parser.add_argument('package_name', nargs='?', help='The package name (default: all)')
-        )
-        parser.add_argument(
-            '--full-path', action='store_true', help='Show the full path of each executable'
-        )
+        arguments.add_package(parser, nargs='?', help='The package name (default: all)')
+        arguments.add_flags(parser, {'--full-path': 'Show the full path of each executable'})
 
     def main(self, *, args: argparse.Namespace) -> None:
         chosen = [args.package_name] if args.package_name else sorted(packages.installed())

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2_diagnosis import packages
-from ros2cli import completion
+from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 
 
@@ -14,11 +14,9 @@ class PrefixVerb(VerbExtension):
     """Output the prefix path of a package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.package(parser.add_argument('package_name', help='The package name'))
-        parser.add_argument(
-            '--share',
-            action='store_true',
-            help='Show share directory of the package, instead of the prefix path',
+        arguments.add_package(parser, help='The package name')
+        arguments.add_flags(
+            parser, {'--share': 'Show share directory of the package, instead of the prefix path'}
         )
 
     def main(self, *, args: argparse.Namespace) -> None:

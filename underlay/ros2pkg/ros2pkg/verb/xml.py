@@ -7,7 +7,7 @@ import argparse
 from xml.etree import ElementTree
 
 from ros2_diagnosis import packages
-from ros2cli import completion
+from ros2cli import arguments
 from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
 
@@ -16,7 +16,7 @@ class XmlVerb(VerbExtension):
     """Output the XML of the package manifest or a specific tag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.package(parser.add_argument('package_name', help='The package name'))
+        arguments.add_package(parser, help='The package name')
         parser.add_argument('-t', '--tag', help='The XML tag to output, e.g. version')
 
     def main(self, *, args: argparse.Namespace) -> None:

@@ -13,7 +13,7 @@ from typing import NoReturn
 
 from interrupt_while_loading import takes_blocked_interrupt
 from ros2_diagnosis import packages, workspaces
-from ros2cli import completion
+from ros2cli import arguments
 from ros2cli.command import CommandExtension
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.settings import settings_from_environment
@@ -29,11 +29,14 @@ class RunCommand(CommandExtension):
             'in '
             "quotes if it contains spaces (e.g. --prefix 'gdb -ex run --args').",
         )
-        completion.package(parser.add_argument('package_name', help='Name of the ROS package'))
-        executable = parser.add_argument(
-            'executable_name', nargs='?', help='Name of the executable'
+        arguments.add_package(parser, help='Name of the ROS package')
+        arguments.add_completed(
+            parser,
+            'executable_name',
+            lambda args: [path.name for path in packages.executables(args.package_name)],
+            nargs='?',
+            help='Name of the executable',
         )
-        completion.executable(executable)
         parser.add_argument(
             'argv', nargs=argparse.REMAINDER, help='Pass arbitrary arguments to the executable'
         )

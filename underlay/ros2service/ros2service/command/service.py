@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli import arguments
 from ros2cli.command import CommandWithVerbs
 
 
@@ -14,9 +15,7 @@ class ServiceCommand(CommandWithVerbs):
     VERB_GROUP = 'ros2service.verb'
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        parser.add_argument(
-            '--include-hidden-services',
-            action='store_true',
-            help='Consider hidden services as well',
+        arguments.add_flags(
+            parser, {'--include-hidden-services': 'Consider hidden services as well'}
         )
         super().add_arguments(parser, cli_name)

@@ -7,8 +7,7 @@ import argparse
 import sys
 import time
 
-from ros2cli import completion, interfaces
-from ros2cli.arguments import positive_float, yaml_mapping
+from ros2cli import arguments, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
@@ -19,31 +18,29 @@ class CallVerb(VerbExtension):
     """Call a service."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.service(
-            parser.add_argument(
-                'service_name', help="Name of the ROS service to call to (e.g. '/add_two_ints')"
-            )
+        arguments.add_service(
+            parser, help="Name of the ROS service to call to (e.g. '/add_two_ints')"
         )
-        completion.service_type(
-            parser.add_argument(
-                'service_type', help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"
-            )
+        arguments.add_type(
+            parser,
+            'service_type',
+            'srv',
+            help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')",
         )
         group = parser.add_mutually_exclusive_group()
-        values = group.add_argument(
+        arguments.add_values(
+            group,
             'values',
-            nargs='?',
-            default='{}',
+            'service_type',
             help="Values to fill the service request with in YAML format (e.g. '{a: 1, b: 2}'), "
             'otherwise the service request will be published with default values',
         )
-        completion.values(values, 'service_type')
         group.add_argument('--stdin', action='store_true', help='Read values from standard input')
         parser.add_argument(
             '-r',
             '--rate',
             metavar='N',
-            type=positive_float,
+            type=arguments.positive_float,
             help='Repeat the call at a specific rate in Hz',
         )
         qos.add_arguments(parser, verb='service client', default_preset='services_default')
@@ -52,7 +49,7 @@ class CallVerb(VerbExtension):
         service_class = interfaces.service(args.service_type)
         request = service_class.Request()
         text = sys.stdin.read() if args.stdin else args.values
-        interfaces.populate(request, yaml_mapping(text))
+        interfaces.populate(request, interfaces.yaml_mapping(text))
         with command_node(args) as node:
             client = node.node.create_client(
                 service_class,

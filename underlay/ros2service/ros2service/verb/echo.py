@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from rclpy.qos import QoSPresetProfiles
-from ros2cli import completion, discovery, interfaces
+from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
@@ -23,17 +23,15 @@ class EchoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.service(
-            parser.add_argument(
-                'service_name', help="Name of the ROS service to echo (e.g. '/add_two_ints')"
-            )
+        arguments.add_service(
+            parser, help="Name of the ROS service to echo (e.g. '/add_two_ints')"
         )
-        completion.service_type(
-            parser.add_argument(
-                'service_type',
-                nargs='?',
-                help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')",
-            )
+        arguments.add_type(
+            parser,
+            'service_type',
+            'srv',
+            nargs='?',
+            help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')",
         )
         printing.add_arguments(parser)
 

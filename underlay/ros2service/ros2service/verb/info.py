@@ -5,9 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2_diagnosis import nearest
-from ros2cli import completion, discovery
-from ros2cli.errors import CommandError
+from ros2cli import arguments, discovery
 from ros2cli.verb import VerbExtension
 from rtps_graph import names
 from rtps_graph.graph import Role
@@ -18,20 +16,13 @@ class InfoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.service(
-            parser.add_argument(
-                'service_name', help="Name of the ROS service to get info (e.g. '/add_two_ints')"
-            )
+        arguments.add_service(
+            parser, help="Name of the ROS service to get info (e.g. '/add_two_ints')"
         )
 
     def main(self, *, args: argparse.Namespace) -> None:
-        graph = discovery.read_graph(args)
-        services, name = graph.services(), names.expand(args.service_name)
-        if name not in services:
-            raise CommandError(
-                f"Unknown service '{args.service_name}'{nearest.hint(name, services, at_most=0)}"
-            )
-        types = services[name]
+        graph, name = discovery.read_graph(args), names.expand(args.service_name)
+        types = discovery.types_of(graph.services(), 'service', args.service_name)
         print(f'Type: {types[0] if len(types) == 1 else types}')
         print(f'Clients count: {len(graph.with_role(Role.CLIENT, name))}')
         print(f'Services count: {len(graph.with_role(Role.SERVER, name))}')

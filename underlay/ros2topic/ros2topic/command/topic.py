@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli import arguments
 from ros2cli.command import CommandWithVerbs
 
 
@@ -14,7 +15,5 @@ class TopicCommand(CommandWithVerbs):
     VERB_GROUP = 'ros2topic.verb'
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        parser.add_argument(
-            '--include-hidden-topics', action='store_true', help='Consider hidden topics as well'
-        )
+        arguments.add_flags(parser, {'--include-hidden-topics': 'Consider hidden topics as well'})
         super().add_arguments(parser, cli_name)

@@ -7,16 +7,12 @@ import argparse
 from collections import deque
 import time
 
-from rclpy.clock import Clock
-from rclpy.qos import qos_profile_sensor_data
-from ros2cli import completion, discovery
-from ros2cli.arguments import positive_int
+from ros2cli import arguments, discovery
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
-from ros2topic import silence, topics
+from ros2topic import measuring, topics
 
-_WINDOW = 100
 _UNITS = ((1e6, 'MB'), (1e3, 'KB'), (1.0, 'B'))
 
 
@@ -25,20 +21,8 @@ class BwVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.topic(
-            parser.add_argument(
-                'topic_name', help='Topic name to monitor for bandwidth utilization'
-            )
-        )
-        parser.add_argument(
-            '--window',
-            '-w',
-            type=positive_int,
-            default=_WINDOW,
-            metavar='WINDOW',
-            help='maximum window size, in # of messages, for calculating rate (default: '
-            '%(default)s)',
-        )
+        arguments.add_topic(parser, help='Topic name to monitor for bandwidth utilization')
+        measuring.add_window(parser, 100, 'maximum window size')
 
     def main(self, *, args: argparse.Namespace) -> None:
         topic = topics.find(args, args.topic_name, wait=True)
@@ -52,13 +36,9 @@ class BwVerb(VerbExtension):
                 print(describe(list(samples), time.monotonic()))
 
         with command_node(args) as node:
-            node.node.create_subscription(
-                topic.message_class, topic.name, on_message, qos_profile_sensor_data, raw=True
-            )
+            measuring.subscribe(node, topic, on_message, raw=True)
             print(f'Subscribed to [{topic.name}]')
-            node.node.create_timer(1.0, report, clock=Clock())
-            silence.hint_when_silent(node, topic.name, lambda: bool(samples))
-            node.spin_until(lambda: False)
+            measuring.report_repeatedly(node, report, {topic.name: lambda: bool(samples)})
 
 
 def describe(samples: list[tuple[float, int]], now_sec: float) -> str:

@@ -9,8 +9,7 @@ import sys
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-from ros2cli import completion, discovery
-from ros2cli.arguments import nonnegative_float
+from ros2cli import arguments, discovery
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
@@ -23,31 +22,26 @@ class EchoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.topic(
-            parser.add_argument(
-                'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
-            )
-        )
-        completion.message_type(
-            parser.add_argument(
-                'message_type',
-                nargs='?',
-                help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
-            )
+        arguments.add_topic(parser, help="Name of the ROS topic to listen to (e.g. '/chatter')")
+        arguments.add_type(
+            parser,
+            'message_type',
+            'msg',
+            nargs='?',
+            help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
         )
         qos.add_arguments(parser, verb='subscribe')
         printing.add_arguments(parser)
         parser.add_argument(
             '--field', help='Echo a selected field of a message. Use "." to select sub-fields'
         )
-        parser.add_argument(
-            '--lost-messages', action='store_true', help='DEPRECATED: Does nothing'
-        )
-        parser.add_argument(
-            '--no-lost-messages', action='store_true', help="Don't report when a message is lost"
-        )
-        parser.add_argument(
-            '--raw', action='store_true', help='Echo the raw binary representation'
+        arguments.add_flags(
+            parser,
+            {
+                '--lost-messages': 'DEPRECATED: Does nothing',
+                '--no-lost-messages': "Don't report when a message is lost",
+                '--raw': 'Echo the raw binary representation',
+            },
         )
         parser.add_argument(
             '--filter',
@@ -56,20 +50,15 @@ class EchoVerb(VerbExtension):
             help='Python expression to filter messages that are printed. Expression can use '
             'Python builtins as well as m (the message).',
         )
-        parser.add_argument(
-            '--once', action='store_true', help='Print the first message received and then exit.'
-        )
+        arguments.add_flags(parser, {'--once': 'Print the first message received and then exit.'})
         parser.add_argument(
             '--timeout',
             metavar='N',
-            type=nonnegative_float,
+            type=arguments.nonnegative_float,
             help='Set a timeout in seconds for waiting for a message',
         )
-        parser.add_argument(
-            '--include-message-info',
-            '-i',
-            action='store_true',
-            help='Shows the associated message info.',
+        arguments.add_flags(
+            parser, {'--include-message-info -i': 'Shows the associated message info.'}
         )
 
     def main(self, *, args: argparse.Namespace) -> None:

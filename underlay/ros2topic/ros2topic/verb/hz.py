@@ -6,37 +6,31 @@ from __future__ import annotations
 import argparse
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
-import math
+from dataclasses import dataclass
+import statistics
 from typing import Any
 
 from rclpy.clock import Clock
-from rclpy.qos import qos_profile_sensor_data
-from ros2cli import completion, discovery
-from ros2cli.arguments import positive_int
+from ros2cli import arguments, discovery
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
-from ros2topic import expression, silence, topics
-
-_WINDOW = 10000
-_REPORT_SEC = 1.0
+from ros2topic import expression, measuring, topics
 
 
 @dataclass
 class Rate:
     """The times between messages, over a window."""
 
-    window: int
     now_ns: Callable[[], int]
-    intervals_ns: deque[int] = field(default_factory=deque)
+    keep: Callable[[Any], bool]
+    intervals_ns: deque[int]
     last_ns: int | None = None
     fresh: bool = False
 
-    def __post_init__(self) -> None:
-        self.intervals_ns = deque(maxlen=self.window)
-
-    def on_message(self, _: Any = None) -> None:
+    def on_message(self, msg: Any) -> None:
+        if not self.keep(msg):
+            return
         now = self.now_ns()
         if self.last_ns is not None and now < self.last_ns:
             print('time has reset, resetting counters')
@@ -55,10 +49,8 @@ class Rate:
         if not self.fresh:
             return None
         self.fresh = False
-        mean = sum(self.intervals_ns) / len(self.intervals_ns)
-        spread = math.sqrt(
-            sum((x - mean) ** 2 for x in self.intervals_ns) / len(self.intervals_ns)
-        )
+        mean = statistics.fmean(self.intervals_ns)
+        spread = statistics.pstdev(self.intervals_ns, mean)
         return (
             f'average rate: {1e9 / mean if mean > 0 else 0.0:.3f}\n'
             f'\tmin: {min(self.intervals_ns) * 1e-9:.3f}s '
@@ -76,32 +68,22 @@ class HzVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.topic(
-            parser.add_argument(
-                'topic_name',
-                nargs='+',
-                help="Names of the ROS topic to listen to (e.g. '/chatter')",
-            )
+        arguments.add_topic(
+            parser, nargs='+', help="Names of the ROS topic to listen to (e.g. '/chatter')"
         )
-        parser.add_argument(
-            '--window',
-            '-w',
-            type=positive_int,
-            default=_WINDOW,
-            metavar='WINDOW',
-            help='window size, in # of messages, for calculating rate (default: %(default)s)',
-        )
+        measuring.add_window(parser, 10000)
         parser.add_argument(
             '--filter',
             dest='filter_expr',
             metavar='EXPR',
             help='only measure messages matching the specified Python expression',
         )
-        parser.add_argument(
-            '--wall-time',
-            action='store_true',
-            help='calculates rate using wall time which can be helpful when clock is not '
-            'published during simulation',
+        arguments.add_flags(
+            parser,
+            {
+                '--wall-time': 'calculates rate using wall time which can be helpful when clock '
+                'is not published during simulation'
+            },
         )
 
     def main(self, *, args: argparse.Namespace) -> None:
@@ -111,18 +93,10 @@ class HzVerb(VerbExtension):
             clock = Clock() if args.wall_time else node.node.get_clock()
             rates = {}
             for topic in found:
-                rate = Rate(args.window, lambda: clock.now().nanoseconds)
+                rate = Rate(lambda: clock.now().nanoseconds, keep, deque(maxlen=args.window))
                 rates[topic.name] = rate
-                node.node.create_subscription(
-                    topic.message_class,
-                    topic.name,
-                    lambda msg, rate=rate: rate.on_message() if keep(msg) else None,
-                    qos_profile_sensor_data,
-                    # Without a filter the message is not read.
-                    raw=args.filter_expr is None,
-                )
-            if args.filter_expr is None:
-                keep = expression.message_filter(None)
+                # Without a filter the message is not read.
+                measuring.subscribe(node, topic, rate.on_message, raw=args.filter_expr is None)
 
             def report() -> None:
                 for name, rate in rates.items():
@@ -130,7 +104,5 @@ class HzVerb(VerbExtension):
                     if text is not None:
                         print(text if len(rates) == 1 else f'{name}\n{text}')
 
-            node.node.create_timer(_REPORT_SEC, report, clock=Clock())
-            for name, rate in rates.items():
-                silence.hint_when_silent(node, name, rate.has_begun)
-            node.spin_until(lambda: False)
+            begun = {name: rate.has_begun for name, rate in rates.items()}
+            measuring.report_repeatedly(node, report, begun)

@@ -5,9 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2_diagnosis import nearest
-from ros2cli import completion, discovery
-from ros2cli.errors import CommandError
+from ros2cli import arguments, discovery
 from ros2cli.verb import VerbExtension
 from rtps_graph import names
 from rtps_graph.graph import Endpoint, Graph, Role
@@ -18,29 +16,20 @@ class InfoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.topic(
-            parser.add_argument(
-                'topic_name', help="Name of the ROS topic to get info (e.g. '/chatter')"
-            )
-        )
-        parser.add_argument(
-            '--verbose',
-            '-v',
-            action='store_true',
-            help='Prints detailed information like the node name, node namespace, topic type, '
-            'topic type hash, GUID, and QoS Profile of the publishers and subscribers to this '
-            'topic',
+        arguments.add_topic(parser, help="Name of the ROS topic to get info (e.g. '/chatter')")
+        arguments.add_flags(
+            parser,
+            {
+                '--verbose -v': 'Prints detailed information like the node name, node namespace, '
+                'topic type, topic type hash, GUID, and QoS Profile of the publishers and '
+                'subscribers to this topic'
+            },
         )
 
     def main(self, *, args: argparse.Namespace) -> None:
         graph = discovery.read_graph(args)
         name = names.expand(args.topic_name)
-        topics = graph.topics()
-        if name not in topics:
-            raise CommandError(
-                f"Unknown topic '{args.topic_name}'{nearest.hint(name, topics, at_most=0)}"
-            )
-        types = topics[name]
+        types = discovery.types_of(graph.topics(), 'topic', args.topic_name)
         end = '\n\n' if args.verbose else '\n'
         print(f'Type: {types[0] if len(types) == 1 else types}', end=end)
         for label, role in (('Publisher', Role.PUBLISHER), ('Subscription', Role.SUBSCRIPTION)):

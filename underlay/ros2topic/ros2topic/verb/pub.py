@@ -11,8 +11,7 @@ from typing import Any
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.publisher import Publisher
 from rclpy.qos import qos_policy_name_from_kind
-from ros2cli import completion, discovery, interfaces
-from ros2cli.arguments import nonnegative_float, nonnegative_int, positive_float, yaml_mapping
+from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
@@ -24,29 +23,22 @@ class PubVerb(VerbExtension):
     """Publish a message to a topic."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        completion.topic(
-            parser.add_argument(
-                'topic_name', help="Name of the ROS topic to publish to (e.g. '/chatter')"
-            )
+        arguments.add_topic(parser, help="Name of the ROS topic to publish to (e.g. '/chatter')")
+        arguments.add_type(
+            parser, 'message_type', 'msg', help="Type of the ROS message (e.g. 'std_msgs/String')"
         )
-        completion.message_type(
-            parser.add_argument(
-                'message_type', help="Type of the ROS message (e.g. 'std_msgs/String')"
-            )
-        )
-        values = parser.add_argument(
+        arguments.add_values(
+            parser,
             'values',
-            nargs='?',
-            default='{}',
+            'message_type',
             help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
             'otherwise the message will be published with default values',
         )
-        completion.values(values, 'message_type')
         parser.add_argument(
             '-r',
             '--rate',
             metavar='N',
-            type=positive_float,
+            type=arguments.positive_float,
             default=1.0,
             help='Publishing rate in Hz (default: 1)',
         )
@@ -54,38 +46,36 @@ class PubVerb(VerbExtension):
             '-p',
             '--print',
             metavar='N',
-            type=nonnegative_int,
+            type=arguments.nonnegative_int,
             default=1,
             help='Only print every N-th published message (default: 1)',
         )
         group = parser.add_mutually_exclusive_group()
-        group.add_argument(
-            '-1', '--once', action='store_true', help='Publish one message and exit'
-        )
+        arguments.add_flags(group, {'-1 --once': 'Publish one message and exit'})
         group.add_argument(
             '-t',
             '--times',
-            type=nonnegative_int,
+            type=arguments.nonnegative_int,
             default=0,
             help='Publish this number of times and then exit',
         )
         parser.add_argument(
             '-w',
             '--wait-matching-subscriptions',
-            type=nonnegative_int,
+            type=arguments.nonnegative_int,
             help='Wait until finding the specified number of matching subscriptions. Defaults to '
             '1 when using "-1"/"--once"/"--times", otherwise defaults to 0.',
         )
         parser.add_argument(
             '--max-wait-time-secs',
-            type=positive_float,
+            type=arguments.positive_float,
             help='This sets the maximum wait time in seconds if --wait-matching-subscriptions is '
             'set. By default, this flag is not set meaning the subscriber will wait endlessly.',
         )
         parser.add_argument(
             '--keep-alive',
             metavar='N',
-            type=nonnegative_float,
+            type=arguments.nonnegative_float,
             default=0.1,
             help='Keep publishing node alive for N seconds after the last msg (default: 0.1)',
         )
@@ -105,7 +95,10 @@ class PubVerb(VerbExtension):
         message_class = interfaces.message(args.message_type)
         msg = message_class()
         stamps = interfaces.populate(
-            msg, yaml_mapping(args.values), expand_header_auto=True, expand_time_now=True
+            msg,
+            interfaces.yaml_mapping(args.values),
+            expand_header_auto=True,
+            expand_time_now=True,
         )
         with command_node(args, name=args.node_name) as node:
             publisher = node.node.create_publisher(

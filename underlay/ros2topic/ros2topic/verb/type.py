@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli import completion, discovery
+from ros2cli import arguments, discovery
 from ros2cli.verb import VerbExtension
 from rtps_graph import names
 
@@ -15,11 +15,7 @@ class TypeVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         discovery.add_arguments(parser)
-        completion.topic(
-            parser.add_argument(
-                'topic_name', help="Name of the ROS topic to get type (e.g. '/chatter')"
-            )
-        )
+        arguments.add_topic(parser, help="Name of the ROS topic to get type (e.g. '/chatter')")
 
     def main(self, *, args: argparse.Namespace) -> int:
         types = discovery.read_graph(args).topics().get(names.expand(args.topic_name), [])

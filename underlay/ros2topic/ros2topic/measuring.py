@@ -1,0 +1,52 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the verbs that measure a topic have alike: hz, bw and delay."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.clock import Clock
+from rclpy.qos import qos_profile_sensor_data
+from ros2cli import arguments
+from ros2cli.node.direct import CommandNode
+
+from ros2topic import silence
+from ros2topic.topics import Topic
+
+_REPORT_SEC = 1.0
+
+
+def add_window(parser: argparse.ArgumentParser, default: int, what: str = 'window size') -> None:
+    parser.add_argument(
+        '--window',
+        '-w',
+        type=arguments.positive_int,
+        default=default,
+        metavar='WINDOW',
+        help=f'{what}, in # of messages, for calculating rate (default: %(default)s)',
+    )
+
+
+def subscribe(
+    node: CommandNode, topic: Topic, on_message: Callable[[Any], None], *, raw: bool = False
+) -> None:
+    node.node.create_subscription(
+        topic.message_class, topic.name, on_message, qos_profile_sensor_data, raw=raw
+    )
+
+
+def report_repeatedly(
+    node: CommandNode, report: Callable[[], None], begun: dict[str, Callable[[], bool]]
+) -> None:
+    """Report every second of wall time until Ctrl-C.
+
+    :param begun: tells whether something has come, by topic; where that takes long, why not is
+        printed.
+    """
+    node.node.create_timer(_REPORT_SEC, report, clock=Clock())
+    for name, has_begun in begun.items():
+        silence.hint_when_silent(node, name, has_begun)
+    node.spin_until(lambda: False)
