@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 import enum
+import re
 import struct
 
 from rtps_graph import names, wire
@@ -23,6 +24,16 @@ class Role(enum.Enum):
     SUBSCRIPTION = 'SUBSCRIPTION'
     SERVER = 'SERVER'
     CLIENT = 'CLIENT'
+
+
+# By the prefix of the DDS topic, and whether the endpoint writes. A service is shown once: by the
+# half that carries the requests.
+_ROLES = {
+    (names.TOPIC, True): Role.PUBLISHER,
+    (names.TOPIC, False): Role.SUBSCRIPTION,
+    (names.REQUEST, True): Role.CLIENT,
+    (names.REQUEST, False): Role.SERVER,
+}
 
 
 @dataclass(frozen=True)
@@ -122,13 +133,13 @@ def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ())
     """Put the graph together from what the participants announced."""
     graph = Graph([], [], tuple(sorted(silent_ports)))
     for participant in participants:
-        endpoints: dict[bytes, Endpoint] = {}
-        for found, written in ((participant.writers, True), (participant.readers, False)):
-            for guid, values in found.items():
-                endpoint = _endpoint(guid, values, written)
-                if endpoint is not None:
-                    endpoints[guid] = endpoint
-        graph.endpoints.extend(e for e in endpoints.values() if e.name != '')
+        endpoints = {
+            guid: endpoint
+            for found, written in ((participant.writers, True), (participant.readers, False))
+            for guid, values in found.items()
+            if (endpoint := _endpoint(guid, values, written)) is not None
+        }
+        graph.endpoints.extend(endpoints.values())
         for namespace, name, guids in _nodes(participant.graph_sample):
             known = [endpoints[guid] for guid in guids if guid in endpoints]
             graph.nodes.append(Node(name, namespace, known))
@@ -139,18 +150,11 @@ def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ())
 
 def _endpoint(guid: bytes, values: dict[int, list[bytes]], written: bool) -> Endpoint | None:
     prefix, name = names.ros_topic(_string(values, wire.PID_TOPIC_NAME))
-    dds_type = _string(values, wire.PID_TYPE_NAME)
-    if prefix == names.TOPIC:
-        role = Role.PUBLISHER if written else Role.SUBSCRIPTION
-    elif prefix in (names.REQUEST, names.REPLY):
-        # A service is shown once: by the half that carries the requests.
-        if prefix == names.REPLY:
-            return None
-        role = Role.CLIENT if written else Role.SERVER
-    else:
+    role = _ROLES.get((prefix, written))
+    if role is None:
         return None
-    is_topic = prefix == names.TOPIC
-    type_name = names.ros_type(dds_type) if is_topic else names.service_type(dds_type)
+    read_type = names.ros_type if prefix == names.TOPIC else names.service_type
+    type_name = read_type(_string(values, wire.PID_TYPE_NAME))
     return Endpoint(guid, role, name, type_name, _type_hash(values), _qos(values, written))
 
 
@@ -162,16 +166,9 @@ def _string(values: dict[int, list[bytes]], pid: int) -> str:
 
 
 def _type_hash(values: dict[int, list[bytes]]) -> str:
-    for item in _user_data(values).split(';'):
-        if item.startswith('typehash='):
-            return item.removeprefix('typehash=')
-    return 'INVALID'
-
-
-def _user_data(values: dict[int, list[bytes]]) -> str:
-    for value in values.get(wire.PID_USER_DATA, ()):
-        return value[4:].rstrip(b'\0').decode(errors='replace')
-    return ''
+    (user_data, *_) = values.get(wire.PID_USER_DATA, [b''])
+    match = re.search(rb'(?:^|;)typehash=([^;]*)', user_data[4:].rstrip(b'\0'))
+    return match[1].decode(errors='replace') if match else 'INVALID'
 
 
 def _qos(values: dict[int, list[bytes]], written: bool) -> Qos:

@@ -21,6 +21,11 @@ from rtps_graph import announcements, host, wire
 from rtps_graph.participant import Participant, Samples
 
 _RETRY_SEC = 0.03
+# The readers of the built-in writers; every other writer is that of the graph topic.
+_READERS = {
+    wire.PUBLICATIONS_WRITER: wire.PUBLICATIONS_READER,
+    wire.SUBSCRIPTIONS_WRITER: wire.SUBSCRIPTIONS_READER,
+}
 
 
 class Observer:
@@ -102,22 +107,26 @@ class Observer:
                 self._ask_participant(participant)
 
     def _ask_participant(self, participant: Participant) -> None:
-        self._acknowledge(participant, wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER)
-        self._acknowledge(participant, wire.SUBSCRIPTIONS_READER, wire.SUBSCRIPTIONS_WRITER)
+        for writer in _READERS:
+            self._acknowledge(participant, writer)
         if not participant.knows_observer:
             self._offer_graph_reader(participant)
-        writer = participant.graph_writer()
-        if writer is not None and participant.graph_sample is None:
-            self._acknowledge(participant, announcements.GRAPH_READER, writer[12:])
+        graph_writer = participant.graph_writer()
+        if graph_writer is not None and participant.graph_sample is None:
+            self._acknowledge(participant, graph_writer)
 
-    def _acknowledge(self, participant: Participant, reader: bytes, writer: bytes) -> None:
+    def _acknowledge(self, participant: Participant, writer: bytes) -> None:
         samples = self._samples(participant, writer)
         missing = samples.missing if samples.last is not None else {1}
         base = min(missing) if missing else (samples.last or 0) + 1
         samples.acknowledgements += 1
         message = wire.header(self._prefix) + wire.info_destination(participant.prefix)
         message += wire.acknack(
-            reader, writer, base=base, missing=missing, count=samples.acknowledgements
+            _READERS.get(writer, announcements.GRAPH_READER),
+            writer,
+            base=base,
+            missing=missing,
+            count=samples.acknowledgements,
         )
         graph = samples is participant.graph
         port = participant.data_port if graph else participant.discovery_port
@@ -175,25 +184,17 @@ class Observer:
         samples = self._samples(participant, message.writer_id)
         if message.kind == wire.HEARTBEAT:
             samples.first, samples.last = message.first, message.last
-            if message.reader_id != wire.UNKNOWN_ENTITY or samples is not participant.graph:
-                self._answer_heartbeat(participant, message)
+            if message.writer_id in _READERS or (
+                message.writer_id == participant.graph_writer()
+                and message.reader_id != wire.UNKNOWN_ENTITY
+            ):
+                self._acknowledge(participant, message.writer_id)
         elif message.kind == wire.GAP:
             samples.received.update(range(message.first, message.last), message.irrelevant)
         elif message.kind == wire.DATA and message.first not in samples.received:
             samples.received.add(message.first)
             self._news_sec = time.monotonic()
             self._on_sample(participant, message)
-
-    def _answer_heartbeat(self, participant: Participant, message: wire.Submessage) -> None:
-        readers = {
-            wire.PUBLICATIONS_WRITER: wire.PUBLICATIONS_READER,
-            wire.SUBSCRIPTIONS_WRITER: wire.SUBSCRIPTIONS_READER,
-        }
-        graph = participant.graph_writer()
-        if graph is not None:
-            readers[graph[12:]] = announcements.GRAPH_READER
-        if message.writer_id in readers:
-            self._acknowledge(participant, readers[message.writer_id], message.writer_id)
 
     def _on_participant(self, message: wire.Submessage, address: str) -> None:
         if message.disposed:

@@ -49,12 +49,11 @@ class Participant:
     knows_observer: bool = False
 
     def graph_writer(self) -> bytes | None:
-        """Return the GUID of its writer of the graph topic; None: it is no ROS participant."""
+        """Return the id of its writer of the graph topic; None: it is no ROS participant."""
         for guid, values in self.writers.items():
-            if wire.string(GRAPH_TOPIC) in (
-                v[: 4 + len(GRAPH_TOPIC) + 1] for v in values.get(wire.PID_TOPIC_NAME, ())
-            ):
-                return guid
+            topics = values.get(wire.PID_TOPIC_NAME, ())
+            if any(topic.startswith(wire.string(GRAPH_TOPIC)) for topic in topics):
+                return guid[12:]
         return None
 
     @property

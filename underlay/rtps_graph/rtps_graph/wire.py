@@ -8,7 +8,7 @@ Section numbers are those of OMG DDSI-RTPS 2.2 (formal/2014-09-01).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import socket
 import struct
 
@@ -30,7 +30,6 @@ PID_SENTINEL = 0x0001
 PID_LEASE_DURATION = 0x0002
 PID_TOPIC_NAME = 0x0005
 PID_TYPE_NAME = 0x0007
-PID_DOMAIN_ID = 0x000F
 PID_PROTOCOL_VERSION = 0x0015
 PID_VENDOR_ID = 0x0016
 PID_RELIABILITY = 0x001A
@@ -39,7 +38,6 @@ PID_DURABILITY = 0x001D
 PID_DEADLINE = 0x0023
 PID_LIFESPAN = 0x002B
 PID_USER_DATA = 0x002C
-PID_UNICAST_LOCATOR = 0x002F
 PID_DEFAULT_UNICAST_LOCATOR = 0x0031
 PID_METATRAFFIC_UNICAST_LOCATOR = 0x0032
 PID_PARTICIPANT_GUID = 0x0050
@@ -68,7 +66,7 @@ class Submessage:
     last: int = 0  # HEARTBEAT: the last; GAP: one past the irrelevant range
     payload: bytes = b''
     disposed: bool = False
-    irrelevant: tuple[int, ...] = field(default=())
+    irrelevant: tuple[int, ...] = ()
 
 
 def header(prefix: bytes) -> bytes:
