@@ -7,6 +7,7 @@ from __future__ import annotations
 import array
 from collections.abc import Callable, Mapping
 import contextlib
+from dataclasses import dataclass, field
 from functools import partial
 import math
 import struct
@@ -43,18 +44,18 @@ def set_message_fields(
     :raises TypeError: a value has another type than its field.
     :raises ValueError: a value is out of the range of its field.
     """
-    filler = _Filler(expand_header_auto=expand_header_auto, expand_time_now=expand_time_now)
+    filler = _Filler(expand_header_auto, expand_time_now)
     filler.fill(msg, values, '')
     return filler.setters
 
 
+@dataclass
 class _Filler:
     """Converts values to what the fields of messages hold, at any depth."""
 
-    def __init__(self, *, expand_header_auto: bool, expand_time_now: bool) -> None:
-        self.setters: list[Callable[..., None]] = []
-        self._expand_header_auto = expand_header_auto
-        self._expand_time_now = expand_time_now
+    expand_header_auto: bool
+    expand_time_now: bool
+    setters: list[Callable[..., None]] = field(default_factory=list)
 
     def fill(self, message: Any, given: Any, path: str) -> None:
         if not isinstance(given, Mapping):
@@ -77,10 +78,10 @@ class _Filler:
         if not isinstance(kind, definition.NamespacedType):
             return False
         named = (tuple(kind.namespaces), kind.name)
-        if self._expand_header_auto and named == _HEADER and value == 'auto':
+        if self.expand_header_auto and named == _HEADER and value == 'auto':
             self.setters.append(partial(setattr, getattr(message, name), 'stamp'))
             return True
-        if self._expand_time_now and named == _TIME and value == 'now':
+        if self.expand_time_now and named == _TIME and value == 'now':
             self.setters.append(partial(setattr, message, name))
             return True
         return False

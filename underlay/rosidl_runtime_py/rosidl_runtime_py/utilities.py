@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import importlib
 from typing import Any
 
@@ -27,10 +28,7 @@ def get_message(identifier: str) -> Any:
 
     :raises ValueError: the name belongs to another kind of interface, or is none.
     """
-    interface = get_interface(_with_namespace(identifier, 'msg'))
-    if not is_message(interface):
-        raise ValueError(f"Expected '{identifier}' to be a message")
-    return interface
+    return _of_kind(identifier, 'msg', 'a message', is_message)
 
 
 def get_service(identifier: str) -> Any:
@@ -38,10 +36,7 @@ def get_service(identifier: str) -> Any:
 
     :raises ValueError: the name belongs to another kind of interface, or is none.
     """
-    interface = get_interface(_with_namespace(identifier, 'srv'))
-    if not is_service(interface):
-        raise ValueError(f"Expected '{identifier}' to be a service")
-    return interface
+    return _of_kind(identifier, 'srv', 'a service', is_service)
 
 
 def get_action(identifier: str) -> Any:
@@ -49,10 +44,7 @@ def get_action(identifier: str) -> Any:
 
     :raises ValueError: the name belongs to another kind of interface, or is none.
     """
-    interface = get_interface(_with_namespace(identifier, 'action'))
-    if not is_action(interface):
-        raise ValueError(f"Expected '{identifier}' to be an action")
-    return interface
+    return _of_kind(identifier, 'action', 'an action', is_action)
 
 
 def is_message(interface: Any) -> bool:
@@ -67,6 +59,11 @@ def is_action(interface: Any) -> bool:
     return all(hasattr(interface, part) for part in ('Goal', 'Result', 'Feedback'))
 
 
-def _with_namespace(identifier: str, namespace: str) -> str:
-    parts = identifier.split('/')
-    return '/'.join([parts[0], namespace, parts[1]]) if len(parts) == 2 else identifier
+def _of_kind(identifier: str, namespace: str, kind: str, is_kind: Callable[[Any], bool]) -> Any:
+    name = identifier
+    if name.count('/') == 1:
+        name = name.replace('/', f'/{namespace}/')
+    interface = get_interface(name)
+    if not is_kind(interface):
+        raise ValueError(f"Expected '{identifier}' to be {kind}")
+    return interface
