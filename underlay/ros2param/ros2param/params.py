@@ -5,16 +5,11 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterType, ParameterValue
-from rcl_interfaces.srv import (
-    DescribeParameters,
-    GetParameters,
-    ListParameters,
-    SetParameters,
-    SetParametersAtomically,
-)
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 from rclpy.parameter import parameter_value_to_python
 from ros2_diagnosis import nearest
 from ros2cli import arguments, discovery
@@ -67,7 +62,7 @@ def _parameters(args: argparse.Namespace) -> list[str]:
 
 
 def nodes(args: argparse.Namespace) -> list[Node]:
-    """List the nodes that have parameters."""
+    """List the nodes that the options let be considered."""
     return [
         node
         for node in discovery.read_graph(args).nodes
@@ -75,54 +70,73 @@ def nodes(args: argparse.Namespace) -> list[Node]:
     ]
 
 
+def nodes_named(args: argparse.Namespace) -> list[Node]:
+    """List the nodes of the name that the arguments give; several may share it.
+
+    :raises CommandError: there is none.
+    """
+    known = nodes(args)
+    name = names.expand(args.node_name)
+    found = [node for node in known if node.full_name == name]
+    if not found:
+        hint = nearest.hint(name, (node.full_name for node in known))
+        raise CommandError(f"Node not found: '{args.node_name}'{hint}")
+    return found
+
+
 def find_node(args: argparse.Namespace) -> str:
     """Return the full name of the node.
 
     :raises CommandError: it is not there, or has no parameter services.
     """
-    name = names.expand(args.node_name)
-    known = {node.full_name: node for node in nodes(args)}
-    if name not in known:
-        raise CommandError(f"Node not found: '{args.node_name}'{nearest.hint(name, known)}")
-    if not has_parameters(known[name]):
-        raise CommandError(f"Node '{name}' offers no parameters (it has no parameter services)")
-    return name
+    node = nodes_named(args)[-1]
+    if not has_parameters(node):
+        raise CommandError(
+            f"Node '{node.full_name}' offers no parameters (it has no parameter services)"
+        )
+    return node.full_name
 
 
 def has_parameters(node: Node) -> bool:
     return f'{node.full_name}/list_parameters' in node.having(Role.SERVER)
 
 
-def names_of(node: CommandNode, node_name: str, prefixes: list[str] | None = None) -> list[str]:
-    request = ListParameters.Request(prefixes=prefixes or [])
-    response = services.call(node, ListParameters, f'{node_name}/list_parameters', request)
+def names_of(node: CommandNode, node_name: str, prefixes: Sequence[str] = ()) -> list[str]:
+    response = _call(node, node_name, ListParameters, 'list_parameters', prefixes=prefixes)
     return sorted(response.result.names)
 
 
 def get(node: CommandNode, node_name: str, parameters: list[str]) -> list[ParameterValue]:
-    request = GetParameters.Request(names=parameters)
-    response = services.call(node, GetParameters, f'{node_name}/get_parameters', request)
+    response = _call(node, node_name, GetParameters, 'get_parameters', names=parameters)
     return list(response.values)
 
 
 def describe(
     node: CommandNode, node_name: str, parameters: list[str]
 ) -> list[ParameterDescriptor]:
-    request = DescribeParameters.Request(names=parameters)
-    response = services.call(node, DescribeParameters, f'{node_name}/describe_parameters', request)
+    response = _call(node, node_name, DescribeParameters, 'describe_parameters', names=parameters)
     return list(response.descriptors)
 
 
 def set_values(node: CommandNode, node_name: str, parameters: list[Parameter]) -> list[Any]:
-    request = SetParameters.Request(parameters=parameters)
-    response = services.call(node, SetParameters, f'{node_name}/set_parameters', request)
+    response = _call(node, node_name, SetParameters, 'set_parameters', parameters=parameters)
     return list(response.results)
 
 
-def set_atomically(node: CommandNode, node_name: str, parameters: list[Parameter]) -> Any:
-    request = SetParametersAtomically.Request(parameters=parameters)
-    name = f'{node_name}/set_parameters_atomically'
-    return services.call(node, SetParametersAtomically, name, request).result
+def set_one(args: argparse.Namespace, value: ParameterValue) -> tuple[bool, str]:
+    """Set the parameter that the arguments name; return whether it is set, and a clause why."""
+    node_name = find_node(args)
+    with command_node(args) as node:
+        parameter = Parameter(name=args.parameter_name, value=value)
+        (result,) = set_values(node, node_name, [parameter])
+    return result.successful, f': {result.reason}' if result.reason else ''
+
+
+def _call(
+    node: CommandNode, node_name: str, service_class: Any, service: str, **request: Any
+) -> Any:
+    name = f'{node_name}/{service}'
+    return services.call(node, service_class, name, service_class.Request(**request))
 
 
 def to_python(value: ParameterValue) -> Any:

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import argparse
 
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.msg import ParameterType, ParameterValue
 from ros2cli.errors import CommandError
-from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
 from ros2param import params
@@ -21,12 +20,8 @@ class DeleteVerb(VerbExtension):
         params.add_parameter(parser, 'parameter_name', help='Name of the parameter')
 
     def main(self, *, args: argparse.Namespace) -> None:
-        node_name = params.find_node(args)
         unset = ParameterValue(type=ParameterType.PARAMETER_NOT_SET)
-        with command_node(args) as node:
-            parameter = Parameter(name=args.parameter_name, value=unset)
-            (result,) = params.set_values(node, node_name, [parameter])
-        reason = f': {result.reason}' if result.reason else ''
-        if not result.successful:
+        successful, reason = params.set_one(args, unset)
+        if not successful:
             raise CommandError(f'Deleting parameter failed{reason}')
         print(f'Deleted parameter successfully{reason}')

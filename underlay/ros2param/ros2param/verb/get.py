@@ -12,18 +12,6 @@ from ros2cli.verb import VerbExtension
 
 from ros2param import params
 
-_LABELS = {
-    ParameterType.PARAMETER_BOOL: 'Boolean value is:',
-    ParameterType.PARAMETER_INTEGER: 'Integer value is:',
-    ParameterType.PARAMETER_DOUBLE: 'Double value is:',
-    ParameterType.PARAMETER_STRING: 'String value is:',
-    ParameterType.PARAMETER_BYTE_ARRAY: 'Byte values are:',
-    ParameterType.PARAMETER_BOOL_ARRAY: 'Boolean values are:',
-    ParameterType.PARAMETER_INTEGER_ARRAY: 'Integer values are:',
-    ParameterType.PARAMETER_DOUBLE_ARRAY: 'Double values are:',
-    ParameterType.PARAMETER_STRING_ARRAY: 'String values are:',
-}
-
 
 class GetVerb(VerbExtension):
     """Get parameter."""
@@ -43,5 +31,6 @@ class GetVerb(VerbExtension):
         if value.type == ParameterType.PARAMETER_NOT_SET:
             print('Parameter not set.')
             return
-        label = '' if args.hide_type else f'{_LABELS[value.type]} '
-        print(f'{label}{params.to_python(value)}')
+        kind, _, several = params.TYPE_NAMES[value.type].partition(' ')
+        label = f'{kind.capitalize()} {"values are" if several else "value is"}: '
+        print(f'{"" if args.hide_type else label}{params.to_python(value)}')

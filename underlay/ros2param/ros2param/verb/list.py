@@ -6,12 +6,10 @@ from __future__ import annotations
 import argparse
 import re
 
-from ros2_diagnosis import nearest
 from ros2cli import arguments
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
-from rtps_graph import names
 
 from ros2param import params
 
@@ -34,15 +32,7 @@ class ListVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> None:
         keep = _pattern(args.filter)
-        found = params.nodes(args)
-        if args.node_name:
-            name = names.expand(args.node_name)
-            known = [node.full_name for node in found]
-            found = [node for node in found if node.full_name == name]
-            if not found:
-                raise CommandError(
-                    f"Node not found: '{args.node_name}'{nearest.hint(name, known)}"
-                )
+        found = params.nodes_named(args) if args.node_name else params.nodes(args)
         with command_node(args) as node:
             for each in found:
                 if params.has_parameters(each):
