@@ -13,7 +13,7 @@ import yaml
 
 FILE_NAME = 'metadata.yaml'
 _ROOT = 'rosbag2_bagfile_information'
-_VERSION = 9
+ROS_DISTRO = 'jazzy'
 # What rosbag2 writes for a duration without end.
 _FOREVER = {'sec': 9223372036, 'nsec': 854775807}
 
@@ -53,7 +53,6 @@ class BagRecord:
     topics: list[TopicRecord] = field(default_factory=list)
     start_ns: int = 0
     end_ns: int = 0
-    ros_distro: str = 'jazzy'
 
     @property
     def count(self) -> int:
@@ -68,7 +67,7 @@ def to_dict(bag: BagRecord) -> dict[str, Any]:
     start = {'nanoseconds_since_epoch': bag.start_ns}
     duration = {'nanoseconds': bag.duration_ns}
     return {
-        'version': _VERSION,
+        'version': 9,
         'storage_identifier': 'mcap',
         'duration': duration,
         'starting_time': start,
@@ -98,7 +97,7 @@ def to_dict(bag: BagRecord) -> dict[str, Any]:
             }
         ],
         'custom_data': None,
-        'ros_distro': bag.ros_distro,
+        'ros_distro': ROS_DISTRO,
     }
 
 

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from mcap.exceptions import McapError
@@ -15,15 +14,6 @@ import yaml
 
 from ros2bag import metadata
 from ros2bag.metadata import BagRecord, TopicRecord
-
-
-@dataclass(frozen=True)
-class Message:
-    """A message as it was recorded; times in nanoseconds since the epoch."""
-
-    topic: str
-    time_ns: int
-    data: bytes
 
 
 def read_record(path: Path) -> BagRecord:
@@ -62,17 +52,16 @@ def read_record(path: Path) -> BagRecord:
     return bag
 
 
-def messages(path: Path, topics: Collection[str] | None = None) -> Iterator[Message]:
-    """Yield the messages of a bag in the order of their times.
+def messages(path: Path, topics: Collection[str]) -> Iterator[tuple[str, int, bytes]]:
+    """Yield topic, time (ns since the epoch) and data of messages, in the order of their times.
 
     :raises CommandError: a file is damaged.
     """
     for file in metadata.bag_files(path):
         try:
             with file.open('rb') as stream:
-                chosen = None if topics is None else list(topics)
-                for _, channel, message in make_reader(stream).iter_messages(topics=chosen):
-                    yield Message(channel.topic, message.log_time, message.data)
+                for _, channel, message in make_reader(stream).iter_messages(list(topics)):
+                    yield channel.topic, message.log_time, message.data
         except (McapError, OSError) as error:
             raise CommandError(f"'{file}' cannot be read as MCAP: {error}") from None
 

@@ -82,7 +82,7 @@ class BagWriter:
         self._writer.add_metadata(
             'rosbag2',
             {
-                'ROS_DISTRO': self.bag.ros_distro,
+                'ROS_DISTRO': metadata.ROS_DISTRO,
                 'serialized_metadata': metadata.dump(metadata.to_dict(self.bag)),
             },
         )

@@ -50,7 +50,7 @@ class InfoVerb(VerbExtension):
             f'\nFiles:             {bag.file}\n'
             f'Bag size:          {_size(size)}\n'
             'Storage id:        mcap\n'
-            f'ROS Distro:        {bag.ros_distro}\n'
+            f'ROS Distro:        {metadata.ROS_DISTRO}\n'
             f'Duration:          {bag.duration_ns / 1e9:.9f}s\n'
             f'Start:             {_time(bag.start_ns)}\n'
             f'End:               {_time(bag.end_ns)}\n'

@@ -110,10 +110,10 @@ def _play(
     start = time.monotonic()
     tick_sec = 1.0 / args.clock if args.clock else None
     next_tick = 0.0
-    for message in reader.messages(args.bag_path, publishers):
-        if message.time_ns < first_ns:
+    for topic, time_ns, data in reader.messages(args.bag_path, publishers):
+        if time_ns < first_ns:
             continue
-        due = (message.time_ns - first_ns) * 1e-9 / args.rate
+        due = (time_ns - first_ns) * 1e-9 / args.rate
         while (left := due - (time.monotonic() - start)) > 0:
             if tick_sec is not None and time.monotonic() - start >= next_tick:
                 _publish_clock(clock, first_ns + int((time.monotonic() - start) * 1e9 * args.rate))
@@ -122,7 +122,7 @@ def _play(
             time.sleep(min(left, 0.01))
             if left > 0.01:
                 node.spin_once(0.0)
-        publishers[message.topic].publish(message.data)
+        publishers[topic].publish(data)
 
 
 def _publish_clock(publisher: Any, now_ns: int) -> None:
