@@ -14,8 +14,8 @@ import sys
 from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
 
-from ros2pkg.creation import cmake_package, licenses, manifest, python_package
-from ros2pkg.creation.package import BUILD_TYPES, NewPackage
+from ros2pkg.creation import cmake_package, licenses, python_package
+from ros2pkg.creation.package import BUILD_TYPES, manifest, NewPackage
 
 
 class CreateVerb(VerbExtension):
@@ -81,7 +81,7 @@ class CreateVerb(VerbExtension):
         _announce(package, args.destination_directory)
         text = licenses.text(package.license)
         python = package.build_type == 'ament_python'
-        files = {'package.xml': manifest.manifest(package)}
+        files = {'package.xml': manifest(package)}
         files |= python_package.files(package) if python else cmake_package.files(package)
         if text is not None:
             files['LICENSE'] = text
