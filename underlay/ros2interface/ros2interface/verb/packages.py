@@ -19,26 +19,21 @@ class PackagesVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         group = parser.add_mutually_exclusive_group()
-        for letter, kind, text in (
-            ('m', 'msgs', 'messages'),
-            ('s', 'srvs', 'services'),
-            ('a', 'actions', 'actions'),
+        for kind, text, interfaces in (
+            ('msgs', 'messages', get_message_interfaces),
+            ('srvs', 'services', get_service_interfaces),
+            ('actions', 'actions', get_action_interfaces),
         ):
             group.add_argument(
-                f'-{letter}',
+                f'-{kind[0]}',
                 f'--only-{kind}',
-                action='store_true',
+                dest='interfaces',
+                action='store_const',
+                const=interfaces,
+                default=get_interface_packages,
                 help=f'Only list packages that generate {text}',
             )
 
     def main(self, *, args: argparse.Namespace) -> None:
-        if args.only_msgs:
-            found = list(get_message_interfaces())
-        elif args.only_srvs:
-            found = list(get_service_interfaces())
-        elif args.only_actions:
-            found = list(get_action_interfaces())
-        else:
-            found = list(get_interface_packages())
-        for package in sorted(found):
+        for package in sorted(args.interfaces()):
             print(package)
