@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from collections import deque
-import statistics
 from typing import Any
 
 from rclpy.time import Time
@@ -51,8 +50,8 @@ class DelayVerb(VerbExtension):
 
 
 def describe(delays_sec: list[float]) -> str:
-    mean = statistics.fmean(delays_sec)
+    mean, spread = measuring.mean_and_spread(delays_sec)
     return (
         f'average delay: {mean:.3f}\n\tmin: {min(delays_sec):.3f}s max: {max(delays_sec):.3f}s '
-        f'std dev: {statistics.pstdev(delays_sec, mean):.5f}s window: {len(delays_sec)}'
+        f'std dev: {spread:.5f}s window: {len(delays_sec)}'
     )

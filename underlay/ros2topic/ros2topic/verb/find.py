@@ -9,4 +9,5 @@ from ros2cli import listing
 class FindVerb(listing.FindVerb):
     """Output a list of available topics of a given type."""
 
-    KIND, TYPE = 'topic', 'std_msgs/msg/String'
+    KIND = 'topic'
+    TYPE = 'std_msgs/msg/String'

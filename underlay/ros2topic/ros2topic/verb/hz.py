@@ -7,7 +7,6 @@ import argparse
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-import statistics
 from typing import Any
 
 from rclpy.clock import Clock
@@ -49,8 +48,7 @@ class Rate:
         if not self.fresh:
             return None
         self.fresh = False
-        mean = statistics.fmean(self.intervals_ns)
-        spread = statistics.pstdev(self.intervals_ns, mean)
+        mean, spread = measuring.mean_and_spread(self.intervals_ns)
         return (
             f'average rate: {1e9 / mean if mean > 0 else 0.0:.3f}\n'
             f'\tmin: {min(self.intervals_ns) * 1e-9:.3f}s '
