@@ -78,11 +78,6 @@ def find(lab: psutil.Process, mark: str) -> psutil.Process | None:
     return None
 
 
-def wait_for(what: str, found: object, *, until_sec: float) -> None:
-    if time.monotonic() > until_sec and not found:
-        raise SystemExit(f'{what} did not come in {PATIENCE_SEC:g} s')
-
-
 def kill_once(mark: str, moment_sec: float, row: Row, folder: Path) -> None:
     """Start a drive and kill one process of it a while after that has started."""
     clean_shared_memory()
@@ -93,7 +88,8 @@ def kill_once(mark: str, moment_sec: float, row: Row, folder: Path) -> None:
         child = subprocess.Popen(drive, stdout=log, stderr=log, start_new_session=True)
     lab, until_sec = psutil.Process(child.pid), time.monotonic() + PATIENCE_SEC
     while (victim := find(lab, mark)) is None:
-        wait_for(mark, victim, until_sec=until_sec)
+        if time.monotonic() > until_sec:
+            raise SystemExit(f'{mark} did not come in {PATIENCE_SEC:g} s')
         time.sleep(0.005)
     time.sleep(moment_sec)
     victim.kill()

@@ -70,10 +70,9 @@ ROWS = (
 )
 
 
-def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str, Any]:
+def measure(clone: Path, row: Row, seconds: float, *options: str) -> dict[str, Any]:
     """Return what speed_row.py prints of the simulator of a clone."""
     script = Path(__file__).resolve().with_name('speed_row.py')
-    row = ROWS[index]
     command = [str(clone / 'lab'), 'exec', 'python3', str(script), f'--robots={row.robots}']
     command += [f'--parameters={json.dumps(row.parameters)}', f'--seconds={seconds}', *options]
     if not row.reads:
@@ -97,8 +96,8 @@ def measure(clone: Path, index: int, seconds: float, *options: str) -> dict[str,
 def print_table(seconds: float) -> None:
     """Measure every row once."""
     print(f'{HEAD} {"x real time":>12} {"bare mj_step":>13} {"part":>6}')
-    for index, row in enumerate(ROWS):
-        measured = measure(ROOT, index, seconds)
+    for row in ROWS:
+        measured = measure(ROOT, row, seconds)
         factor, bare = measured['factor'], measured['bare']
         print(f'{title(row)} {factor:>12.1f} {bare:>13.1f} {factor / bare:>6.0%}', flush=True)
 
@@ -107,13 +106,13 @@ def print_pairs(other: Path, seconds: float, pairs: int) -> int:
     """Measure every row in both clones in turn; return how many are slower here."""
     slower = 0
     print(f'{HEAD} {"here":>8} {"there":>8} {"by wall":>8} {"by CPU":>8}   all ratios by CPU')
-    for index, row in enumerate(ROWS):
+    for row in ROWS:
         here: list[dict[str, Any]] = []
         there: list[dict[str, Any]] = []
         for number in range(pairs):
             turn = [(ROOT, here), (other, there)]
             for clone, measured in turn if number % 2 == 0 else turn[::-1]:
-                measured.append(measure(clone, index, seconds, '--without-bare'))
+                measured.append(measure(clone, row, seconds, '--without-bare'))
         by_wall, by_cpu = ratios(here, there, 'factor'), ratios(here, there, 'cpu_factor')
         slower += median(by_cpu) < LEAST_RATIO
         medians = [median(each['factor'] for each in measured) for measured in (here, there)]

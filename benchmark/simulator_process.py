@@ -18,7 +18,6 @@ import contextlib
 import gc
 import math
 import multiprocessing
-from pathlib import Path
 import subprocess
 import sys
 import time
@@ -29,6 +28,7 @@ from geometry_msgs.msg import Twist, Vector3
 from husky_runtime.domains import in_own_domain
 from nav_msgs.msg import Odometry
 import numpy as np
+import psutil
 import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
@@ -66,29 +66,28 @@ class TopicReader(Node):
         self.clock.append((time.monotonic(), message.clock.sec + message.clock.nanosec * 1e-9))
 
 
-def started(**parameters: Any) -> subprocess.Popen[bytes]:
+def started(**parameters: Any) -> psutil.Popen:
     """Start the simulator."""
     words = [word for name, value in parameters.items() for word in ('-p', f'{name}:={value}')]
     command = [sys.executable, '-m', 'husky_sim.ros.node', '--ros-args', *words]
-    return subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    return psutil.Popen(command, stderr=subprocess.DEVNULL)
 
 
-def stopped(process: subprocess.Popen[bytes]) -> None:
+def stopped(process: psutil.Popen) -> None:
     """End it."""
     process.terminate()
     process.wait(timeout=10.0)
 
 
-def cpu_sec(process: subprocess.Popen[bytes]) -> float:
+def cpu_sec(process: psutil.Popen) -> float:
     """Return the CPU time of a process so far."""
-    fields = Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()
-    return (int(fields[11]) + int(fields[12])) / 100.0
+    used = process.cpu_times()
+    return float(used.user + used.system)
 
 
-def memory_mb(process: subprocess.Popen[bytes]) -> float:
+def memory_mb(process: psutil.Popen) -> float:
     """Return the resident memory of a process."""
-    status = Path(f'/proc/{process.pid}/status').read_text()
-    return int(status.partition('VmRSS:')[2].split()[0]) / 1024.0
+    return process.memory_info().rss / 2**20
 
 
 @contextlib.contextmanager

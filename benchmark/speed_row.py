@@ -176,19 +176,18 @@ def _measured(
     while not all(abs(robot.odometry.speed_m_s) > 0.4 for robot in simulation.robots):
         if time.perf_counter() > deadline:
             raise SystemExit('the driver did not move the robots within 20 s')
-        executor.spin_once(timeout_sec=0.1)
-        _stop_if(ending)
+        _spin_once(executor, ending)
     begin, begin_sec = time.perf_counter(), simulation.time_sec
     begin_cpu_sec = time.process_time()
     while time.perf_counter() - begin < seconds:
-        executor.spin_once(timeout_sec=0.1)
-        _stop_if(ending)
+        _spin_once(executor, ending)
     passed_sec = simulation.time_sec - begin_sec
     wall_sec, cpu_sec = time.perf_counter() - begin, time.process_time() - begin_cpu_sec
     return passed_sec / wall_sec, passed_sec / cpu_sec
 
 
-def _stop_if(ending: Ending) -> None:
+def _spin_once(executor: Any, ending: Ending) -> None:
+    executor.spin_once(timeout_sec=0.1)
     if ending.asked:
         sys.exit(1)
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 import os
 import signal
@@ -40,25 +41,14 @@ PORT = 18880
 VIEW = ('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p', f'viewer_port:={PORT}')
 
 
-class Tab:
+def open_tab(port: int) -> subprocess.Popen[str]:
     """
-    Reads what a page gets, without a browser's own cost.
+    Start to read what a page gets, without a browser's own cost.
 
     It is a process of its own, as a browser is: a thread would take time from the simulator here.
     """
-
-    def __init__(self, port: int) -> None:
-        self._child = subprocess.Popen(
-            [sys.executable, __file__, '--tab', str(port)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-
-    def close(self) -> float:
-        """Return how many messages came a second."""
-        updates, _ = self._child.communicate('end')
-        return float(updates)
+    command = [sys.executable, __file__, '--tab', str(port)]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 def read_as_tab(port: int) -> None:
@@ -83,7 +73,7 @@ def read_as_tab(port: int) -> None:
 
 
 @contextmanager
-def view() -> Iterator[tuple[float, Tab]]:
+def view() -> Iterator[tuple[float, subprocess.Popen[str]]]:
     """Start the view; yield the seconds to its page and a tab that shows it."""
     begun = time.monotonic()
     with subprocess.Popen(
@@ -95,7 +85,7 @@ def view() -> Iterator[tuple[float, Tab]]:
         with urllib.request.urlopen(f'http://127.0.0.1:{port}/', timeout=10.0) as page:
             page.read()
         ready_sec = time.monotonic() - begun
-        tab = Tab(port)
+        tab = open_tab(port)
         try:
             yield ready_sec, tab
         finally:
@@ -187,22 +177,20 @@ def main() -> None:
 
 def watched_run(factor: float, seconds: float) -> tuple[list[Moment], float, float]:
     """Run with a view and a tab; return also the updates a second and the start-up time."""
-    found: dict[str, float] = {}
     done = threading.Event()
 
-    def look() -> None:
+    def look() -> tuple[float, float]:
         with view() as (ready_sec, tab):
-            found['ready'] = ready_sec
             done.wait(seconds * 3)
-            found['updates'] = tab.close()
+            updates, _ = tab.communicate('end')
+            return float(updates), ready_sec
 
-    looker = threading.Thread(target=look)
-    looker.start()
-    begun = run(factor, seconds + 4.0)
-    done.set()
-    looker.join(20.0)
+    with ThreadPoolExecutor() as pool:
+        looked = pool.submit(look)
+        begun = run(factor, seconds + 4.0)
+        done.set()
     # the view takes its time to start: only what came after counts
-    return [at for at in begun if at[0] > begun[0][0] + 4.0], found['updates'], found['ready']
+    return [at for at in begun if at[0] > begun[0][0] + 4.0], *looked.result()
 
 
 if __name__ == '__main__':
