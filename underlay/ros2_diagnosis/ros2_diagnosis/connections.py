@@ -6,10 +6,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rtps_graph import names
 from rtps_graph.graph import Endpoint, Graph, Qos, Role
 
 from ros2_diagnosis.finding import Finding
+from ros2_diagnosis.nodes import shown_name
+
+
+def check(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
+    """Find all that keeps publishers and subscriptions apart."""
+    yield from check_types(graph, topic)
+    yield from check_qos(graph, topic)
 
 
 def check_types(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
@@ -109,8 +115,7 @@ def _pairs(
 
 
 def _node(graph: Graph, endpoint: Endpoint) -> str:
-    name = graph.node_of(endpoint).full_name
-    return 'a `ros2` command' if name.startswith(f'/{names.COMMAND_NODE}') else name
+    return shown_name(graph.node_of(endpoint))
 
 
 def _is_longer(offered_ns: int | None, requested_ns: int | None) -> bool:

@@ -44,7 +44,7 @@ def check_publishers(graph: Graph) -> Iterator[Finding]:
     """Find nodes that publish what only one may; all topics of the same nodes in one line."""
     topics: dict[tuple[str, ...], list[str]] = {}
     for topic, nodes in _competing_publishers(graph):
-        topics.setdefault(tuple(sorted(map(_shown_name, nodes))), []).append(topic)
+        topics.setdefault(tuple(sorted(map(shown_name, nodes))), []).append(topic)
     for publishers, shared in topics.items():
         yield Finding(
             ', '.join(shared),
@@ -63,7 +63,7 @@ def _competing_publishers(graph: Graph) -> Iterator[tuple[str, list[Node]]]:
                 yield topic, nodes
 
 
-def _shown_name(node: Node) -> str:
+def shown_name(node: Node) -> str:
     is_command = node.full_name.startswith(f'/{names.COMMAND_NODE}')
     return 'a `ros2` command' if is_command else node.full_name
 

@@ -34,25 +34,18 @@ def print_hints(package: str) -> None:
 def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
     installed = packages.installed()
     setup = workspace / 'install' / 'setup.bash'
-    unbuilt = [
-        name
-        for name in packages.sources_in(workspace / 'src')
-        if packages.built_prefix(workspace, name) is None
-    ]
+    sources = sorted(packages.sources_in(workspace / 'src'))
+    unbuilt = [name for name in sources if packages.built_prefix(workspace, name) is None]
     if unbuilt:
         yield Finding(
-            ', '.join(sorted(unbuilt)),
+            ', '.join(unbuilt),
             f'not built yet in {workspace}, so that `ros2 run` does not find it',
             f'run `colcon build` in {workspace}, then `source {setup}`',
         )
-    unsourced = [
-        name
-        for name in packages.sources_in(workspace / 'src')
-        if name not in unbuilt and name not in installed
-    ]
+    unsourced = [name for name in sources if name not in unbuilt and name not in installed]
     if unsourced:
         yield Finding(
-            ', '.join(sorted(unsourced)),
+            ', '.join(unsourced),
             f'built in {workspace}, but not sourced in this terminal',
             f'`source {setup}`',
         )

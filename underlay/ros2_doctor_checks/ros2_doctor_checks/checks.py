@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
-import functools
+from collections.abc import Callable, Iterable
+from functools import cache, partial
 from pathlib import Path
 
 from ros2_diagnosis import connections, nodes, places, workspaces
 from ros2_diagnosis.finding import Finding
 from ros2cli import discovery
-from ros2cli.settings import settings_from_environment
 from ros2doctor.api import DoctorCheck, Result
 from rtps_graph.graph import Graph
 
@@ -20,18 +19,17 @@ from rtps_graph.graph import Graph
 class _Check(DoctorCheck):
     """Print each finding in one line."""
 
-    NAME = ''
+    def __init__(self, name: str, find: Callable[[_Check], Iterable[Finding]]) -> None:
+        self._name = name
+        self._find = find
 
     def category(self) -> str:
-        return self.NAME
-
-    def findings(self) -> Iterable[Finding]:
-        raise NotImplementedError()
+        return self._name
 
     def check(self) -> Result:
         result = Result()
-        for finding in self.findings():
-            print(f'{"problem" if finding.serious else "note"} ({self.NAME}): {finding}')
+        for finding in self._find(self):
+            print(f'{"problem" if finding.serious else "note"} ({self._name}): {finding}')
             if finding.serious:
                 result.add_error()
             else:
@@ -44,86 +42,43 @@ class _Check(DoctorCheck):
         return _graph(spin_time_sec)
 
 
-@functools.cache
+@cache
 def _graph(spin_time_sec: float) -> Graph:
     """Read the graph once for all checks."""
     return discovery.read_graph(argparse.Namespace(spin_time=spin_time_sec), quiet=True)
 
 
-class Environment(_Check):
-    NAME = 'environment'
+def _commands(check: _Check) -> Iterable[Finding]:
+    from ros2_doctor_checks import commands  # rclpy is loaded for this check alone.
 
-    def findings(self) -> Iterable[Finding]:
-        return places.check_environment(settings_from_environment())
-
-
-class Workspace(_Check):
-    NAME = 'workspace'
-
-    def findings(self) -> Iterable[Finding]:
-        return workspaces.check_workspaces(Path.cwd())
+    return commands.check_command_rate(check.graph)
 
 
-class Domain(_Check):
-    NAME = 'domain'
-
-    def findings(self) -> Iterable[Finding]:
-        return places.check_domains(settings_from_environment(), here=len(self.graph.nodes))
-
-
-class Range(_Check):
-    NAME = 'range'
-
-    def findings(self) -> Iterable[Finding]:
-        return places.check_range(settings_from_environment())
-
-
-class Silent(_Check):
-    NAME = 'silent'
-
-    def findings(self) -> Iterable[Finding]:
-        return nodes.check_silent(self.graph, settings_from_environment().domain_id)
-
-
-class Names(_Check):
-    NAME = 'names'
-
-    def findings(self) -> Iterable[Finding]:
-        return nodes.check_names(self.graph)
-
-
-class Publishers(_Check):
-    NAME = 'publishers'
-
-    def findings(self) -> Iterable[Finding]:
-        return nodes.check_publishers(self.graph)
-
-
-class Types(_Check):
-    NAME = 'types'
-
-    def findings(self) -> Iterable[Finding]:
-        return connections.check_types(self.graph)
-
-
-class QualityOfService(_Check):
-    NAME = 'qos'
-
-    def findings(self) -> Iterable[Finding]:
-        return connections.check_qos(self.graph)
-
-
-class Clock(_Check):
-    NAME = 'clock'
-
-    def findings(self) -> Iterable[Finding]:
-        return nodes.check_clock(self.graph)
-
-
-class Commands(_Check):
-    NAME = 'commands'
-
-    def findings(self) -> Iterable[Finding]:
-        from ros2_doctor_checks import commands  # rclpy is loaded for this check alone.
-
-        return commands.check_command_rate(self.graph)
+# What the entry points name: called, each makes its check.
+Environment = partial(
+    _Check,
+    'environment',
+    lambda _: places.check_environment(discovery.settings_from_environment()),
+)
+Workspace = partial(_Check, 'workspace', lambda _: workspaces.check_workspaces(Path.cwd()))
+Domain = partial(
+    _Check,
+    'domain',
+    lambda check: places.check_domains(
+        discovery.settings_from_environment(), here=len(check.graph.nodes)
+    ),
+)
+Range = partial(
+    _Check, 'range', lambda _: places.check_range(discovery.settings_from_environment())
+)
+Silent = partial(
+    _Check,
+    'silent',
+    lambda check: nodes.check_silent(check.graph, discovery.settings_from_environment().domain_id),
+)
+Names = partial(_Check, 'names', lambda check: nodes.check_names(check.graph))
+Publishers = partial(_Check, 'publishers', lambda check: nodes.check_publishers(check.graph))
+Types = partial(_Check, 'types', lambda check: connections.check_types(check.graph))
+QualityOfService = partial(_Check, 'qos', lambda check: connections.check_qos(check.graph))
+Clock = partial(_Check, 'clock', lambda check: nodes.check_clock(check.graph))
+Commands = partial(_Check, 'commands', _commands)

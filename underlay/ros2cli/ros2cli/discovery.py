@@ -8,15 +8,25 @@ import argparse
 import sys
 
 from rtps_graph import graph, names
+from rtps_graph import settings as rtps_settings
 from rtps_graph.observer import Observer
-from rtps_graph.settings import Settings
 
 from ros2cli import arguments
-from ros2cli.errors import CommandError
-from ros2cli.settings import settings_from_environment
+from ros2cli.errors import CommandError, UsageError
 
 DEFAULT_TIMEOUT_SEC = 3.0
 DEFAULT_SPIN_TIME_SEC = 0.5
+
+
+def settings_from_environment() -> rtps_settings.Settings:
+    """Read ROS_DOMAIN_ID and its companions.
+
+    :raises UsageError: a variable holds what ROS 2 does not know.
+    """
+    try:
+        return rtps_settings.settings_from_environment()
+    except ValueError as error:
+        raise UsageError(str(error)) from None
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -77,7 +87,7 @@ def types_of(known: dict[str, list[str]], kind: str, name: str) -> list[str]:
     return known[full_name]
 
 
-def _print_hints(settings: Settings, found: graph.Graph) -> None:
+def _print_hints(settings: rtps_settings.Settings, found: graph.Graph) -> None:
     from ros2_diagnosis import nodes, places
 
     findings = list(nodes.check_silent(found, settings.domain_id))

@@ -25,11 +25,7 @@ def hint_when_silent(node: CommandNode, topic: str, arrived: Callable[[], bool])
 
 def hint_when_not_received(topic: str) -> None:
     """Print why a subscription that exists does not get what this command publishes."""
-    graph = discovery.read_graph(quiet=True)
-    for finding in (
-        *connections.check_types(graph, topic),
-        *connections.check_qos(graph, topic),
-    ):
+    for finding in connections.check(discovery.read_graph(quiet=True), topic):
         print(f'hint: {finding}', file=sys.stderr)
 
 
@@ -44,12 +40,7 @@ def why_silent(graph: Graph, topic: str) -> list[Finding]:
                 'start the node that does; `ros2 topic list` shows what there is',
             )
         ]
-    found = [
-        *connections.check_types(graph, topic),
-        *connections.check_qos(graph, topic),
-        *nodes.check_clock(graph),
-    ]
-    if found:
+    if found := [*connections.check(graph, topic), *nodes.check_clock(graph)]:
         return found
     names = sorted({graph.node_of(endpoint).full_name for endpoint in publishers})
     return [

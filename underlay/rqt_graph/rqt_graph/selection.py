@@ -80,11 +80,7 @@ def select(graph: Graph, view: View = View.ACTIVE, *, debug: bool = False) -> Dr
         if view is View.ACTIVE
         else set(publishing) | set(subscribing)
     )
-    faults = {
-        finding.where: str(finding)
-        for check in (connections.check_types, connections.check_qos)
-        for finding in check(graph)
-    }
+    faults = {finding.where: str(finding) for finding in connections.check(graph)}
     types = graph.topics()
     shapes = [_node(name, count) for name, count in sorted(nodes.items())]
     shapes += [_topic(name, types.get(name, []), faults.get(name)) for name in sorted(topics)]

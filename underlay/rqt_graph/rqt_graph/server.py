@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
-from ros2cli.settings import settings_from_environment
+from ros2cli.discovery import settings_from_environment
 
 from rqt_graph.feed import GraphFeed
 from rqt_graph.picture import draw_png, draw_svg

@@ -20,14 +20,13 @@ from rtps_graph import names
 
 from ros2cli import discovery
 from ros2cli.errors import CommandError
-from ros2cli.settings import settings_from_environment
 
 
 class CommandNode:
     """A node with its executor."""
 
     def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None) -> None:
-        settings_from_environment()
+        discovery.settings_from_environment()
         rclpy.init(args=[])
         use_sim_time = bool(getattr(args, 'use_sim_time', False))
         try:

@@ -11,7 +11,6 @@ import sys
 from ros2_diagnosis import packages
 from ros2cli import arguments, discovery
 from ros2cli.command import CommandExtension
-from ros2cli.settings import settings_from_environment
 
 from ros2doctor import api
 
@@ -64,7 +63,7 @@ class WtfCommand(DoctorCommand):
 
 
 def _print_report(args: argparse.Namespace) -> None:
-    settings = settings_from_environment()
+    settings = discovery.settings_from_environment()
     graph = discovery.read_graph(args)
     own = [f'{name}: {prefix}' for name, prefix in packages.installed().items()
            if packages.source_of(name)]  # fmt: skip
@@ -83,12 +82,12 @@ def _print_report(args: argparse.Namespace) -> None:
             f'prefixes: {os.pathsep.join(map(str, packages.prefixes()))}',
             f'packages: {len(packages.installed())}',
         ],
-        'WORKSPACE PACKAGES': own or ['none'],
-        'NODE LIST': [node.full_name for node in graph.nodes] or ['none'],
-        'TOPIC LIST': [f'{name}: {", ".join(types)}' for name, types in graph.topics().items()]
-        or ['none'],
-        'SERVICE LIST': [f'{name}: {", ".join(types)}' for name, types in graph.services().items()]
-        or ['none'],
+        'WORKSPACE PACKAGES': own,
+        'NODE LIST': [node.full_name for node in graph.nodes],
+        'TOPIC LIST': [f'{name}: {", ".join(types)}' for name, types in graph.topics().items()],
+        'SERVICE LIST': [
+            f'{name}: {", ".join(types)}' for name, types in graph.services().items()
+        ],
     }
     for title, lines in sections.items():
-        print(f'\n   {title}', *lines, sep='\n')
+        print(f'\n   {title}', *(lines or ['none']), sep='\n')

@@ -12,8 +12,8 @@ from typing import Any
 from ros2_diagnosis import nearest, packages, workspaces
 from ros2cli.arguments import add_completed, add_package
 from ros2cli.command import CommandExtension
+from ros2cli.discovery import settings_from_environment
 from ros2cli.errors import CommandError
-from ros2cli.settings import settings_from_environment
 
 _SUFFIXES = (*packages.LAUNCH_SUFFIXES, '.py', '.xml', '.yaml', '.yml', '.launch')
 

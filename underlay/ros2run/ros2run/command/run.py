@@ -15,8 +15,8 @@ from interrupt_while_loading import takes_blocked_interrupt
 from ros2_diagnosis import packages, workspaces
 from ros2cli import arguments
 from ros2cli.command import CommandExtension
+from ros2cli.discovery import settings_from_environment
 from ros2cli.errors import CommandError, UsageError
-from ros2cli.settings import settings_from_environment
 
 
 class RunCommand(CommandExtension):

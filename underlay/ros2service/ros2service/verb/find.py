@@ -9,4 +9,5 @@ from ros2cli import listing
 class FindVerb(listing.FindVerb):
     """Output a list of available services of a given type."""
 
-    KIND, TYPE = 'service', 'std_srvs/srv/Empty'
+    KIND = 'service'
+    TYPE = 'std_srvs/srv/Empty'
