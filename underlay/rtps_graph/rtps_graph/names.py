@@ -8,6 +8,7 @@ import re
 
 # Prefixes by which rmw tells what a DDS topic is for.
 TOPIC, REQUEST, REPLY = 'rt', 'rq', 'rr'
+_SUFFIXES = {TOPIC: '', REQUEST: 'Request', REPLY: 'Reply'}
 # The node of a command is called this and the number of its process.
 COMMAND_NODE = '_ros2cli_'
 _TYPE = re.compile(r'(?P<package>\w+)::(?P<kind>msg|srv|action)::dds_::(?P<name>\w+?)_')
@@ -21,13 +22,9 @@ def is_hidden(name: str) -> bool:
 def ros_topic(dds_topic: str) -> tuple[str, str]:
     """Split a DDS topic into its ROS prefix ('' for none) and the ROS name."""
     prefix, _, rest = dds_topic.partition('/')
-    if prefix == TOPIC:
-        return prefix, '/' + rest
-    if prefix == REQUEST:
-        return prefix, '/' + rest.removesuffix('Request')
-    if prefix == REPLY:
-        return prefix, '/' + rest.removesuffix('Reply')
-    return '', dds_topic
+    if prefix not in _SUFFIXES:
+        return '', dds_topic
+    return prefix, '/' + rest.removesuffix(_SUFFIXES[prefix])
 
 
 def ros_type(dds_type: str) -> str:
