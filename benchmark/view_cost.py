@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 import os
 import signal
@@ -177,20 +176,22 @@ def main() -> None:
 
 def watched_run(factor: float, seconds: float) -> tuple[list[Moment], float, float]:
     """Run with a view and a tab; return also the updates a second and the start-up time."""
+    found: dict[str, float] = {}
     done = threading.Event()
 
-    def look() -> tuple[float, float]:
+    def look() -> None:
         with view() as (ready_sec, tab):
+            found['ready'] = ready_sec
             done.wait(seconds * 3)
-            updates, _ = tab.communicate('end')
-            return float(updates), ready_sec
+            found['updates'] = float(tab.communicate('end')[0])
 
-    with ThreadPoolExecutor() as pool:
-        looked = pool.submit(look)
-        begun = run(factor, seconds + 4.0)
-        done.set()
+    looker = threading.Thread(target=look)
+    looker.start()
+    begun = run(factor, seconds + 4.0)
+    done.set()
+    looker.join(20.0)
     # the view takes its time to start: only what came after counts
-    return [at for at in begun if at[0] > begun[0][0] + 4.0], *looked.result()
+    return [at for at in begun if at[0] > begun[0][0] + 4.0], found['updates'], found['ready']
 
 
 if __name__ == '__main__':
