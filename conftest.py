@@ -3,8 +3,8 @@
 """
 What every test relies on.
 
-`./lab test` runs two tests at a time: one alone leaves half of two cores idle. Each folder of
-tests stays in one process. Each test that uses DDS has a domain of its own, see
+`./lab test` runs three tests at a time: most wait for a clock more than they compute. The tests of
+a file stay in one process. Each test that uses DDS has a domain of its own, see
 husky_runtime.domains.
 """
 
@@ -43,14 +43,22 @@ def pytest_sessionstart() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
 
 
+# Files whose tests share what takes long: a browser that draws without a graphics processor, which
+# fills a core, and a build of every package.
+TOGETHER = {'test_view': 'in a browser', 'test_packages': 'built', 'test_workspace': 'built'}
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Keep the tests of a folder together; those in the browser are a third of theirs."""
+    """Keep the tests of a file together, and those of some files."""
     from xdist.scheduler import LoadScopeScheduling
 
-    class ByFolder(LoadScopeScheduling):  # type: ignore[misc]
+    class ByFile(LoadScopeScheduling):  # type: ignore[misc]
         def _split_scope(self, nodeid: str) -> str:
-            path = PurePosixPath(nodeid.partition('::')[0])
-            return 'view' if path.name.startswith('test_view') else str(path.parent)
+            file = nodeid.partition('::')[0]
+            name = PurePosixPath(file).name
+            return next(
+                (group for start, group in TOGETHER.items() if name.startswith(start)), file
+            )
 
-    return ByFolder(config, log)
+    return ByFile(config, log)
