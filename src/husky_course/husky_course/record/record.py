@@ -100,12 +100,11 @@ class Record:
         self, begin_sec: float
     ) -> tuple[tuple[Collision, ...], tuple[Disturbance, ...]]:
         """Return the events with times since the drive began; others were there by then."""
-        collisions, disturbances = self.collisions, self.disturbances
         return (
-            tuple(replace(entry, time_sec=entry.time_sec - begin_sec) for entry in collisions),
+            tuple(replace(each, time_sec=each.time_sec - begin_sec) for each in self.collisions),
             tuple(
-                replace(entry, time_sec=max(entry.time_sec - begin_sec, 0.0))
-                for entry in disturbances
+                replace(each, time_sec=max(each.time_sec - begin_sec, 0.0))
+                for each in self.disturbances
             ),
         )
 

@@ -76,6 +76,8 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
     }
     collisions, disturbances = record.events_since(begin_sec)
+    # Time and true pose of every period, as they are: four little-endian doubles each.
+    poses = record.rows[:, place, :4].astype('<f8').tobytes()
     return Run(
         **table,
         begin=begin,
@@ -84,14 +86,9 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         disturbances=disturbances,
         obstacles=record.obstacles,
         min_clearance_m=record.min_clearance_m(place),
-        trajectory_sha256=_digest(record, place),
+        trajectory_sha256=hashlib.sha256(poses).hexdigest(),
         complete=record.complete,
     )
-
-
-def _digest(record: Record, place: int) -> str:
-    """Hash time and true pose of every period, as they are: four little-endian doubles each."""
-    return hashlib.sha256(record.rows[:, place, :4].astype('<f8').tobytes()).hexdigest()
 
 
 def _place_of(record: Record, robot: str | None) -> int:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 import math
 
@@ -46,17 +47,15 @@ class Curve:
         return min(max(bisect_right(self.s, s) - 1, 0), len(self.s) - 2)
 
     def point_at(self, s: float) -> Point:
-        i = self.index_at(s)
-        part = min(max((s - self.s[i]) / (self.s[i + 1] - self.s[i]), 0.0), 1.0)
-        return (
-            self.x[i] + part * (self.x[i + 1] - self.x[i]),
-            self.y[i] + part * (self.y[i + 1] - self.y[i]),
-        )
+        return self._value_at(self.x, s), self._value_at(self.y, s)
 
     def heading_at(self, s: float) -> float:
+        return self._value_at(self.heading, s)
+
+    def _value_at(self, values: list[float], s: float) -> float:
         i = self.index_at(s)
         part = min(max((s - self.s[i]) / (self.s[i + 1] - self.s[i]), 0.0), 1.0)
-        return self.heading[i] + part * (self.heading[i + 1] - self.heading[i])
+        return values[i] + part * (values[i + 1] - values[i])
 
     def project(self, i: int, x: float, y: float) -> tuple[int, float, float]:
         """
@@ -99,36 +98,30 @@ def smooth_curve(points: Sequence[Point], *, closed: bool = False) -> Curve:
     if len(points) < 2:
         raise ValueError(f'{len(points)} points: a curve needs at least 2')
     cubics = _cubics(points, closed)
-    chords = sum(math.hypot(cx3 - cx0, cy3 - cy0) for cx0, cy0, cx3, cy3 in _ends(cubics))
+    chords = sum(math.hypot(sum(x) - x[0], sum(y) - y[0]) for x, y in cubics)
     step = max(STEP_M, chords / MAX_SAMPLES)
-    samples = _Samples()
+    curve = Curve([], [], [], [], [], [])
     for cubic in cubics:
-        samples.add(cubic, step)
-    return samples.curve()
+        _extend(curve, cubic, step)
+    return curve
 
 
 def joined(curves: Sequence[Curve]) -> Curve:
     """Return curves that continue each other as one."""
-    first, *rest = curves
-    x, y, s = list(first.x), list(first.y), list(first.s)
-    heading, curvature, knots = list(first.heading), list(first.curvature), list(first.knot_s)
-    for curve in rest:
-        begin = s[-1]
-        x += curve.x[1:]
-        y += curve.y[1:]
-        s += [begin + along for along in curve.s[1:]]
-        heading += curve.heading[1:]
-        curvature += curve.curvature[1:]
-        knots += [begin + along for along in curve.knot_s[1:]]
-    return Curve(x, y, s, heading, curvature, knots)
+    whole = deepcopy(curves[0])
+    for curve in curves[1:]:
+        begin = whole.length_m
+        whole.x.extend(curve.x[1:])
+        whole.y.extend(curve.y[1:])
+        whole.s.extend(begin + along for along in curve.s[1:])
+        whole.heading.extend(curve.heading[1:])
+        whole.curvature.extend(curve.curvature[1:])
+        whole.knot_s.extend(begin + along for along in curve.knot_s[1:])
+    return whole
 
 
 # One piece of the curve: coefficients of u^0..u^3 for x and for y, u from 0 to 1.
 Cubic = tuple[tuple[float, float, float, float], tuple[float, float, float, float]]
-
-
-def _ends(cubics: Sequence[Cubic]) -> list[tuple[float, float, float, float]]:
-    return [(x[0], y[0], sum(x), sum(y)) for x, y in cubics]
 
 
 def _cubics(points: Sequence[Point], closed: bool) -> list[Cubic]:
@@ -154,45 +147,33 @@ def _cubic(p0: Point, p1: Point, p2: Point, p3: Point) -> Cubic:
     return axes[0], axes[1]
 
 
-class _Samples:
-    """Grows the lists of a curve piece by piece."""
+def _extend(curve: Curve, cubic: Cubic, step: float) -> None:
+    """Add the samples of the next piece."""
+    ax, ay = cubic
+    chord = math.hypot(ax[1] + ax[2] + ax[3], ay[1] + ay[2] + ay[3])
+    count = max(4, math.ceil(chord / step))
+    if not curve.x:
+        _append(curve, cubic, 0.0, 0.0)
+        curve.knot_s.append(0.0)
+    for k in range(1, count + 1):
+        u = k / count
+        _append(curve, cubic, u, _arc_length(cubic, u - 1 / count, u))
+    curve.knot_s.append(curve.length_m)
 
-    def __init__(self) -> None:
-        self.x: list[float] = []
-        self.y: list[float] = []
-        self.s: list[float] = []
-        self.heading: list[float] = []
-        self.curvature: list[float] = []
-        self.knots: list[float] = []
 
-    def add(self, cubic: Cubic, step: float) -> None:
-        ax, ay = cubic
-        chord = math.hypot(ax[1] + ax[2] + ax[3], ay[1] + ay[2] + ay[3])
-        count = max(4, math.ceil(chord / step))
-        if not self.x:
-            self._append(cubic, 0.0, 0.0)
-            self.knots.append(0.0)
-        for k in range(1, count + 1):
-            u = k / count
-            self._append(cubic, u, _arc_length(cubic, u - 1 / count, u))
-        self.knots.append(self.s[-1])
-
-    def _append(self, cubic: Cubic, u: float, ds: float) -> None:
-        (x0, x1, x2, x3), (y0, y1, y2, y3) = cubic
-        dx, dy = x1 + u * (2 * x2 + u * 3 * x3), y1 + u * (2 * y2 + u * 3 * y3)
-        ddx, ddy = 2 * x2 + 6 * u * x3, 2 * y2 + 6 * u * y3
-        heading = math.atan2(dy, dx)
-        if self.heading:
-            turn = math.remainder(heading - self.heading[-1], 2 * math.pi)
-            heading = self.heading[-1] + turn
-        self.x.append(x0 + u * (x1 + u * (x2 + u * x3)))
-        self.y.append(y0 + u * (y1 + u * (y2 + u * y3)))
-        self.s.append((self.s[-1] if self.s else 0.0) + ds)
-        self.heading.append(heading)
-        self.curvature.append((dx * ddy - dy * ddx) / max(dx * dx + dy * dy, 1e-12) ** 1.5)
-
-    def curve(self) -> Curve:
-        return Curve(self.x, self.y, self.s, self.heading, self.curvature, self.knots)
+def _append(curve: Curve, cubic: Cubic, u: float, ds: float) -> None:
+    (x0, x1, x2, x3), (y0, y1, y2, y3) = cubic
+    dx, dy = x1 + u * (2 * x2 + u * 3 * x3), y1 + u * (2 * y2 + u * 3 * y3)
+    ddx, ddy = 2 * x2 + 6 * u * x3, 2 * y2 + 6 * u * y3
+    heading = math.atan2(dy, dx)
+    if curve.heading:
+        turn = math.remainder(heading - curve.heading[-1], 2 * math.pi)
+        heading = curve.heading[-1] + turn
+    curve.x.append(x0 + u * (x1 + u * (x2 + u * x3)))
+    curve.y.append(y0 + u * (y1 + u * (y2 + u * y3)))
+    curve.s.append((curve.length_m if curve.s else 0.0) + ds)
+    curve.heading.append(heading)
+    curve.curvature.append((dx * ddy - dy * ddx) / max(dx * dx + dy * dy, 1e-12) ** 1.5)
 
 
 def _arc_length(cubic: Cubic, a: float, b: float) -> float:

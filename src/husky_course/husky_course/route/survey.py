@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 import math
 
@@ -13,7 +13,6 @@ import numpy as np
 from husky_course.frames import Pose, to_world
 from husky_course.outline import clearances, Outline
 from husky_course.route.legs import Leg
-from husky_course.route.path import Curve
 from husky_course.route.route import Route
 from husky_course.waypoints.course import Course
 
@@ -99,13 +98,12 @@ def _poses(route: Route, start: Pose) -> tuple[np.ndarray, np.ndarray]:
     numbers: list[int] = []
     heading = 0.0
     for leg in route.begun_at((0.0, 0.0)).legs:
-        back = math.pi if leg.reverse else 0.0
         turn = _turn(leg.curve.x[0], leg.curve.y[0], heading, leg.begin_yaw_rad)
         poses += turn
         numbers += [leg.first] * len(turn)
-        driven = _drive(leg.curve, back)
-        poses += driven
-        numbers += _numbers(leg, len(driven))
+        for pose, number in _drive(leg):
+            poses.append(pose)
+            numbers.append(number)
         heading = leg.arrival_yaw_rad
         if leg.end_yaw_rad is not None:
             turn = _turn(leg.curve.x[-1], leg.curve.y[-1], heading, leg.end_yaw_rad)
@@ -123,17 +121,12 @@ def _turn(x: float, y: float, begin: float, end: float) -> list[Pose]:
     return [(x, y, begin + angle * k / count) for k in range(count)]
 
 
-def _drive(curve: Curve, back: float) -> list[Pose]:
+def _drive(leg: Leg) -> Iterator[tuple[Pose, int]]:
+    curve, knots, piece = leg.curve, leg.curve.knot_s, 0
+    back = math.pi if leg.reverse else 0.0
     count = max(2, math.ceil(curve.length_m / STEP_M))
-    places = [curve.length_m * k / count for k in range(count + 1)]
-    return [(*curve.point_at(s), curve.heading_at(s) + back) for s in places]
-
-
-def _numbers(leg: Leg, count: int) -> list[int]:
-    knots, result, piece = leg.curve.knot_s, [], 0
-    for k in range(count):
-        s = leg.curve.length_m * k / (count - 1)
+    for k in range(count + 1):
+        s = curve.length_m * k / count
         while piece < len(knots) - 2 and s > knots[piece + 1]:
             piece += 1
-        result.append(leg.first + piece + 1)
-    return result
+        yield (*curve.point_at(s), curve.heading_at(s) + back), leg.first + piece + 1

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from itertools import pairwise
 import math
 from pathlib import Path
 import re
@@ -66,14 +67,12 @@ class _Checker:
             raise FileRefused(self._file, self._problems)
         return Course(name=name, file=self._file, **given)  # type: ignore[arg-type]
 
-    def _wrong(self, where: Value, field_name: str, message: str) -> None:
-        self._problems.append(Problem(where.line, where.column, field_name, message))
+    def _wrong(self, where: Value | Waypoint, field_name: str, message: str) -> None:
+        column = where.column if isinstance(where, Value) else 1
+        self._problems.append(Problem(where.line, column, field_name, message))
 
     def _fields(
-        self,
-        mapping: Value,
-        prefix: str,
-        allowed: Mapping[str, Field],
+        self, mapping: Value, prefix: str, allowed: Mapping[str, Field]
     ) -> dict[str, object]:
         """Return the values of a mapping by attribute name; wrong ones are left out."""
         seen: dict[str, int] = {}
@@ -177,31 +176,24 @@ class _Checker:
         asked = {'yaw': first.yaw_rad is not None, 'dwell': first.dwell_sec > 0.0}
         for name in (name for name, given in asked.items() if given):
             message = 'not for the first waypoint, where the drive begins; leave it out'
-            where = Value(first.line, 1, 'scalar')
-            self._wrong(where, f'waypoints[0].{name}', message)
+            self._wrong(first, f'waypoints[0].{name}', message)
 
     def _check_spacing(self, points: tuple[Waypoint, ...], loop: bool) -> None:
         if loop and len(points) < 3:
-            where = Value(points[0].line, 1, 'scalar')
-            self._wrong(where, 'waypoints', '2 given; a loop needs at least 3')
-        pairs = [(i, i + 1) for i in range(len(points) - 1)]
-        if loop:
-            pairs.append((len(points) - 1, 0))
+            self._wrong(points[0], 'waypoints', '2 given; a loop needs at least 3')
         length = 0.0
-        for i, j in pairs:
+        for i, j in pairwise([*range(len(points)), *([0] if loop else [])]):
             a, b = points[i], points[j]
             distance = math.hypot(b.x_m - a.x_m, b.y_m - a.y_m)
             length += distance
             if distance < MIN_SPACING_M:
                 late, early = (j, i) if j else (i, j)
                 hint = '; leave it out, a loop comes back by itself' if j == 0 else ''
-                where = Value(points[late].line, 1, 'scalar')
                 message = f'{distance:.3f} m from waypoints[{early}]; at least {MIN_SPACING_M} m'
-                self._wrong(where, f'waypoints[{late}]', message + hint)
+                self._wrong(points[late], f'waypoints[{late}]', message + hint)
         if length > MAX_LENGTH_M:
-            where = Value(points[0].line, 1, 'scalar')
             message = f'{length:.0f} m from first to last; allowed is up to {MAX_LENGTH_M:g} m'
-            self._wrong(where, 'waypoints', message)
+            self._wrong(points[0], 'waypoints', message)
 
 
 def _choice(value: Value, allowed: Iterable[str]) -> str:

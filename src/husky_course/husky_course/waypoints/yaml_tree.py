@@ -100,14 +100,9 @@ def _read_text(path: Path, name: str) -> str:
     try:
         return data.decode('utf-8-sig')
     except UnicodeDecodeError as error:
-        before = data[: error.start]
-        line = before.count(b'\n') + 1
-        column = error.start - (before.rfind(b'\n') + 1) + 1
-        raise refused(
-            f'byte 0x{data[error.start]:02x} is not UTF-8 text; save the file as UTF-8',
-            line,
-            column,
-        ) from None
+        lines = data[: error.start].split(b'\n')
+        message = f'byte 0x{data[error.start]:02x} is not UTF-8 text; save the file as UTF-8'
+        raise refused(message, len(lines), len(lines[-1]) + 1) from None
 
 
 def _nearest_file(path: Path) -> str:
@@ -127,12 +122,10 @@ def parse_yaml(text: str, name: str) -> Value:
     try:
         return _Builder(name).document(yaml.parse(text, Loader=yaml.SafeLoader))
     except yaml.reader.ReaderError as error:
-        before = text[: error.position]
-        line = before.count('\n') + 1
-        column = error.position - (before.rfind('\n') + 1) + 1
+        lines = text[: error.position].split('\n')
         code = error.character if isinstance(error.character, int) else ord(error.character)
         message = f'character U+{code:04X} is not allowed; remove it'
-        raise FileRefused(name, [Problem(line, column, '', message)]) from None
+        raise FileRefused(name, [Problem(len(lines), len(lines[-1]) + 1, '', message)]) from None
     except yaml.MarkedYAMLError as error:
         raise FileRefused(name, [_syntax_problem(error, text)]) from None
     except (ValueError, RecursionError) as error:
@@ -167,9 +160,7 @@ class _Builder:
                 if root is not None:
                     raise self._refused(event, "a second document ('---'); keep only one")
                 root = self._value(next(events), events, 1)
-        if root is None:
-            return Value(1, 1, 'scalar')
-        return root
+        return root or Value(1, 1, 'scalar')
 
     def _value(self, event: yaml.Event, events: Iterator[yaml.Event], depth: int) -> Value:
         if isinstance(event, yaml.AliasEvent):
