@@ -52,7 +52,7 @@ BUILD = """
 from pathlib import Path
 import sys
 from husky_grader.lab.file_steps import build_step
-build_step(Path(sys.argv[1]), Path(sys.argv[2]), 15.0)
+build_step(Path(sys.argv[1]), Path(sys.argv[2]))
 """
 PUBLISHER = """#!%s
 import time, rclpy
@@ -77,16 +77,16 @@ def workspace(tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(('period_sec', 'points'), [(0.1, 20.0), (0.2, 14.0)])
+@pytest.mark.parametrize(('period_sec', 'percent'), [(0.1, 100.0), (0.2, 70.0)])
 def test_a_pause_of_a_publisher_does_not_change_its_rate(
-    tmp_path: Path, period_sec: float, points: float
+    tmp_path: Path, period_sec: float, percent: float
 ) -> None:
     program = tmp_path / 'install' / 'topic_demo' / 'lib' / 'topic_demo' / 'publisher'
     program.parent.mkdir(parents=True)
     program.write_text(PUBLISHER % (sys.executable, period_sec))
     program.chmod(0o755)
-    step = publisher_step(tmp_path, dict(os.environ), 20.0)
-    assert step.points == points, step
+    verdict = publisher_step(tmp_path, dict(os.environ))
+    assert verdict[0] == percent, verdict
 
 
 @pytest.mark.timeout(180)
@@ -142,18 +142,17 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
 
 def test_a_workspace_of_another_name_gets_half_of_its_points(tmp_path: Path) -> None:
     (tmp_path / 'ws' / 'src').mkdir(parents=True)
-    step = workspace_step(tmp_path / 'ws', 5.0)
-    assert step.points == 2.5
-    assert 'CSE461_<section>_<group>' in step.why
-    assert workspace_step(tmp_path, 5.0).points == 0.0
+    percent, why = workspace_step(tmp_path / 'ws')
+    assert percent == 50.0
+    assert 'CSE461_<section>_<group>' in why
+    assert workspace_step(tmp_path)[0] == 0.0
 
 
 def test_a_manifest_that_lacks_a_dependency_is_told_the_line(workspace: Path) -> None:
     manifest = workspace / 'src' / 'topic_demo' / 'package.xml'
     manifest.write_text(manifest.read_text().replace('<exec_depend>std_msgs</exec_depend>', ''))
-    step = package_step(workspace, 'topic_demo', 10.0)
-    assert step.points == 5.0
-    assert step.why == 'package.xml lacks: <exec_depend>std_msgs</exec_depend>'
+    verdict = package_step(workspace, 'topic_demo')
+    assert verdict == (50.0, 'package.xml lacks: <exec_depend>std_msgs</exec_depend>')
     assert driver_package(workspace) == 'my_driver'
 
 
@@ -192,8 +191,8 @@ def test_a_daemon_of_a_build_ends_with_the_build(workspace: Path, tmp_path: Path
     report.mkdir()
     setup = workspace / 'src' / 'topic_demo' / 'setup.py'
     setup.write_text(setup.read_text() + daemon(pids))
-    step = build_step(workspace, report, 15.0)
-    assert step.is_full, step.why
+    percent, why = build_step(workspace, report)
+    assert percent == 100.0, why
     assert 'Finished <<< topic_demo' in (report / 'build.log').read_text()
     assert running([int(pid) for pid in pids.read_text().split()]) == []
 

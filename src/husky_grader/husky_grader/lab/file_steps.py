@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 import os
 from pathlib import Path
 import re
@@ -22,53 +21,38 @@ DEPENDENCIES = {'topic_demo': ('rclpy', 'std_msgs')}
 DRIVING = ('rclpy', 'geometry_msgs')
 
 
-@dataclass(frozen=True)
-class Step:
-    """One step of the lab: what it was worth, what it got, and what to do about the rest."""
-
-    name: str
-    most: float
-    points: float
-    why: str
-
-    @property
-    def is_full(self) -> bool:
-        """Whether it got every point."""
-        return self.points >= self.most
+Verdict = tuple[float, str]
+"""How much of a step's points it gets, in percent, and why."""
 
 
-def failed(name: str, most: float, why: str, share: float = 0.0) -> Step:
-    return Step(name, most, most * share, why)
+class ProgramMissing(ValueError):
+    """There is no such executable; the message says what there is."""
 
 
-def workspace_step(workspace: Path, most: float) -> Step:
+def workspace_step(workspace: Path) -> Verdict:
     """Look at the workspace's name and its src folder."""
-    name = 'workspace'
     if not (workspace / 'src').is_dir():
-        return failed(name, most, f'{workspace} has no folder src; packages live in it')
+        return 0.0, f'{workspace} has no folder src; packages live in it'
     if not WORKSPACE_NAME.fullmatch(workspace.name):
-        why = f'named {workspace.name}; the sheet asks for CSE461_<section>_<group>'
-        return failed(name, most, why, 0.5)
-    return Step(name, most, most, f'{workspace.name} with a folder src')
+        return 50.0, f'named {workspace.name}; the sheet asks for CSE461_<section>_<group>'
+    return 100.0, f'{workspace.name} with a folder src'
 
 
-def package_step(workspace: Path, package: str, most: float) -> Step:
+def package_step(workspace: Path, package: str) -> Verdict:
     """Look at a package's manifest."""
-    name = f'package {package}'
-    folder = find_package(workspace, package)
-    if folder is None:
-        have = ', '.join(sorted(_packages(workspace))) or 'none'
-        return failed(name, most, f'not in {workspace / "src"}; packages there: {have}')
-    root = ElementTree.parse(folder / 'package.xml').getroot()
+    packages = _packages(workspace)
+    if package not in packages:
+        have = ', '.join(sorted(packages)) or 'none'
+        return 0.0, f'not in {workspace / "src"}; packages there: {have}'
+    root = ElementTree.parse(packages[package] / 'package.xml').getroot()
     given = {element.text for element in root if element.tag.endswith('depend')}
     missing = [wanted for wanted in DEPENDENCIES.get(package, DRIVING) if wanted not in given]
     if missing:
         lines = ' '.join(f'<exec_depend>{wanted}</exec_depend>' for wanted in missing)
-        return failed(name, most, f'package.xml lacks: {lines}', 0.5)
+        return 50.0, f'package.xml lacks: {lines}'
     if root.findtext('export/build_type') != 'ament_python':
-        why = 'package.xml lacks <export><build_type>ament_python</build_type></export>'
-        return failed(name, most, why, 0.5)
-    return Step(name, most, most, 'package.xml is complete')
+        return 50.0, 'package.xml lacks <export><build_type>ament_python</build_type></export>'
+    return 100.0, 'package.xml is complete'
 
 
 def driver_package(workspace: Path) -> str:
@@ -76,10 +60,6 @@ def driver_package(workspace: Path) -> str:
     packages = _packages(workspace)
     others = (name for name in packages if list(packages[name].glob('**/follow_path.py')))
     return 'husky_driver' if 'husky_driver' in packages else next(others, 'husky_driver')
-
-
-def find_package(workspace: Path, package: str) -> Path | None:
-    return _packages(workspace).get(package)
 
 
 def _packages(workspace: Path) -> dict[str, Path]:
@@ -93,7 +73,7 @@ def _packages(workspace: Path) -> dict[str, Path]:
     return found
 
 
-def build_step(workspace: Path, folder: Path, most: float) -> Step:
+def build_step(workspace: Path, folder: Path) -> Verdict:
     """Build the workspace with colcon, into the report's folder, so that nothing of it changes."""
     command = ['colcon', '--log-base', str(folder / 'log'), 'build']
     command += ['--base-paths', str(workspace / 'src')]
@@ -101,13 +81,13 @@ def build_step(workspace: Path, folder: Path, most: float) -> Step:
     try:
         exit_code = _run(command, folder / 'build.log')
     except FileNotFoundError:
-        return failed('build', most, 'colcon is not installed here')
+        return 0.0, 'colcon is not installed here'
     if exit_code is None:
-        return failed('build', most, f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
+        return 0.0, f'colcon build took longer than {BUILD_WITHIN_SEC:g} s'
     if exit_code != 0:
         why = _first_error((folder / 'build.log').read_text(encoding='utf-8', errors='replace'))
-        return failed('build', most, f'colcon build failed: {why}')
-    return Step('build', most, most, 'colcon build succeeded')
+        return 0.0, f'colcon build failed: {why}'
+    return 100.0, 'colcon build succeeded'
 
 
 def _run(command: list[str], log: Path) -> int | None:
@@ -160,16 +140,18 @@ def find_executable(folder: Path, package: str, name: str) -> Path:
     """
     Return an executable that `ros2 run` would find.
 
-    :raises ValueError: when there is none, saying what there is.
+    :raises ProgramMissing: when there is none.
     """
     programs = folder / 'install' / package / 'lib' / package
     for candidate in (programs / name, programs / f'{name}.py'):
         if candidate.is_file() and os.access(candidate, os.X_OK):
             return candidate
     if not (folder / 'install' / package).is_dir():
-        raise ValueError(f'ros2 run {package} {name} finds nothing: there is no package {package}')
+        raise ProgramMissing(
+            f'ros2 run {package} {name} finds nothing: there is no package {package}'
+        )
     have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
-    raise ValueError(
+    raise ProgramMissing(
         f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
         f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
     )

@@ -5,14 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
 from itertools import pairwise
 from pathlib import Path
 import re
 import signal
 from statistics import median
 import time
-from typing import Any, IO
+from typing import Any
 
 from husky_runtime.children import ChildProcess, tail_of
 from husky_runtime.domains import OwnDomain
@@ -22,7 +22,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
-from husky_grader.lab.file_steps import failed, find_executable, Step
+from husky_grader.lab.file_steps import find_executable, Verdict
 
 TOPIC = '/topic_test'
 TYPE = 'std_msgs/msg/String'
@@ -35,9 +35,8 @@ RATE_HZ, RATE_TOLERANCE = 10.0, 0.15
 class _Graph(Node):
     """A node in a domain of its own, on the topic of the lab's first two programs."""
 
-    def __init__(self, context: rclpy.Context, domain: int) -> None:
+    def __init__(self, context: rclpy.Context) -> None:
         super().__init__('grader', context=context)
-        self.domain = domain
         self.received: list[tuple[float, str]] = []
         self.publisher = self.create_publisher(String, 'topic_test', 10)
         self.create_subscription(String, 'topic_test', self._on_message, 10)
@@ -61,45 +60,37 @@ class _Graph(Node):
 
 
 @contextmanager
-def _own_graph() -> Iterator[_Graph]:
+def _running(
+    name: str, folder: Path, environment: dict[str, str]
+) -> Iterator[tuple[_Graph, ChildProcess, Path]]:
+    """Run one of topic_demo's programs in a domain of its own; give its graph and its log."""
+    program, log = find_executable(folder, 'topic_demo', name), folder / f'{name}.log'
     context = rclpy.Context()
-    with OwnDomain() as domain:
+    with ExitStack() as stack:
+        domain = stack.enter_context(OwnDomain()).number
         rclpy.init(
-            context=context,
-            domain_id=domain.number,
-            signal_handler_options=SignalHandlerOptions.NO,
+            context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO
         )
-        graph = _Graph(context, domain.number)
-        try:
-            yield graph
-        finally:
-            graph.destroy_node()
-            rclpy.shutdown(context=context)
+        stack.callback(rclpy.shutdown, context=context)
+        graph = _Graph(context)
+        stack.callback(graph.destroy_node)
+        theirs = {**environment, 'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
+        stream = stack.enter_context(log.open('w'))
+        process = ChildProcess([str(program)], theirs, stream, parent_death=signal.SIGKILL)
+        yield graph, stack.enter_context(process), log
 
 
-def publisher_step(folder: Path, environment: dict[str, str], most: float) -> Step:
+def publisher_step(folder: Path, environment: dict[str, str]) -> Verdict:
     """Run topic_demo's publisher and listen: name of the topic, type, rate and text."""
-    name = 'publisher'
-    try:
-        program = find_executable(folder, 'topic_demo', 'publisher')
-    except ValueError as error:
-        return failed(name, most, str(error))
-    with _own_graph() as graph:
-        environment = {**environment, 'ROS_DOMAIN_ID': str(graph.domain)}
-        log = folder / 'publisher.log'
-        with log.open('w') as stream, _start(program, environment, stream) as process:
-            graph.spin_until(
-                lambda: bool(graph.received) or process.exit_code is not None, APPEAR_WITHIN_SEC
-            )
-            if not graph.received:
-                return failed(name, most, _why_silent(graph, process, log))
-            graph.received.clear()
-            graph.spin_until(lambda: False, LISTEN_SEC)
-            return _judge_messages(graph.received, most)
-
-
-def _start(program: Path, environment: dict[str, str], log: IO[str]) -> ChildProcess:
-    return ChildProcess([str(program)], environment, log, parent_death=signal.SIGKILL)
+    with _running('publisher', folder, environment) as (graph, process, log):
+        graph.spin_until(
+            lambda: bool(graph.received) or process.exit_code is not None, APPEAR_WITHIN_SEC
+        )
+        if not graph.received:
+            return 0.0, _why_silent(graph, process, log)
+        graph.received.clear()
+        graph.spin_until(lambda: False, LISTEN_SEC)
+        return _judge_messages(graph.received)
 
 
 def _why_silent(graph: _Graph, process: ChildProcess, log: Path) -> str:
@@ -119,47 +110,37 @@ def _why_silent(graph: _Graph, process: ChildProcess, log: Path) -> str:
     return f'nothing came on {TOPIC} within {APPEAR_WITHIN_SEC:g} s'
 
 
-def _judge_messages(received: list[tuple[float, str]], most: float) -> Step:
-    name = 'publisher'
+def _judge_messages(received: list[tuple[float, str]]) -> Verdict:
     wrong = next((text for _, text in received if not TEXT.fullmatch(text.strip())), None)
     if wrong is not None:
-        why = f'it says {wrong[:60]!r}; the sheet asks for "hello world <time in seconds>"'
-        return failed(name, most, why, 0.5)
+        return 50.0, f'it says {wrong[:60]!r}; the sheet asks for "hello world <time in seconds>"'
     # Their median: that the machine stood still for a moment is not the publisher's fault.
     gaps = [after - before for (before, _), (after, _) in pairwise(received)]
     rate = 1.0 / max(median(gaps), 1e-3) if gaps else 0.0
     if abs(rate - RATE_HZ) > RATE_TOLERANCE * RATE_HZ:
-        return failed(name, most, f'{rate:.1f} messages a second; the sheet asks for 10', 0.7)
-    return Step(name, most, most, f'{rate:.1f} Hz on {TOPIC}, {TYPE}, "{received[-1][1]}"')
+        return 70.0, f'{rate:.1f} messages a second; the sheet asks for 10'
+    return 100.0, f'{rate:.1f} Hz on {TOPIC}, {TYPE}, "{received[-1][1]}"'
 
 
-def subscriber_step(folder: Path, environment: dict[str, str], most: float) -> Step:
+def subscriber_step(folder: Path, environment: dict[str, str]) -> Verdict:
     """Run topic_demo's subscriber, publish a text and check that it shows it."""
-    name, sent = 'subscriber', f'hello grader {time.time():.3f}'
-    try:
-        program = find_executable(folder, 'topic_demo', 'subscriber')
-    except ValueError as error:
-        return failed(name, most, str(error))
-    with _own_graph() as graph:
-        environment = {**environment, 'ROS_DOMAIN_ID': str(graph.domain), 'PYTHONUNBUFFERED': '1'}
-        log = folder / 'subscriber.log'
-        with log.open('w') as stream, _start(program, environment, stream) as process:
+    sent = f'hello grader {time.time():.3f}'
+    with _running('subscriber', folder, environment) as (graph, process, log):
 
-            def repeated() -> bool:
-                graph.publisher.publish(String(data=sent))
-                graph.spin_until(lambda: False, 0.1)
-                return process.exit_code is not None or sent in _text(log)
+        def repeated() -> bool:
+            graph.publisher.publish(String(data=sent))
+            graph.spin_until(lambda: False, 0.1)
+            return process.exit_code is not None or sent in _text(log)
 
-            graph.spin_until(repeated, APPEAR_WITHIN_SEC)
-            if process.exit_code is not None:
-                why = f'it ended with exit code {process.exit_code}: {tail_of(log, 1)}'
-                return failed(name, most, why)
-            line = next((line for line in _text(log).splitlines() if sent in line), '')
+        graph.spin_until(repeated, APPEAR_WITHIN_SEC)
+        if process.exit_code is not None:
+            return 0.0, f'it ended with exit code {process.exit_code}: {tail_of(log, 1)}'
+        line = next((line for line in _text(log).splitlines() if sent in line), '')
     if not line:
-        return failed(name, most, f'it did not show what came on {TOPIC}: "{sent}"')
+        return 0.0, f'it did not show what came on {TOPIC}: "{sent}"'
     if 'heard' not in line:
-        return failed(name, most, f'it shows "{line}"; the sheet asks for "heard <text>"', 0.7)
-    return Step(name, most, most, f'"{line.strip()}"')
+        return 70.0, f'it shows "{line}"; the sheet asks for "heard <text>"'
+    return 100.0, f'"{line.strip()}"'
 
 
 def _text(log: Path) -> str:

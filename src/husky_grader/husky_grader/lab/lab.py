@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 import json
 from pathlib import Path
 import shutil
@@ -16,11 +16,11 @@ from husky_course.route import Route
 from husky_grader.lab.file_steps import (
     build_step,
     driver_package,
-    failed,
     find_executable,
     package_step,
+    ProgramMissing,
     sourced,
-    Step,
+    Verdict,
     workspace_step,
 )
 from husky_grader.lab.graph_steps import publisher_step, subscriber_step
@@ -28,12 +28,22 @@ from husky_grader.report.files import write_report
 from husky_grader.run.live import drive_live
 from husky_grader.scoring.report import judge
 
-LiveStep = Callable[[Path, dict[str, str], float], Step]
+LiveStep = Callable[[Path, dict[str, str]], Verdict]
 
-POINTS = {
-    **{'workspace': 5.0, 'topic_demo': 10.0, 'driver': 5.0, 'build': 15.0},
-    **{'publisher': 20.0, 'subscriber': 15.0, 'drive': 30.0},
-}
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the lab: what it was worth, what it got, and what to do about the rest."""
+
+    name: str
+    most: float
+    points: float
+    why: str
+
+    @property
+    def is_full(self) -> bool:
+        """Whether it got every point."""
+        return self.points >= self.most
 
 
 def grade_lab(
@@ -51,61 +61,55 @@ def grade_lab(
     folder.mkdir(parents=True, exist_ok=True)
     workspace = workspace.resolve()
 
-    def drive_step(_: Path, environment: dict[str, str], most: float) -> Step:
-        package = driver_package(workspace)
-        return _drive_step(package, route, folder, environment, answers, real_time_factor, most)
+    def drive_step(_: Path, environment: dict[str, str]) -> Verdict:
+        program = find_executable(folder, driver_package(workspace), 'follow_path')
+        live = drive_live(
+            str(program),
+            route,
+            folder / 'drive',
+            answers=answers,
+            environment=environment,
+            real_time_factor=real_time_factor,
+        )
+        run = read_run(live.record)
+        report = live.with_notes(judge(run, route))
+        write_report(folder / 'drive', report, run, route)
+        return report.score, '; '.join(report.reasons) or f'{report.course} passed'
 
     steps = []
-    for step in _steps(workspace, folder, drive_step):
-        steps.append(step)
-        done(step)
+    for name, most, (percent, why) in _verdicts(workspace, folder, drive_step):
+        steps.append(Step(name, most, most * percent / 100.0, why))
+        done(steps[-1])
     total = sum(step.points for step in steps)
     content = {'score': total, 'steps': [asdict(step) for step in steps]}
     (folder / 'lab.json').write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
     return steps
 
 
-def _steps(workspace: Path, folder: Path, drive_step: LiveStep) -> Iterator[Step]:
-    yield workspace_step(workspace, POINTS['workspace'])
-    yield package_step(workspace, 'topic_demo', POINTS['topic_demo'])
-    yield package_step(workspace, driver_package(workspace), POINTS['driver'])
-    yield build_step(workspace, folder, POINTS['build'])
-    live = {'publisher': publisher_step, 'subscriber': subscriber_step, 'drive': drive_step}
+def _verdicts(
+    workspace: Path, folder: Path, drive_step: LiveStep
+) -> Iterator[tuple[str, float, Verdict]]:
+    """Yield the name of each step, its points, and what became of it."""
+    driver = driver_package(workspace)
+    yield 'workspace', 5.0, workspace_step(workspace)
+    yield 'package topic_demo', 10.0, package_step(workspace, 'topic_demo')
+    yield f'package {driver}', 5.0, package_step(workspace, driver)
+    yield 'build', 15.0, build_step(workspace, folder)
+    live = (
+        ('publisher', 20.0, publisher_step),
+        ('subscriber', 15.0, subscriber_step),
+        ('drive', 30.0, drive_step),
+    )
     try:
         environment = sourced(folder)
     except ValueError as error:
-        yield from (failed(name, POINTS[name], str(error)) for name in live)
+        yield from ((name, most, (0.0, str(error))) for name, most, _ in live)
         return
-    for name, step in live.items():
-        yield step(folder, environment, POINTS[name])
-
-
-def _drive_step(
-    package: str,
-    route: Route,
-    folder: Path,
-    environment: dict[str, str],
-    answers: str,
-    real_time_factor: float,
-    most: float,
-) -> Step:
-    try:
-        program = find_executable(folder, package, 'follow_path')
-    except ValueError as error:
-        return failed('drive', most, str(error))
-    live = drive_live(
-        str(program),
-        route,
-        folder / 'drive',
-        answers=answers,
-        environment=environment,
-        real_time_factor=real_time_factor,
-    )
-    run = read_run(live.record)
-    report = live.with_notes(judge(run, route))
-    write_report(folder / 'drive', report, run, route)
-    why = '; '.join(report.reasons) if report.reasons else f'{report.course} passed'
-    return Step('drive', most, most * report.score / 100.0, why)
+    for name, most, step in live:
+        try:
+            yield name, most, step(folder, environment)
+        except ProgramMissing as error:
+            yield name, most, (0.0, str(error))
 
 
 def table(steps: list[Step]) -> str:
