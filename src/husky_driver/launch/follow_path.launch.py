@@ -16,17 +16,14 @@ def generate_launch_description() -> LaunchDescription:
     defaults = PathJoinSubstitution([share, 'config', 'follow_path.yaml'])
     return LaunchDescription(
         [
-            DeclareLaunchArgument(
-                'waypoints', default_value=course, description='Waypoint file (YAML) to follow'
-            ),
-            DeclareLaunchArgument(
-                'namespace', default_value='', description='Namespace of the robot to drive'
-            ),
-            DeclareLaunchArgument(
-                'use_sim_time', default_value='true', description='Take the time from /clock'
-            ),
-            DeclareLaunchArgument(
-                'params_file', default_value=defaults, description='Parameters of follow_path'
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, description in (
+                    ('waypoints', course, 'Waypoint file (YAML) to follow'),
+                    ('namespace', '', 'Namespace of the robot to drive'),
+                    ('use_sim_time', 'true', 'Take the time from /clock'),
+                    ('params_file', defaults, 'Parameters of follow_path'),
+                )
             ),
             Node(
                 package='husky_driver',
@@ -37,12 +34,8 @@ def generate_launch_description() -> LaunchDescription:
                 parameters=[
                     LaunchConfiguration('params_file'),
                     {
-                        'waypoints': ParameterValue(
-                            LaunchConfiguration('waypoints'), value_type=str
-                        ),
-                        'use_sim_time': ParameterValue(
-                            LaunchConfiguration('use_sim_time'), value_type=bool
-                        ),
+                        name: ParameterValue(LaunchConfiguration(name), value_type=kind)
+                        for name, kind in (('waypoints', str), ('use_sim_time', bool))
                     },
                 ],
             ),

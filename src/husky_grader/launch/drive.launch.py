@@ -16,6 +16,15 @@ from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
+# Arguments that are handed on to the simulator: name, default, description.
+OF_SIMULATOR = (
+    ('record', '', 'where the simulator writes the run'),
+    ('limit_sec', '0.0', 'most simulated time; 0.0: any'),
+    ('real_time_factor', '1.0', '1.0 keeps pace with the wall, 0.0 is as fast as possible'),
+    ('lockstep', 'false', 'true: the simulator waits for each command, so that a run repeats'),
+    ('viewer', 'false', 'true: a live view in the browser'),
+)
+
 
 def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
     return None if context.is_shutdown else Shutdown(reason=f'{event.process_name} has ended')
@@ -23,14 +32,13 @@ def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
 
 def generate_launch_description() -> LaunchDescription:
     """Return the simulator, the driver, and the end of all when one has ended, however it did."""
-    names = ('record', 'limit_sec', 'real_time_factor', 'lockstep', 'viewer')
     simulator = IncludeLaunchDescription(
         PythonLaunchDescriptionSource(
             PathJoinSubstitution(
                 [FindPackageShare('husky_sim'), 'launch', 'husky_playpen.launch.py']
             )
         ),
-        launch_arguments={name: LaunchConfiguration(name) for name in names}.items(),
+        launch_arguments={name: LaunchConfiguration(name) for name, _, _ in OF_SIMULATOR}.items(),
     )
     driver = Node(
         package='husky_driver',
@@ -43,24 +51,9 @@ def generate_launch_description() -> LaunchDescription:
     return LaunchDescription(
         [
             DeclareLaunchArgument('waypoints', description='the waypoint file to drive'),
-            DeclareLaunchArgument(
-                'record', default_value='', description='where the simulator writes the run'
-            ),
-            DeclareLaunchArgument(
-                'limit_sec', default_value='0.0', description='most simulated time; 0.0: any'
-            ),
-            DeclareLaunchArgument(
-                'real_time_factor',
-                default_value='1.0',
-                description='1.0 keeps pace with the wall, 0.0 is as fast as possible',
-            ),
-            DeclareLaunchArgument(
-                'lockstep',
-                default_value='false',
-                description='true: the simulator waits for each command, so that a run repeats',
-            ),
-            DeclareLaunchArgument(
-                'viewer', default_value='false', description='true: a live view in the browser'
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, description in OF_SIMULATOR
             ),
             simulator,
             driver,

@@ -14,9 +14,22 @@ from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
 VIEWS = 'husky_sim.view'  # the type of the resource in the ament index
+SHARE = FindPackageShare('husky_sim')
+PLAYPEN = PathJoinSubstitution([SHARE, 'worlds', 'playpen.xml'])
+DEFAULTS = PathJoinSubstitution([SHARE, 'config', 'husky_sim.yaml'])
+NOT_HEADLESS = NotSubstitution(LaunchConfiguration('headless'))
+ROBOTS = "Several robots, as a list of 'NAME X Y YAW'; else one at x, y, yaw"
 
-# What is handed on to the simulator as parameters: name, default, type, description.
-PARAMETERS = (
+# Name, default, type as a parameter of the simulator or of the view, description.
+ARGUMENTS = (
+    ('namespace', '', None, 'Namespace of all topics but /clock'),
+    ('headless', 'true', None, 'false: show the browser view'),
+    ('viewer', NOT_HEADLESS, None, 'true: the same as headless:=false'),
+    ('viewer_host', '127.0.0.1', str, 'Address to serve the view at; 0.0.0.0 lets others look'),
+    ('viewer_port', '8080', int, 'Port of the view; the next free one if it is taken'),
+    ('world', PLAYPEN, str, 'World to simulate, an MJCF file'),
+    ('params_file', DEFAULTS, None, 'More parameters, as YAML'),
+    ('robots', "['']", list[str], ROBOTS),
     ('x', '0.0', float, 'Where the robot starts in the frame world, m'),
     ('y', '0.0', float, 'Where the robot starts in the frame world, m'),
     ('yaw', '0.0', float, 'Heading of the robot at the start, rad'),
@@ -53,56 +66,17 @@ def _views(_context: LaunchContext, page: dict[str, ParameterValue]) -> list[Nod
 
 def generate_launch_description() -> LaunchDescription:
     """Return the simulator and, if requested, its view in the browser."""
-    share = FindPackageShare('husky_sim')
-    playpen = PathJoinSubstitution([share, 'worlds', 'playpen.xml'])
-    defaults = PathJoinSubstitution([share, 'config', 'husky_sim.yaml'])
     given = {
         name: ParameterValue(LaunchConfiguration(name), value_type=kind)
-        for name, _, kind, _ in PARAMETERS
+        for name, _, kind, _ in ARGUMENTS
+        if kind is not None
     }
-    given['robots'] = ParameterValue(LaunchConfiguration('robots'), value_type=list[str])
-    given['world'] = ParameterValue(LaunchConfiguration('world'), value_type=str)
-    page = {
-        'viewer_host': ParameterValue(LaunchConfiguration('viewer_host'), value_type=str),
-        'viewer_port': ParameterValue(LaunchConfiguration('viewer_port'), value_type=int),
-    }
+    page = {name: given.pop(name) for name in ('viewer_host', 'viewer_port')}
     return LaunchDescription(
         [
-            DeclareLaunchArgument(
-                'namespace', default_value='', description='Namespace of all topics but /clock'
-            ),
-            DeclareLaunchArgument(
-                'headless', default_value='true', description='false: show the browser view'
-            ),
-            DeclareLaunchArgument(
-                'viewer',
-                default_value=NotSubstitution(LaunchConfiguration('headless')),
-                description='true: the same as headless:=false',
-            ),
-            DeclareLaunchArgument(
-                'viewer_host',
-                default_value='127.0.0.1',
-                description='Address to serve the view at; 0.0.0.0 lets others look',
-            ),
-            DeclareLaunchArgument(
-                'viewer_port',
-                default_value='8080',
-                description='Port of the view; the next free one if it is taken',
-            ),
-            DeclareLaunchArgument(
-                'world', default_value=playpen, description='World to simulate, an MJCF file'
-            ),
-            DeclareLaunchArgument(
-                'params_file', default_value=defaults, description='More parameters, as YAML'
-            ),
-            DeclareLaunchArgument(
-                'robots',
-                default_value="['']",
-                description="Several robots, as a list of 'NAME X Y YAW'; else one at x, y, yaw",
-            ),
             *(
                 DeclareLaunchArgument(name, default_value=default, description=description)
-                for name, default, _, description in PARAMETERS
+                for name, default, _, description in ARGUMENTS
             ),
             Node(
                 package='husky_sim',
