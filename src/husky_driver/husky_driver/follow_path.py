@@ -13,7 +13,7 @@ from types import FrameType
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, Parser
-from husky_runtime.executor import make_executor
+from husky_runtime.executor import spin
 from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.signals import SignalHandlerOptions
@@ -102,27 +102,18 @@ def _check(route: Route, settings: Settings, warn: Callable[[str], object]) -> N
 
 def _run(node: FollowPath) -> int:
     """Spin the node until it has finished; return its exit status."""
-    executor = make_executor()
-    executor.add_node(node)
-    _stop_on_signals(node)
-    try:
-        while not node.finished.done():
-            # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up. A
-            # short one, for it sees signals only between two spins.
-            executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
-        executor.remove_node(node)
-        return int(node.finished.result())
-    finally:
-        node.destroy_node()
 
-
-def _stop_on_signals(node: FollowPath) -> None:
-    def on_signal(number: int, _frame: FrameType | None) -> None:
+    def on_signal(number: int, _: FrameType | None) -> None:
         code = INTERRUPTED if number == signal.SIGINT else TERMINATED
         node.stop(code, f'stopped by {signal.Signals(number).name}')
 
     signal.signal(signal.SIGINT, on_signal)
     signal.signal(signal.SIGTERM, on_signal)
+    try:
+        spin(node, until=node.finished)
+        return int(node.finished.result())
+    finally:
+        node.destroy_node()
 
 
 if __name__ == '__main__':

@@ -17,7 +17,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist
 from husky_runtime.command_line import BAD_INPUT, Parser
-from husky_runtime.executor import make_executor
+from husky_runtime.executor import spin
 from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.clock import Clock, ClockType
@@ -132,15 +132,11 @@ def main(args: Sequence[str] | None = None) -> int:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: node.end())
     print(HELP)
-    executor = make_executor()
-    executor.add_node(node)
     try:
         with raw_terminal(sys.stdin.fileno()):
-            while not node.finished.done():
-                executor.spin_until_future_complete(node.finished, timeout_sec=0.2)
+            spin(node, until=node.finished)
     finally:
         node.deliver()
-        executor.remove_node(node)
         node.destroy_node()
         rclpy.try_shutdown()
     return 0

@@ -3,6 +3,7 @@
 """Spin nodes with the executor that takes the least CPU time."""
 
 import signal
+from typing import Any
 
 import rclpy
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -39,12 +40,13 @@ def future_of_signal() -> 'Future[None]':
     return interrupted
 
 
-def spin(node: Node, *, until: 'Future[None]') -> None:
+def spin(node: Node, *, until: 'Future[Any]') -> None:
     """Spin a node until a future is done."""
     executor = make_executor()
     executor.add_node(node)
-    # One event at a time: the EventsExecutor handles signals only between two spins, and ignores
-    # the timeout of a longer one while a timer is always due.
+    # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up. One event at
+    # a time: it handles signals only between two spins, and ignores the timeout of a longer one
+    # while a timer is always due.
     while not until.done():
         executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
     executor.remove_node(node)  # before it is destroyed: the executor may hold its events
