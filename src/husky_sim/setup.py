@@ -9,15 +9,14 @@ from setuptools import find_packages, setup
 
 PACKAGE = 'husky_sim'
 
-# The worlds lie at the top of the repository. colcon copies or links setup.py into its build
-# folder, so the way to them starts at the file's real path and is written down relative to the
-# folder setup runs in, as data_files must be.
-WORLDS = Path(__file__).resolve().parents[2] / 'worlds'
+# The real folder, even where colcon builds through a link to this file. setuptools wants paths
+# relative to where it runs. The worlds lie at the top of the repository.
+HERE = Path(__file__).resolve().parent
 
 
-def data_files_of(folder: Path, pattern: str) -> list[str]:
-    """List the files of a folder, relative to the current one."""
-    return sorted(os.path.relpath(path, Path.cwd()) for path in folder.glob(pattern))
+def installed(folder: Path, pattern: str) -> tuple[str, list[str]]:
+    names = sorted(folder.glob(pattern))
+    return (f'share/{PACKAGE}/{folder.name}', [os.path.relpath(name) for name in names])
 
 
 setup(
@@ -27,19 +26,10 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),
-        (
-            f'share/{PACKAGE}/launch',
-            data_files_of(Path(__file__).resolve().parent / 'launch', '*.launch.py'),
-        ),
-        (
-            f'share/{PACKAGE}/config',
-            data_files_of(Path(__file__).resolve().parent / 'config', '*.yaml'),
-        ),
-        (
-            f'share/{PACKAGE}/hook',
-            data_files_of(Path(__file__).resolve().parent / 'hook', 'check_fields.*'),
-        ),
-        (f'share/{PACKAGE}/worlds', data_files_of(WORLDS, '*.xml')),
+        installed(HERE / 'launch', '*.launch.py'),
+        installed(HERE / 'config', '*.yaml'),
+        installed(HERE / 'hook', 'check_fields.*'),
+        installed(HERE.parents[1] / 'worlds', '*.xml'),
     ],
     install_requires=['setuptools', 'mujoco', 'numpy'],
     zip_safe=True,

@@ -7,6 +7,8 @@ It uses neither ROS nor the wall clock, so a run is a function of the world file
 and the commands, bit for bit.
 """
 
+import math
+
 from husky_course.robot import RobotStart
 import mujoco
 
@@ -112,6 +114,11 @@ class Simulation:
         return self.periods * PERIOD_NS
 
     @property
+    def stamp(self) -> tuple[int, int]:
+        """Return the simulated time as messages have it: seconds, nanoseconds."""
+        return divmod(self.time_ns, 1_000_000_000)
+
+    @property
     def time_sec(self) -> float:
         """Return the simulated time."""
         return self.periods * PERIOD_NS / 1e9
@@ -142,7 +149,7 @@ class Simulation:
 
     def unreported_touches(self) -> list[Collision]:
         """Return the touches of the last moments, whose force had no time to reach its peak."""
-        return self._detector.remaining()
+        return self._detector.reports(math.inf)
 
     def reset(self) -> None:
         """Put everything back as it was at the start, bit for bit."""

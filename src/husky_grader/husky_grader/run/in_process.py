@@ -90,12 +90,12 @@ def drive_with(
         with RunRecorder(simulation, file) as recorder:
             (robot,) = simulation.robots
             while simulation.time_sec < limit_sec:
-                command = controller(_odometry(simulation.time_ns, robot, odometry))
+                command = controller(_odometry(_time_sec(simulation), robot, odometry))
                 if command is None:
                     break
                 robot.controller.command(*command, time_sec=simulation.time_sec)
                 simulation.advance()
-                on_imu(_time_sec(simulation.time_ns), _acceleration(robot))
+                on_imu(_time_sec(simulation), _acceleration(robot))
                 recorder.append()
                 if simulation.periods % PERIODS_A_SECOND == 0:
                     each_second()
@@ -122,11 +122,13 @@ def _loaded(config: SimulationConfig) -> Simulation:
     return Simulation(config)
 
 
-def _odometry(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
+def _odometry(time_sec: float, robot: SimulatedRobot, odometry: str) -> Odometry:
     """Return the odometry as the driver gets it, to the last bit of the message."""
-    time_sec = _time_sec(time_ns)
     if odometry == 'ground_truth':
-        return _truth(time_sec, robot)
+        state, start = robot.state, robot.start
+        x, y = to_odom(start.pose, state.position[0], state.position[1])
+        yaw = wrapped(state.yaw - start.yaw)
+        return Odometry(time_sec, x, y, yaw, state.velocity[0], state.angular_velocity[2])
     pose = robot.filtered if odometry == 'filtered' else robot.odometry
     return Odometry(
         time_sec,
@@ -138,16 +140,9 @@ def _odometry(time_ns: int, robot: SimulatedRobot, odometry: str) -> Odometry:
     )
 
 
-def _truth(time_sec: float, robot: SimulatedRobot) -> Odometry:
-    state, start = robot.state, robot.start
-    x, y = to_odom(start.pose, state.position[0], state.position[1])
-    yaw = wrapped(state.yaw - start.yaw)
-    return Odometry(time_sec, x, y, yaw, state.velocity[0], state.angular_velocity[2])
-
-
-def _time_sec(time_ns: int) -> float:
+def _time_sec(simulation: Simulation) -> float:
     """Return the time as a stamp gives it."""
-    seconds, nanoseconds = divmod(time_ns, 1_000_000_000)
+    seconds, nanoseconds = simulation.stamp
     return seconds + nanoseconds * 1e-9
 
 

@@ -43,7 +43,9 @@ def time_message(stamp: Stamp) -> Time:
 class OdometryMessage(PackedMessage):
     """An odometry message of base_link."""
 
-    def __init__(self, frame_id: str, variances: tuple[float, ...]) -> None:
+    def __init__(
+        self, frame_id: str = 'odom', variances: tuple[float, ...] = ODOMETRY_VARIANCES
+    ) -> None:
         message = Odometry(child_frame_id='base_link')
         message.header.frame_id = frame_id
         message.pose.covariance[::7] = variances
@@ -63,9 +65,6 @@ class OdometryMessage(PackedMessage):
 class WheelOdometryMessage(OdometryMessage):
     """The pose from the wheels."""
 
-    def __init__(self) -> None:
-        super().__init__('odom', ODOMETRY_VARIANCES)
-
     def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Pack the wheel odometry."""
         self.pack_stamp(*stamp)
@@ -76,7 +75,7 @@ class FilteredOdometryMessage(OdometryMessage):
     """The filtered pose, with its covariance."""
 
     def __init__(self) -> None:
-        super().__init__('odom', ODOMETRY_VARIANCES)
+        super().__init__()
         self._pose_covariance = self.array(self.places['pose']['covariance'])
         self._twist_covariance = self.array(self.places['twist']['covariance'])
 

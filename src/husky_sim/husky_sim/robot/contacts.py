@@ -8,7 +8,7 @@ have been apart for RELEASE_SEC. It is reported once, PEAK_SEC after it began, w
 force until then. Wheels on the ground touch nothing.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from husky_course.record import Collision as Collision
 import mujoco
@@ -30,15 +30,7 @@ class _Contact:
 
     def report(self) -> Collision:
         self.reported = True
-        touch = self.touch
-        return Collision(
-            robot=touch.robot,
-            obstacle=touch.obstacle,
-            part=touch.part,
-            time_sec=touch.time_sec,
-            force_n=self.force_n,
-            position=touch.position,
-        )
+        return replace(self.touch, force_n=self.force_n)
 
 
 class TouchDetector:
@@ -110,15 +102,9 @@ class TouchDetector:
         return abs(float(self._force[0]))
 
     def reports(self, time_sec: float) -> list[Collision]:
-        """Return the touches that began PEAK_SEC ago and were not reported yet."""
-        if not self._contacts:
-            return []
+        """Return the touches that began PEAK_SEC ago and were not reported yet; at inf, all."""
         return [
             contact.report()
             for contact in self._contacts.values()
             if not contact.reported and time_sec - contact.touch.time_sec >= PEAK_SEC
         ]
-
-    def remaining(self) -> list[Collision]:
-        """Return the touches that a run ended too early to report."""
-        return [c.report() for c in self._contacts.values() if not c.reported]

@@ -4,9 +4,7 @@
 
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 from husky_sim.ros.pacing import Pacer
 from husky_sim.simulation import Simulation
@@ -61,18 +59,3 @@ class PaceWatch:
             hardware_id='husky_sim',
             values=[KeyValue(key=key, value=value) for key, value in values.items()],
         )
-
-
-class DiagnosticsTopic:
-    """Publishes one status at a time."""
-
-    def __init__(self, node: Node) -> None:
-        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self.clock = Clock(clock_type=ClockType.STEADY_TIME)
-
-    def publish(self, status: DiagnosticStatus, time_ns: int) -> None:
-        """Publish one status at a simulated time."""
-        message = DiagnosticArray(status=[status])
-        stamp = message.header.stamp
-        stamp.sec, stamp.nanosec = divmod(time_ns, 1_000_000_000)
-        self._publisher.publish(message)

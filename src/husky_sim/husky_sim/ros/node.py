@@ -14,6 +14,7 @@ import sys
 import time
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from husky_runtime.domains import DomainError, lock_simulator
 from husky_runtime.executor import future_of_signal, spin
 from rcl_interfaces.msg import SetParametersResult
@@ -28,9 +29,10 @@ from rclpy.timer import Timer
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import SettingError, SimulatorError
+from husky_sim.messages.messages import time_message
 from husky_sim.recording.recorder import open_recorder
 from husky_sim.ros.control_services import ControlServices
-from husky_sim.ros.diagnostics import DiagnosticsTopic, PaceWatch
+from husky_sim.ros.diagnostics import PaceWatch
 from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pacing import Pacer
@@ -90,7 +92,7 @@ class SimulatorNode(Node):
             self,
             self._simulation,
             on_command=self._on_command,
-            on_commander=self._on_commander,
+            on_commander=lambda *event: self._interference.check_commands(*event),
         )
         self._interference = InterferenceWatch(
             self,
@@ -103,7 +105,7 @@ class SimulatorNode(Node):
         add_simulation_services(self, self)
         self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
         self._timer = self._new_timer()
-        self._diagnostics = DiagnosticsTopic(self)
+        self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._watch = PaceWatch(self._simulation)
         self.create_timer(DIAGNOSTICS_PERIOD_SEC, self._on_diagnose, clock=self._steady)
         self.add_on_set_parameters_callback(self._on_set_parameters)
@@ -208,21 +210,17 @@ class SimulatorNode(Node):
             self.get_logger().error(f'the run ends: {why}')
             self.over.set_result(None)
 
-    def _on_commander(self, topic: str, count: int) -> None:
-        self._interference.check_commands(topic, count)
-
     def _on_interference(self, found: Interference) -> None:
         self.get_logger().error(str(found))
         if self._record is not None:
             self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
 
     def _on_diagnose(self) -> None:
-        status = self._watch.status(
-            self._pacer,
-            self._run.real_time_factor,
-            waits=self._paused or self._run.lockstep,
-        )
-        self._diagnostics.publish(status, self._simulation.time_ns)
+        waits = self._paused or self._run.lockstep
+        status = self._watch.status(self._pacer, self._run.real_time_factor, waits=waits)
+        message = DiagnosticArray(status=[status])
+        message.header.stamp = time_message(self._simulation.stamp)
+        self._diagnostics.publish(message)
         self._topics.warn_of_other_types()
 
     @property

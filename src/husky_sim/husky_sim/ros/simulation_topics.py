@@ -78,7 +78,7 @@ class SimulationTopics:
 
     def publish(self) -> None:
         """Publish a control period, first the odometry for the driver."""
-        stamp = divmod(self._simulation.time_ns, 1_000_000_000)
+        stamp = self._simulation.stamp
         for topics in self._robots:
             topics.publish_filtered(stamp)
         self._clock_message.pack(stamp)

@@ -42,11 +42,6 @@ class Lidar:
         self._distances = np.zeros(BEAMS)
         self._noise = noise
 
-    def reset(self) -> None:
-        """Begin the same noise again."""
-        if self._noise is not None:
-            self._noise.reset()
-
     def scan(self, state: RobotState, period_sec: float) -> npt.NDArray[np.float32]:
         """
         Return the range of every beam, from the right to the left.

@@ -42,11 +42,6 @@ class NavSat:
         self._north_m = across**3 * (1.0 - squared) / _EQUATOR_M**2
         self._east_m = across * math.cos(latitude_rad)
 
-    def reset(self) -> None:
-        """Begin the same noise again."""
-        if self._noise is not None:
-            self._noise.reset()
-
     def locate(self, position: Vector, period_sec: float) -> Fix:
         """Return the fix of a place in `world`."""
         x, y, z = position

@@ -44,11 +44,11 @@ class Sensors:
         *,
         seed: list[int],
     ) -> None:
-        noisy = config.noise
-        self._lidar = lidar.Lidar(
-            name, model, data, lidar.new_noise([*seed, 1]) if noisy else None
-        )
-        self._navsat = navsat.NavSat(navsat.new_noise([*seed, 2]) if noisy else None)
+        of_lidar = lidar.new_noise([*seed, 1]) if config.noise else None
+        of_navsat = navsat.new_noise([*seed, 2]) if config.noise else None
+        self._noises = [noise for noise in (of_lidar, of_navsat) if noise is not None]
+        self._lidar = lidar.Lidar(name, model, data, of_lidar)
+        self._navsat = navsat.NavSat(of_navsat)
         self._scans = Rate(config.lidar_rate_hz)
         self._fixes = Rate(config.navsat_rate_hz)
         self._scan_period_sec = 1.0 / (config.lidar_rate_hz or 1.0)
@@ -58,8 +58,8 @@ class Sensors:
 
     def reset(self) -> None:
         """Begin the same noise again."""
-        self._lidar.reset()
-        self._navsat.reset()
+        for noise in self._noises:
+            noise.reset()
         self.scan = self.fix = None
 
     def measure(self, state: RobotState, periods: int) -> None:
