@@ -15,10 +15,11 @@ import sys
 import tempfile
 import time
 
+from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import Course, load_course
-from husky_grader.run import drive_route
-from husky_grader.scoring import Report, score
+from husky_grader.run.in_process import drive_route
+from husky_grader.scoring.report import judge, Report
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSES = ROOT / 'config' / 'waypoints'
@@ -69,7 +70,7 @@ def follow() -> int:
         course = load_course(file)
         for odometry in ODOMETRY:
             record, _ = drive_route(plan_route(course), odometry=odometry)
-            report = score(record, plan_route(course))
+            report = judge(read_run(record), plan_route(course))
             wrong = list(broken(course, odometry, report))
             count += len(wrong)
             print(

@@ -18,7 +18,8 @@ import os
 import subprocess
 import sys
 
-from husky_sim.messages import packed_messages, prove
+from husky_sim.messages.messages import packed_messages
+from husky_sim.messages.packed_message import prove
 
 DIGITS = 64
 

@@ -32,8 +32,9 @@ import sys
 import time
 from typing import Any
 
+from husky_course.frames import Array
 from husky_runtime.domains import in_own_domain
-from husky_sim.sensors import Array, PlanarFilter, RATE, VX, WHEEL_SPEED_VARIANCE
+from husky_sim.sensors.localization import PlanarFilter, RATE, VX, WHEEL_SPEED_VARIANCE
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
 import numpy as np

@@ -8,12 +8,12 @@ import signal
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from husky_course.record import read_record, Record
+from husky_course.record import read_record, read_run, Record
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_driver.drive import Drive
-from husky_driver.ros import FollowPath
-from husky_grader.scoring import score
+from husky_driver.ros.node import FollowPath
+from husky_grader.scoring.report import judge
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
@@ -67,7 +67,7 @@ def test_the_central_barrier_is_driven_round_without_a_touch(
 ) -> None:
     course = COURSES / 'central_barrier.yaml'
     exit_code, record = drive(nodes, course, tmp_path / 'run.record', timeout_sec=90, **time)
-    report = score(record, plan_route(load_course(str(course))))
+    report = judge(read_run(record), plan_route(load_course(str(course))))
     assert exit_code == 0
     assert report.completed
     assert report.waypoints_reached == report.waypoints_total == 13
@@ -98,7 +98,7 @@ def test_a_course_through_the_barrier_reports_the_collision(
     values = {entry.key: entry.value for entry in touch.values}
     assert values['obstacle'] == 'jersey_barrier_15'
     assert float(values['force_n']) > 0.0
-    report = score(record, plan_route(load_course(str(course))))
+    report = judge(read_run(record), plan_route(load_course(str(course))))
     assert not report.completed
     assert {collision.obstacle for collision in report.collisions} == {'jersey_barrier_15'}
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 import math
 import time
 
-from husky_view.picture import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
+from husky_view.picture.camera import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
 from husky_view.server import close_server, open_server
 import numpy as np
 import numpy.typing as npt

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
 Number = TypeVar('Number', float, Array)
 
 Pose = tuple[float, float, float]

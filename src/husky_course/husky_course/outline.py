@@ -12,11 +12,9 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-import numpy.typing as npt
 
+from husky_course.frames import Array
 from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
-
-Array = npt.NDArray[np.float64]
 
 _CHUNK = 20_000  # poses at a time: a day of them would take gigabytes
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from husky_course.route import plan_route, smooth_curve
+from husky_course.route import plan_route
+from husky_course.route.path import smooth_curve
 from husky_course.waypoints import parse_course
 from husky_driver.checks.path_scan import FRONT_M, LASER_X_M, look_along, Scan, Sighting
 from husky_driver.drive.drive import Drive

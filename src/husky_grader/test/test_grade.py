@@ -8,13 +8,13 @@ import subprocess
 import sys
 from typing import Any
 
-from husky_course.record import read_record
+from husky_course.record import read_record, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.check import main as check
 from husky_grader.grade import main as grade
 from husky_grader.run.in_process import drive_route
-from husky_grader.scoring.report import score
+from husky_grader.scoring.report import judge
 import pytest
 
 THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'
@@ -78,7 +78,7 @@ def test_a_closed_pipe_ends_grade_without_a_message(courses: Path, tmp_path: Pat
 def test_every_course_is_driven_on_its_path_without_a_touch(courses: Path, name: str) -> None:
     route = plan_route(load_course(courses / f'{name}.yaml'))
     record, drive = drive_route(route)
-    report = score(record, route)
+    report = judge(read_run(record), route)
     assert report.passed, report.reasons
     assert drive.reached == drive.total == report.waypoints_reached
     assert report.cross_track_rms_m <= 0.04
@@ -91,14 +91,14 @@ def test_on_ground_truth_the_deviation_is_below_three_cm(
 ) -> None:
     route = plan_route(load_course(courses / 'central_barrier.yaml'))
     record, _ = drive_route(route, odometry='ground_truth')
-    assert score(record, route).cross_track_rms_m <= 0.03
+    assert judge(read_run(record), route).cross_track_rms_m <= 0.03
 
 
 def test_a_start_elsewhere_takes_the_course_along(courses: Path) -> None:
     route = plan_route(load_course(courses / 'straight.yaml'))
     for odometry in ('filtered', 'wheel', 'ground_truth'):
         record, _ = drive_route(route, start=(-5.0, 2.0, 1.0), odometry=odometry)
-        assert score(record, route).passed
+        assert judge(read_run(record), route).passed
 
 
 def test_the_same_file_gives_the_same_trajectory(courses: Path, tmp_path: Path) -> None:

@@ -9,11 +9,11 @@ import subprocess
 import sys
 import time
 
-from husky_course.record import read_record
+from husky_course.record import read_record, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.run.in_process import drive_route
-from husky_grader.scoring.report import score
+from husky_grader.scoring.report import judge
 import pytest
 
 
@@ -51,7 +51,7 @@ def test_one_process_drives_the_trajectory_of_two_nodes(
     while not record.exists():
         assert time.monotonic() < deadline, 'the simulator left no record'
         time.sleep(0.01)
-    over_dds = score(read_record(record), route)
-    in_process = score(drive_route(route)[0], route)
+    over_dds = judge(read_run(read_record(record)), route)
+    in_process = judge(read_run(drive_route(route)[0]), route)
     assert over_dds.trajectory_sha256 == in_process.trajectory_sha256
     assert over_dds.score == in_process.score

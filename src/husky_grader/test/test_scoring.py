@@ -6,11 +6,11 @@ from itertools import pairwise
 import math
 import struct
 
-from husky_course.record import Collision, COLUMNS, Disturbance, Record, RecordRefused
+from husky_course.record import Collision, COLUMNS, Disturbance, read_run, Record, RecordRefused
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_grader.scoring.alignment import projected
-from husky_grader.scoring.report import score
+from husky_grader.scoring.report import judge
 import numpy as np
 import pytest
 
@@ -33,7 +33,7 @@ def along(*corners: tuple[float, float], speed_m_s: float = SPEED_M_S) -> Places
 
 
 def test_a_run_along_the_path_gets_every_point(make_record: Make) -> None:
-    report = score(make_record(along((0, 0), (4, 0))), STRAIGHT)
+    report = judge(read_run(make_record(along((0, 0), (4, 0)))), STRAIGHT)
     assert report.passed
     assert report.completed
     assert report.score == pytest.approx(100.0)
@@ -46,7 +46,7 @@ def test_a_run_along_the_path_gets_every_point(make_record: Make) -> None:
 
 
 def test_a_parallel_run_is_off_the_path_by_its_distance(make_record: Make) -> None:
-    report = score(make_record(along((0, 0.2), (4, 0.2))), STRAIGHT)
+    report = judge(read_run(make_record(along((0, 0.2), (4, 0.2)))), STRAIGHT)
     assert report.cross_track_rms_m == pytest.approx(0.2)
     assert report.completed
     tracking = report.parts[-1]
@@ -68,7 +68,7 @@ def touch_at(time_sec: float) -> Collision:
 
 def test_each_collision_costs_a_factor_and_fails_the_run(make_record: Make) -> None:
     record = make_record(along((0, 0), (4, 0)), collisions=[touch_at(1.0), touch_at(2.0)])
-    report = score(record, STRAIGHT)
+    report = judge(read_run(record), STRAIGHT)
     assert report.completed
     assert not report.passed
     assert report.score == pytest.approx(100 * 0.65**2)
@@ -76,13 +76,15 @@ def test_each_collision_costs_a_factor_and_fails_the_run(make_record: Make) -> N
 
 
 def test_the_costs_of_the_parts_add_up_to_the_missing_points(make_record: Make) -> None:
-    report = score(make_record(along((0, 0.3), (2, 0.3), (3, 0.3), speed_m_s=0.2)), STRAIGHT)
+    report = judge(
+        read_run(make_record(along((0, 0.3), (2, 0.3), (3, 0.3), speed_m_s=0.2))), STRAIGHT
+    )
     assert 100 - sum(part.cost_points for part in report.parts) == pytest.approx(report.score)
     assert report.score == pytest.approx(100 * math.prod(part.factor for part in report.parts))
 
 
 def test_stopping_early_is_not_completed_and_says_where(make_record: Make) -> None:
-    report = score(make_record(along((0, 0), (2.5, 0))), STRAIGHT)
+    report = judge(read_run(make_record(along((0, 0), (2.5, 0)))), STRAIGHT)
     assert not report.completed
     assert report.waypoints_reached == 2
     assert 'missed waypoint 3 at (4, 0): it came no nearer than 1.50 m' in report.reasons[0]
@@ -92,7 +94,7 @@ def test_stopping_early_is_not_completed_and_says_where(make_record: Make) -> No
 def test_a_run_that_never_stops_is_not_completed(make_record: Make) -> None:
     places = along((0, 0), (4, 0), (4.2, 0))[:-10]
     record = make_record(places, speed_m_s=[SPEED_M_S] * len(places))
-    report = score(record, STRAIGHT)
+    report = judge(read_run(record), STRAIGHT)
     assert report.waypoints_reached == 3
     assert not report.completed
     assert any('did not stop: still driving 0.50 m/s' in reason for reason in report.reasons)
@@ -100,7 +102,7 @@ def test_a_run_that_never_stops_is_not_completed(make_record: Make) -> None:
 
 def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make) -> None:
     for course in (STRAIGHT, LOOP):
-        report = score(make_record([(0.0, 0.0)] * 50), course)
+        report = judge(read_run(make_record([(0.0, 0.0)] * 50)), course)
         assert report.score == 0.0
         assert not report.completed
         assert 'no command but zero arrived' in report.reasons[0]
@@ -108,32 +110,32 @@ def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make
 
 def test_a_cut_corner_misses_its_waypoint_and_only_that(make_record: Make) -> None:
     run = along((0, 0), (3, 0), (0.5, 3), (0, 3), (0, 0))
-    report = score(make_record(run), LOOP)
+    report = judge(read_run(make_record(run)), LOOP)
     assert (report.waypoints_reached, report.waypoints_total) == (4, 5)
     assert 'missed waypoint 3 at (3, 3)' in report.reasons[0]
     assert report.cross_track_max_m > 1.0
 
 
 def test_a_loop_driven_the_wrong_way_round_is_not_completed(make_record: Make) -> None:
-    report = score(make_record(along((0, 0), (0, 3), (3, 3), (3, 0), (0, 0))), LOOP)
+    report = judge(read_run(make_record(along((0, 0), (0, 3), (3, 3), (3, 0), (0, 0)))), LOOP)
     assert not report.completed
     assert any('not in its turn' in reason for reason in report.reasons)
 
 
 def test_driving_faster_than_asked_costs_points(make_record: Make) -> None:
-    report = score(make_record(along((0, 0), (4, 0), speed_m_s=0.9)), STRAIGHT)
+    report = judge(read_run(make_record(along((0, 0), (4, 0), speed_m_s=0.9))), STRAIGHT)
     assert report.parts[2].factor == pytest.approx(0.5, abs=0.02)
     assert 'faster than asked' in report.parts[2].why
 
 
 def test_driving_slowly_costs_points_in_proportion(make_record: Make) -> None:
-    report = score(make_record(along((0, 0), (4, 0), speed_m_s=0.3)), STRAIGHT)
+    report = judge(read_run(make_record(along((0, 0), (4, 0), speed_m_s=0.3))), STRAIGHT)
     assert report.parts[2].factor == pytest.approx(1.15 * 9.0 / 13.33, abs=0.02)
 
 
 def test_a_start_elsewhere_moves_the_course_with_it(make_record: Make) -> None:
     run = [(2.0 - y, 1.0 + x) for x, y in along((0, 0), (4, 0))]
-    report = score(make_record(run, start=[2.0, 1.0, math.pi / 2]), STRAIGHT)
+    report = judge(read_run(make_record(run, start=[2.0, 1.0, math.pi / 2])), STRAIGHT)
     assert report.passed
     assert report.cross_track_max_m < 1e-6
 
@@ -142,21 +144,21 @@ def test_the_hash_is_of_time_and_true_pose_in_full_precision(make_record: Make) 
     record = make_record(along((0, 0), (4, 0)))
     columns = (record.column(0, name) for name in ('time_sec', 'x', 'y', 'yaw'))
     data = b''.join(struct.pack('<4d', *entry) for entry in zip(*columns, strict=True))
-    assert score(record, STRAIGHT).trajectory_sha256 == hashlib.sha256(data).hexdigest()
+    assert judge(read_run(record), STRAIGHT).trajectory_sha256 == hashlib.sha256(data).hexdigest()
     record.rows[5, 0, COLUMNS.index('x')] = math.nextafter(record.column(0, 'x')[5], 9.0)
-    assert score(record, STRAIGHT).trajectory_sha256 != hashlib.sha256(data).hexdigest()
+    assert judge(read_run(record), STRAIGHT).trajectory_sha256 != hashlib.sha256(data).hexdigest()
 
 
 def test_a_robot_that_is_not_in_the_record_is_refused(make_record: Make) -> None:
     record = make_record(along((0, 0), (4, 0)))
     with pytest.raises(RecordRefused, match="robot 'beta' is not in the record; it has: husky"):
-        score(record, STRAIGHT, robot='beta')
+        judge(read_run(record, 'beta'), STRAIGHT)
 
 
 def test_the_reports_time_begins_with_the_first_command(make_record: Make) -> None:
     waits = [(0.0, 0.0)] * 100  # two seconds
     record = make_record([*waits, *along((0, 0), (4, 0))], collisions=[touch_at(3.0)])
-    report = score(record, STRAIGHT)
+    report = judge(read_run(record), STRAIGHT)
     (touch,) = report.collisions
     assert touch.time_sec == pytest.approx(1.0, abs=0.03)
     assert 'touched cone with its base at 1.00 s, with 12 N' in report.reasons
@@ -168,7 +170,7 @@ def test_every_collision_lies_within_the_time_of_the_run(
     make_record: Make, time_sec: float
 ) -> None:
     places = [*[(0.0, 0.0)] * 100, *along((0, 0), (4, 0))]
-    report = score(make_record(places, collisions=[touch_at(time_sec)]), STRAIGHT)
+    report = judge(read_run(make_record(places, collisions=[touch_at(time_sec)])), STRAIGHT)
     assert 0.0 <= report.collisions[0].time_sec <= report.sim_time_sec
 
 
@@ -201,7 +203,7 @@ def test_a_disturbed_run_is_worth_nothing_and_says_why(
     make_record: Make, topic: str, nodes: tuple[str, ...], said: str
 ) -> None:
     other = Disturbance(time_sec=3.2, topic=topic, nodes=nodes)
-    report = score(make_record(along((0, 0), (4, 0)), disturbances=[other]), STRAIGHT)
+    report = judge(read_run(make_record(along((0, 0), (4, 0)), disturbances=[other])), STRAIGHT)
     assert report.completed
     assert not report.passed
     assert report.score == 0.0
@@ -213,7 +215,7 @@ def test_a_disturbed_run_is_worth_nothing_and_says_why(
 
 def test_a_record_that_breaks_off_is_judged_as_far_as_it_goes(make_record: Make) -> None:
     run = along((0, 0), (4, 0))[:300]
-    report = score(make_record(run, complete=False), STRAIGHT)
+    report = judge(read_run(make_record(run, complete=False)), STRAIGHT)
     assert report.waypoints_reached == 2
     assert not report.passed
     assert report.reasons[0].startswith('the run ended early: its record breaks off at 5.98 s')
@@ -234,7 +236,7 @@ def test_a_run_laid_along_its_path_is_projected_as_pose_by_pose() -> None:
 def test_a_long_stand_on_the_way_changes_no_score(make_record: Make) -> None:
     there, back = along((0, 0), (2, 0.1)), along((2, 0.1), (4, 0))
     short, long = (
-        score(make_record([*there, *[(2.0, 0.1)] * stand, *back]), STRAIGHT)
+        judge(read_run(make_record([*there, *[(2.0, 0.1)] * stand, *back])), STRAIGHT)
         for stand in (10, 30_000)
     )
     assert long.waypoints_reached == short.waypoints_reached == 3

@@ -12,13 +12,14 @@ from pathlib import Path
 import sys
 from typing import Any
 
+from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import Course, load_course, parse_course
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_grader.grade import main as grade
 from husky_grader.run.in_process import drive_with
-from husky_grader.scoring.report import Report, score
+from husky_grader.scoring.report import judge, Report
 import pytest
 
 Turn = Callable[[float, float], tuple[float, float]]
@@ -42,7 +43,9 @@ def moved(course: Course, turn: Turn, **changes: Any) -> Course:
 
 def judged(wrong: Course, asked: Course) -> Report:
     """Drive one course where another was asked."""
-    return score(drive_with(Drive(plan_route(wrong)).step, limit_sec=120.0), plan_route(asked))
+    return judge(
+        read_run(drive_with(Drive(plan_route(wrong)).step, limit_sec=120.0)), plan_route(asked)
+    )
 
 
 def test_the_right_solution_passes(barrier: Course) -> None:
@@ -89,7 +92,7 @@ def test_a_reversed_forward_axis_is_the_first_reason() -> None:
         command = drive.step(now)
         return None if command is None else Command(-command.speed_m_s, command.yaw_rate_rad_s)
 
-    report = score(drive_with(controller, world=EMPTY, limit_sec=8.0), plan_route(BEND))
+    report = judge(read_run(drive_with(controller, world=EMPTY, limit_sec=8.0)), plan_route(BEND))
     assert report.score == 0.0
     assert 'm backwards where the course asks for forwards' in report.reasons[0]
 
@@ -131,7 +134,7 @@ def test_one_that_touches_a_cone_is_told_which_and_with_what() -> None:
 )
 def test_one_in_the_wrong_frame_is_told_which(turn: Turn, reason: str) -> None:
     record = drive_with(Drive(plan_route(moved(BEND, turn))).step, world=EMPTY, limit_sec=60.0)
-    report = score(record, plan_route(BEND))
+    report = judge(read_run(record), plan_route(BEND))
     assert not report.passed
     assert any(line.startswith(reason) for line in report.reasons), report.reasons
 
@@ -143,7 +146,7 @@ def test_one_that_takes_degrees_for_radians_is_told_so(barrier: Course) -> None:
         bearing = math.degrees(math.atan2(goal.y_m - now.y_m, goal.x_m - now.x_m))
         return Command(0.3, bearing - now.yaw_rad)
 
-    report = score(drive_with(controller, limit_sec=20.0), plan_route(barrier))
+    report = judge(read_run(drive_with(controller, limit_sec=20.0)), plan_route(barrier))
     assert not report.passed
     assert any('that is rad/s, not degrees' in reason for reason in report.reasons)
 
@@ -153,7 +156,7 @@ def test_one_whose_angles_never_come_back_to_pi_is_told_so() -> None:
         turned = now.time_sec * 2.0  # it takes the angle to its goal for ever larger
         return Command(0.2, min(turned, 2.0))
 
-    report = score(drive_with(controller, world=EMPTY, limit_sec=12.0), plan_route(BEND))
+    report = judge(read_run(drive_with(controller, world=EMPTY, limit_sec=12.0)), plan_route(BEND))
     assert not report.passed
     assert any(
         'rounds more than the path does: angles are in radians' in reason
@@ -177,7 +180,7 @@ def test_one_that_never_stops_is_not_completed() -> None:
         command = drive.step(now)
         return Command(0.5, 0.0) if command is None or now.x_m < -3.5 else command
 
-    report = score(drive_with(controller, limit_sec=14.0), plan_route(asked))
+    report = judge(read_run(drive_with(controller, limit_sec=14.0)), plan_route(asked))
     assert not report.passed
     assert report.waypoints_reached == 3
     assert any(reason.startswith('did not stop: still driving') for reason in report.reasons)

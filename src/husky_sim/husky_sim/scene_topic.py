@@ -15,8 +15,8 @@ import time
 from typing import Any
 from uuid import uuid4
 
+from husky_course.frames import Array
 import numpy as np
-import numpy.typing as npt
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -37,8 +37,6 @@ _KEY = 16
 
 # Best effort: the simulator must not wait for a viewer that hangs.
 QOS = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,13 +15,12 @@ import tracemalloc
 from typing import Any
 
 from husky_course.record import (
-    block_of,
     COLUMNS,
     FILE_NAME,
-    read_blocks,
     read_record,
     RecordRefused,
 )
+from husky_course.record.blocks import block_of, read_blocks
 from husky_sim.errors import SettingError
 from husky_sim.recording.recorder import open_recorder, RunRecorder
 from husky_sim.simulation import Simulation

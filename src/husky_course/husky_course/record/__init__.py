@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The record of a run: its format, its writer and its reader."""
 
-from husky_course.record.blocks import block_of, read_blocks
 from husky_course.record.contents import Collision, COLUMNS, Disturbance, Row
 from husky_course.record.record import read_record, Record, RecordRefused
 from husky_course.record.run import read_run, Run
@@ -18,8 +17,6 @@ __all__ = [
     'RecordWriter',
     'Row',
     'Run',
-    'block_of',
-    'read_blocks',
     'read_record',
     'read_run',
 ]

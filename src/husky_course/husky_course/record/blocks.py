@@ -17,9 +17,6 @@ from typing import Any, BinaryIO
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
-import numpy.typing as npt
-
-Array = npt.NDArray[Any]
 
 _HEADER_BYTES = 128  # of a block with so few dimensions
 _KINDS = (np.dtype('<f8'), np.dtype('|u1'))

@@ -5,10 +5,8 @@
 from dataclasses import dataclass, fields
 from typing import Generic, TypeVar
 
-import numpy as np
-import numpy.typing as npt
+from husky_course.frames import Array
 
-Array = npt.NDArray[np.float64]
 Value = TypeVar('Value')
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from husky_course.frames import Array
 from husky_course.outline import least_clearance, Outline
 from husky_course.record.blocks import read_blocks
 from husky_course.record.contents import Collision, COLUMNS, Disturbance, Push
@@ -31,8 +31,6 @@ _BOUNDS = {
     **dict.fromkeys(('speed_m_s', 'yaw_rate_rad_s'), MAX_RATE),
     **dict.fromkeys(('command_speed_m_s', 'command_yaw_rate_rad_s'), MAX_RATE),
 }
-
-Array = npt.NDArray[np.float64]
 
 
 class RecordRefused(ValueError):

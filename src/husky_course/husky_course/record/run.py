@@ -14,15 +14,11 @@ import hashlib
 import math
 
 import numpy as np
-import numpy.typing as npt
 
-from husky_course.frames import Pose, to_odom, to_world
+from husky_course.frames import Array, Indices, Pose, to_odom, to_world
 from husky_course.outline import Outline
 from husky_course.record.contents import Collision, COLUMNS, Columns, Disturbance
 from husky_course.record.record import Record, RecordRefused
-
-Array = npt.NDArray[np.float64]
-Indices = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -3,7 +3,7 @@
 """The route of a course: legs on smooth curves, and how long they take."""
 
 from husky_course.route.legs import Leg
-from husky_course.route.path import Curve, Point, smooth_curve
+from husky_course.route.path import Curve, Point
 from husky_course.route.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, plan_route, Route
 from husky_course.route.speeds import DriveLimits, plan_speeds
 from husky_course.route.survey import NearPass, Survey, survey_route
@@ -20,6 +20,5 @@ __all__ = [
     'Survey',
     'plan_route',
     'plan_speeds',
-    'smooth_curve',
     'survey_route',
 ]

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The ROS interface of the driver."""
 
-from husky_driver.ros.node import FollowPath
 from husky_driver.ros.progress import Tally
 from husky_driver.ros.readings import read_odometry
 
-__all__ = ['FollowPath', 'Tally', 'read_odometry']
+__all__ = ['Tally', 'read_odometry']

@@ -16,18 +16,15 @@ import math
 from pathlib import Path
 import re
 
-from husky_course.frames import Pose, to_world
+from husky_course.frames import Array, Pose, to_world
 from husky_course.outline import Outline
 from husky_course.printable import printable
 from husky_course.record import Run
 from husky_course.route import Point, Route
 import numpy as np
-import numpy.typing as npt
 
 from husky_grader.report.plot import ticks
 from husky_grader.scoring.report import Report
-
-Array = npt.NDArray[np.float64]
 
 MAX_POINTS = 1500
 MARGIN_M = 0.8

@@ -1,7 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs to be judged: in one process, or live on a ROS graph."""
-
-from husky_grader.run.in_process import drive_route
-
-__all__ = ['drive_route']

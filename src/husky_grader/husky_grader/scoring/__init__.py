@@ -1,7 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """The score of a run, and why."""
-
-from husky_grader.scoring.report import Report, score
-
-__all__ = ['Report', 'score']

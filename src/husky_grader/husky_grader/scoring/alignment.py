@@ -15,19 +15,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 import math
 
+from husky_course.frames import Array, Indices
 from husky_course.record import Run
 from husky_course.route import Curve, Route
 from husky_course.waypoints import Course, Waypoint
 import numpy as np
-import numpy.typing as npt
 
 MAX_POSES = 2500
 PATH_STEP_M = 0.05
 MAX_PLACES = 2500
 CHUNK = 500  # entries, ten seconds: compared with a waypoint by their bounding box first
 
-Array = npt.NDArray[np.float64]
-Indices = npt.NDArray[np.int64]
 Frame = Callable[[Array, Array], tuple[Array, Array]]  # from odom into another frame
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from husky_course.frames import Array, Indices
 from husky_course.record import Collision, Disturbance, Run
 from husky_course.route import Route
 from husky_course.waypoints import Course
@@ -14,9 +15,6 @@ import numpy as np
 import numpy.typing as npt
 
 from husky_grader.scoring.alignment import Alignment
-
-Array = npt.NDArray[np.float64]
-Indices = npt.NDArray[np.int64]
 
 STANDING_M_S = 0.02
 STANDING_RAD_S = 0.05

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 import math
 
+from husky_course.frames import Array
 from husky_course.record import Disturbance, Run
 from husky_course.route import Curve, Route
 from husky_course.waypoints import Course
 import numpy as np
-import numpy.typing as npt
 
 from husky_grader.scoring.alignment import Frame, mistaken_frames, waypoints_in_order
 from husky_grader.scoring.measurement import ENOUGH_M, Measurement, STANDING_M_S
@@ -27,7 +27,6 @@ DEGREES_RAD_S = 6.3  # a whole turn a second: meant were degrees
 ROUNDS = 2.0
 ORDER_SHARE = 0.8  # of the waypoints but the first, where every run begins
 
-Array = npt.NDArray[np.float64]
 FRAMES: dict[str, Frame] = {
     'mirrored: y is to the left of the Husky, not to its right': lambda x, y: (x, -y),
     'with x and y swapped: x is forward, y is to the left': lambda x, y: (y, x),

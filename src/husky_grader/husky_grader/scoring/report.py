@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from husky_course.record import read_run, Record, Run
+from husky_course.record import Run
 from husky_course.route import Route
 
 from husky_grader.scoring.alignment import align
@@ -66,21 +66,6 @@ class Report(Measurement):
         """Whether the run passed; the only place that decides it."""
         trouble = self.collisions or self.disturbances or self.ended_early
         return self.completed and not trouble
-
-
-def score(
-    record: Record,
-    route: Route,
-    *,
-    wall_time_sec: float | None = None,
-    robot: str | None = None,
-) -> Report:
-    """
-    Return the report on a robot's run in a record.
-
-    :raises RecordRefused: when the record cannot be judged.
-    """
-    return judge(read_run(record, robot), route, wall_time_sec=wall_time_sec)
 
 
 def judge(run: Run, route: Route, *, wall_time_sec: float | None = None) -> Report:

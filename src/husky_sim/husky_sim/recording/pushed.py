@@ -7,8 +7,8 @@ Loose is every body outside the robots that has a joint. Its pose is recorded on
 moved.
 """
 
+from husky_course.frames import Indices
 import numpy as np
-import numpy.typing as npt
 
 from husky_sim.simulation import Simulation
 from husky_sim.world.world import World
@@ -40,7 +40,7 @@ class PushedBodies:
         self._simulation = simulation
         self._loose = loose_bodies(simulation.world)
         places = [place for part in self._loose.values() for place in range(part.start, part.stop)]
-        self._places: npt.NDArray[np.int64] = np.array(places, dtype=np.int64)
+        self._places: Indices = np.array(places, dtype=np.int64)
         self.restart()
 
     def restart(self) -> None:

@@ -1,7 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """The sensors of the robot, and the estimate of its pose."""
-
-from husky_sim.sensors.localization import Array, PlanarFilter, RATE, VX, WHEEL_SPEED_VARIANCE
-
-__all__ = ['RATE', 'VX', 'WHEEL_SPEED_VARIANCE', 'Array', 'PlanarFilter']

@@ -13,13 +13,10 @@ minute) and a gyroscope that drifts (0.3 rad a minute).
 
 import math
 
-from husky_course.frames import wrapped
+from husky_course.frames import Array, wrapped
 import numpy as np
-import numpy.typing as npt
 
 from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
-
-Array = npt.NDArray[np.float64]
 
 X, Y, YAW, VX, VY, RATE, AX, AY = range(8)
 

@@ -9,8 +9,8 @@ keeps its deviation, and forgets its value within an hour.
 
 import math
 
+from husky_course.frames import Array
 import numpy as np
-import numpy.typing as npt
 
 _DRIFT_FREQUENCY_HZ = 1.0 / 3600.0
 
@@ -35,7 +35,7 @@ class Noise:
         self._random = np.random.Generator(np.random.PCG64(self._seed))
         self._drift = self._drift_deviation * self._random.standard_normal(self._values)
 
-    def sample(self, period_sec: float) -> npt.NDArray[np.float64]:
+    def sample(self, period_sec: float) -> Array:
         """Return the errors of a sample, a period after the one before."""
         kept = math.exp(-period_sec * _DRIFT_FREQUENCY_HZ)
         fresh = self._drift_deviation * math.sqrt(1.0 - kept * kept)

@@ -5,7 +5,8 @@
 from collections.abc import Sequence
 import math
 
-from husky_course.outline import Array, Outline
+from husky_course.frames import Array
+from husky_course.outline import Outline
 import mujoco
 import numpy as np
 

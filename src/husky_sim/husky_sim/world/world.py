@@ -15,12 +15,11 @@ import math
 from pathlib import Path
 import warnings
 
-from husky_course.frames import to_world
+from husky_course.frames import Indices, to_world
 from husky_course.outline import Outline
 from husky_course.robot import RobotStart
 import mujoco
 import numpy as np
-import numpy.typing as npt
 
 from husky_sim.errors import StartPoseError, WorldError
 from husky_sim.world.silhouette import outline_of
@@ -44,7 +43,7 @@ class World:
     robots: tuple[RobotStart, ...]
     obstacles: tuple[Outline, ...]
     names: tuple[str, ...]  # of owners: first the robots, then the obstacles
-    owners: npt.NDArray[np.int64]  # of every geom: its place in names, or negative
+    owners: Indices  # of every geom: its place in names, or negative
     steps_per_period: int
 
     def part(self, geom: int) -> str:
@@ -219,9 +218,7 @@ def _is_ground(model: mujoco.MjModel, geom: int) -> bool:
     return any(name.lower().startswith(GROUND_NAMES) for name in names)
 
 
-def _owners(
-    model: mujoco.MjModel, robots: Sequence[RobotStart]
-) -> tuple[list[str], npt.NDArray[np.int64]]:
+def _owners(model: mujoco.MjModel, robots: Sequence[RobotStart]) -> tuple[list[str], Indices]:
     """Give every geom to a robot, an obstacle, the ground or nothing."""
     names = [robot.name for robot in robots]
     bases = {model.body(f'{robot.name}/base_link').id: i for i, robot in enumerate(robots)}
@@ -251,7 +248,7 @@ def _check_start(
     data: mujoco.MjData,
     robots: Sequence[RobotStart],
     names: Sequence[str],
-    owners: npt.NDArray[np.int64],
+    owners: Indices,
 ) -> None:
     for pair in data.contact.geom.tolist():
         ours, theirs = sorted(int(owners[geom]) for geom in pair)
@@ -268,7 +265,7 @@ def _outlines(
     model: mujoco.MjModel,
     data: mujoco.MjData,
     names: Sequence[str],
-    owners: npt.NDArray[np.int64],
+    owners: Indices,
     robots: int,
 ) -> tuple[Outline, ...]:
     outlines = []

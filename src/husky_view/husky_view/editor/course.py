@@ -15,13 +15,14 @@ from pathlib import Path
 import re
 from typing import Any
 
+from husky_course.frames import Array
 from husky_course.outline import clearances, Outline
 from husky_course.robot import RobotStart
 from husky_course.route import Leg, plan_route
 from husky_course.waypoints import Course, parse_course, Waypoint
 import numpy as np
 
-from husky_view.picture.geometry import Array, to_world
+from husky_view.picture.geometry import to_world
 
 UNDO_STEPS = 100
 NEAR_M = 0.3

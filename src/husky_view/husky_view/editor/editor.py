@@ -11,13 +11,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from husky_course.frames import Array
 from husky_sim.world import World
 import numpy as np
 import viser
 
 from husky_view.editor import course
 from husky_view.picture import palette
-from husky_view.picture.geometry import Array, on_ground, to_odom, to_world
+from husky_view.picture.geometry import on_ground, to_odom, to_world
 from husky_view.picture.marks import add_line, lifted, NumberedDiscs
 from husky_view.picture.scene import ABOVE_GROUND_M
 from husky_view.server import ActionQueue

@@ -6,12 +6,11 @@ from collections import deque
 from enum import auto, Enum
 import math
 
+from husky_course.frames import Array
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
 import mujoco
 import numpy as np
-
-from husky_view.picture.geometry import Array
 
 SILENCE_SEC = 1.5
 """A simulator that was silent for so long is gone; it publishes at 30 Hz, paused or not."""

@@ -12,6 +12,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped, PoseArray, Twist
+from husky_course.frames import Array
 from husky_course.record import Collision
 from husky_course.robot import RobotStart
 from husky_sim.world import default_worlds
@@ -28,7 +29,6 @@ from std_msgs.msg import Bool, UInt32
 from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_view.live.checks import FARTHEST_M
-from husky_view.picture.geometry import Array
 from husky_view.picture.picture import Picture
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -7,10 +7,9 @@ import contextlib
 import math
 from typing import Any
 
+from husky_course.frames import Array
 import numpy as np
 import viser
-
-from husky_view.picture.geometry import Array
 
 FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
 PRESETS = (FREE, FOLLOW, TOP)

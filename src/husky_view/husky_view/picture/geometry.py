@@ -5,13 +5,11 @@
 from collections.abc import Sequence
 import math
 
+from husky_course.frames import Array
 from husky_course.robot import RobotStart
 import numpy as np
-import numpy.typing as npt
 
 from husky_course import frames
-
-Array = npt.NDArray[np.float64]
 
 
 def to_world(start: RobotStart, points: Array) -> Array:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import math
 from typing import Any, NamedTuple
 
+from husky_course.frames import Array
 from husky_course.record import Collision
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +14,6 @@ import trimesh
 import viser
 
 from husky_view.picture import palette
-from husky_view.picture.geometry import Array
 from husky_view.picture.palette import Rgb
 
 Colors = Rgb | npt.NDArray[np.uint8]

@@ -8,6 +8,7 @@ The live page and the replay share it; it needs no ROS. For one thread.
 
 import time
 
+from husky_course.frames import Array
 from husky_course.robot import RobotStart
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
@@ -16,7 +17,7 @@ import viser
 
 from husky_view.picture import palette
 from husky_view.picture.camera import Cameras
-from husky_view.picture.geometry import Array, distance_to_line, to_world
+from husky_view.picture.geometry import distance_to_line, to_world
 from husky_view.picture.marks import add_line, CollisionMarks, lifted, NumberedDiscs, Trail
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
 

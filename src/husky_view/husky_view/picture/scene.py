@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The playpen and its robots on the page."""
 
+from husky_course.frames import Array
 from husky_sim.world import World
 from mjviser import ViserMujocoScene
 import mujoco
 import numpy as np
 import viser
-
-from husky_view.picture.geometry import Array
 
 GROUND = (176, 174, 168)
 GROUND_LINES = (160, 158, 152)

@@ -4,17 +4,15 @@
 
 import math
 
+from husky_course.frames import Array
 from husky_course.record import COLUMNS, read_record, Record, RecordRefused
 from husky_sim.recording import loose_bodies
 from husky_sim.robot import JOINTS
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
 import numpy as np
-import numpy.typing as npt
 
 from husky_sim.config import DriveConfig
-
-Array = npt.NDArray[np.float64]
 
 
 def load_run(path: str) -> Record:
