@@ -19,8 +19,7 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from husky_driver.drive.distance_drive import DistanceDrive
-from husky_driver.drive.drive import Drive
+from husky_driver.drive.drive import DistanceDrive, Drive
 from husky_driver.prompt import ask_move
 from husky_driver.ros.node import FollowPath, INTERRUPTED, TERMINATED
 from husky_driver.ros.settings import Settings

@@ -32,32 +32,21 @@ def ask_move(ask: Callable[[str], str] = input, say: Callable[[str], None] = pri
 
     :raises EOFError: at the end of the input.
     """
+
+    def until_valid(question: str, read: Callable[[str], T]) -> T:
+        while True:
+            try:
+                return read(ask(question).strip())
+            except ValueError as error:
+                say(str(error))
+
     say("Let's move your robot")
-    speed = _until_valid(ask, say, 'Input your speed: ', _read_speed)
-    distance = _until_valid(ask, say, 'Type your distance: ', _read_distance)
-    forward = _until_valid(ask, say, 'Forward?: ', _read_forward)
-    return Move(speed, distance, forward)
-
-
-def _until_valid(
-    ask: Callable[[str], str],
-    say: Callable[[str], None],
-    question: str,
-    read: Callable[[str], T],
-) -> T:
-    while True:
-        try:
-            return read(ask(question).strip())
-        except ValueError as error:
-            say(str(error))
-
-
-def _read_speed(answer: str) -> float:
-    return _number(answer, 'm/s', MIN_SPEED_M_S, MAX_SPEED_M_S)
-
-
-def _read_distance(answer: str) -> float:
-    return _number(answer, 'm', MIN_DISTANCE_M, MAX_DISTANCE_M)
+    speeds, distances = (MIN_SPEED_M_S, MAX_SPEED_M_S), (MIN_DISTANCE_M, MAX_DISTANCE_M)
+    return Move(
+        until_valid('Input your speed: ', lambda answer: _number(answer, 'm/s', *speeds)),
+        until_valid('Type your distance: ', lambda answer: _number(answer, 'm', *distances)),
+        until_valid('Forward?: ', _read_forward),
+    )
 
 
 def _number(answer: str, unit: str, low: float, high: float) -> float:

@@ -9,8 +9,7 @@ from typing import Any
 
 from husky_course.route import plan_route
 from husky_course.waypoints import Course, load_course, parse_course
-from husky_driver.drive.distance_drive import DistanceDrive
-from husky_driver.drive.drive import Drive
+from husky_driver.drive.drive import DistanceDrive, Drive
 from husky_driver.drive.slip import NO_SLIP
 from husky_driver.motion import Command, Odometry
 import pytest

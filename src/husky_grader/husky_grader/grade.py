@@ -104,7 +104,8 @@ def _grade(options: argparse.Namespace) -> int:
     if options.lab:
         return _grade_lab(options)
     if len(options.files) == 1:
-        return _grade_one(options)
+        file, folder = options.files[0], Path(options.report)
+        return _show_one(grade_file(file, folder, world=options.world), options)
     return _grade_many(options)
 
 
@@ -172,11 +173,6 @@ def _grade_lab(options: argparse.Namespace) -> int:
 
 def _answer_lines(answers: str) -> str:
     return answers.replace(',', '\n') + '\n'
-
-
-def _grade_one(options: argparse.Namespace) -> int:
-    grade = grade_file(options.files[0], Path(options.report), world=options.world)
-    return _show_one(grade, options)
 
 
 def _show_one(grade: Grade, options: argparse.Namespace, unwritten: str = '') -> int:

@@ -245,7 +245,7 @@ def test_the_preview_has_no_clearance_inside_the_barrier() -> None:
     edited = EditableCourse()
     edited.add(0.0, 0.0)
     edited.add(5.0, 0.0)
-    found = course.preview(edited.course, RobotStart(), simulation.world.obstacles)
-    assert found.clearance_m[0] > 0.5
-    assert found.clearance_m.min() == 0.0
-    assert json.dumps(found.line[-1].tolist()) == '[5.0, 0.0]'
+    line, clearance_m = course.preview(edited.course, RobotStart(), simulation.world.obstacles)
+    assert clearance_m[0] > 0.5
+    assert clearance_m.min() == 0.0
+    assert json.dumps(line[-1].tolist()) == '[5.0, 0.0]'

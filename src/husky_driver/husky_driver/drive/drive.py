@@ -8,10 +8,12 @@ Pure: the commands are a function of the sequence of odometry alone, so that a r
 
 from __future__ import annotations
 
+from functools import partial
 import math
 
-from husky_course.route import DriveLimits, Route
-from husky_course.waypoints import Course
+from husky_course.frames import Pose, to_world
+from husky_course.route import DriveLimits, plan_route, Route
+from husky_course.waypoints import Course, Waypoint
 
 from husky_driver.checks.plausibility import OdometryCheck
 from husky_driver.checks.watchdog import Watchdog
@@ -43,7 +45,8 @@ class Drive:
         self.failure = ''  # why it gave up, if it did
         self.implausible = ''  # why a message cannot be true, if one could not
         self.held = False  # true: stands where it is, and goes on when false again
-        self._now: Odometry | None = None
+        # The last odometry that was plausible, corrected for slip; None before the first.
+        self.odometry: Odometry | None = None
         self._gave_up_sec: float | None = None
         self._check = OdometryCheck()
         self._untrusted_stops = 0
@@ -90,17 +93,12 @@ class Drive:
         return self._follower.tracker
 
     @property
-    def odometry(self) -> Odometry | None:
-        """The last odometry that was plausible, corrected for slip; None before the first."""
-        return self._now
-
-    @property
     def speed_m_s(self) -> float:
-        return 0.0 if self._now is None else self._now.speed_m_s
+        return 0.0 if self.odometry is None else self.odometry.speed_m_s
 
     @property
     def elapsed_sec(self) -> float:
-        return 0.0 if self._now is None else self._now.time_sec - self._started_sec
+        return 0.0 if self.odometry is None else self.odometry.time_sec - self._started_sec
 
     def summary(self) -> str:
         return f'{self.reached} of {self.total} waypoints, {self.length_m:.2f} m of path'
@@ -111,11 +109,11 @@ class Drive:
             self.refuse_odometry(what)
         if self.implausible:
             return self._stop_untrusted()
-        before = self._now
+        before = self.odometry
         was_reset = before is not None and odometry.time_sec < before.time_sec
         if was_reset:
             self._slip.restart()
-        odometry = self._now = self._slip.corrected(odometry)
+        odometry = self.odometry = self._slip.corrected(odometry)
         if (before is None or was_reset) and not self.failure:
             self.finished = False
             self._begin(self._route_from(odometry), odometry)
@@ -157,7 +155,7 @@ class Drive:
 
     def add_acceleration(self, time_sec: float, acceleration_m_s2: float) -> None:
         """Add a forward acceleration of the IMU; without any, a wall ahead is not detected."""
-        if self._now is not None and not self.failure:
+        if self.odometry is not None and not self.failure:
             self._watchdog.bump.add_acceleration(time_sec, acceleration_m_s2)
 
     def refuse_odometry(self, what: str) -> None:
@@ -189,3 +187,21 @@ class Drive:
             min(max(wish.speed_m_s, speed - change), speed + change),
             min(max(wish.yaw_rate_rad_s, yaw_rate - turn), yaw_rate + turn),
         )
+
+
+class DistanceDrive(Drive):
+    """Drives straight on or back from where the robot starts, as the lab sheet's questions ask."""
+
+    def __init__(self, speed_m_s: float, distance_m: float, *, forward: bool = True) -> None:
+        plan = partial(_straight_route, speed_m_s, distance_m if forward else -distance_m)
+        super().__init__(plan((0.0, 0.0, 0.0)))
+        self._plan = plan
+
+    def _route_from(self, start: Odometry) -> Route:
+        return self._plan((start.x_m, start.y_m, start.yaw_rad))
+
+
+def _straight_route(speed_m_s: float, ahead_m: float, start: Pose) -> Route:
+    begin = Waypoint(start[0], start[1])
+    goal = Waypoint(*to_world(start, ahead_m, 0.0), reverse=ahead_m < 0.0)
+    return plan_route(Course('distance', (begin, goal), speed_m_s=speed_m_s))

@@ -298,11 +298,8 @@ def _corners(outline: Outline) -> list[Point]:
             (outline.x + radius * math.cos(a), outline.y + radius * math.sin(a)) for a in turns
         ]
     lx, ly = outline.size[0] / 2, outline.size[1] / 2
-    cos, sin = math.cos(outline.yaw), math.sin(outline.yaw)
-    return [
-        (outline.x + cos * x - sin * y, outline.y + sin * x + cos * y)
-        for x, y in ((lx, ly), (-lx, ly), (-lx, -ly), (lx, -ly))
-    ]
+    pose = (outline.x, outline.y, outline.yaw)
+    return [to_world(pose, x, y) for x, y in ((lx, ly), (-lx, ly), (-lx, -ly), (lx, -ly))]
 
 
 def _thinned(points: Sequence[Point]) -> list[Point]:

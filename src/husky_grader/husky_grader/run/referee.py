@@ -33,15 +33,10 @@ class Referee:
         self._dwells = [stop for stop in course.stops[:-1] if stop.dwell_sec > 0.0]
         self._heard_sec: float | None = None
         self._now_sec = 0.0  # from the first pose on; a reset takes nothing back
-        self._started = False
+        self.started = False  # whether the robot has moved
         self._resting_since_sec = 0.0
         self._driven_m = 0.0
         self._last = (0.0, 0.0)
-
-    @property
-    def started(self) -> bool:
-        """Tell whether the robot has moved."""
-        return self._started
 
     def over(
         self,
@@ -60,11 +55,11 @@ class Referee:
         self._driven_m += math.dist(place, self._last)
         self._last = place
         moving = abs(speed_m_s) > STANDING_M_S or abs(yaw_rate_rad_s) > STANDING_RAD_S
-        if moving or not self._started:
+        if moving or not self.started:
             self._resting_since_sec = self._now_sec
-        self._started = self._started or moving
+        self.started = self.started or moving
         nearer = self._progress.is_nearer(place)
-        if not self._started:
+        if not self.started:
             self._limit.complaint(self._now_sec, nearer=nearer, held=True)
             return self._before_start(self._now_sec, running=running)
         return self._at_rest(place, running=running) or self._limit.complaint(

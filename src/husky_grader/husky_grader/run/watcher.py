@@ -4,15 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import time
 from typing import Any
 
-from husky_course.frames import to_odom
 from husky_driver.checks import no_rotation, OdometryCheck
-from husky_driver.motion import yaw_of
+from husky_driver.motion import Odometry, relative_odometry
 from husky_driver.ros import read_odometry
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import Odometry as OdometryMsg
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import ReliabilityPolicy
@@ -34,14 +32,14 @@ class Watcher(Node):
         self.refused = ''  # why a pose cannot be true; after it none is taken
         self._check = OdometryCheck()
         self._hinting_since_sec: float | None = None
-        self._first: tuple[float, float, float] | None = None
-        self._poses = self.create_subscription(Odometry, 'ground_truth/odom', self._on_pose, 10)
+        self._first: Odometry | None = None
+        self._poses = self.create_subscription(OdometryMsg, 'ground_truth/odom', self._on_pose, 10)
 
-    def _on_pose(self, msg: Odometry) -> None:
+    def _on_pose(self, msg: OdometryMsg) -> None:
         if self.refused:
             return
-        what = no_rotation(msg.pose.pose.orientation) or self._check.complaint(read_odometry(msg))
-        if what:
+        pose = read_odometry(msg)
+        if what := no_rotation(msg.pose.pose.orientation) or self._check.complaint(pose):
             topic = self._poses.topic_name
             count = self.count_publishers(topic)
             self.refused = f'{topic} cannot be true: {what}' + (
@@ -50,20 +48,35 @@ class Watcher(Node):
                 else ''
             )
             return
-        self.latest = msg
+        self._first = self._first or pose
+        self.latest = relative_odometry(pose, self._first)
         self.count += 1
-        if self._first is None:
-            position, q = msg.pose.pose.position, msg.pose.pose.orientation
-            self._first = (position.x, position.y, yaw_of(q.x, q.y, q.z, q.w))
 
     def check_graph(self) -> None:
         """Look at the graph; hints are kept, because nodes may come and go."""
-        hints = _hints(self, COMMAND_TOPIC, OWN_NODES)
+        hints = self._wrong_commands()
         if not hints:
             self._hinting_since_sec = None
         elif self._hinting_since_sec is None:
             self._hinting_since_sec = time.monotonic()
         self.hints = hints or self.hints
+
+    def _wrong_commands(self) -> list[str]:
+        """Return what is wrong with how the controller publishes commands."""
+        if publishers := self._theirs(COMMAND_TOPIC):
+            return [hint for info in publishers for hint in _wrong(info)]
+        return [
+            f'it publishes {velocity[0]} on {name}; the Husky listens on {COMMAND_TOPIC}'
+            for name, kinds in sorted(self.get_topic_names_and_types())
+            if (velocity := [kind for kind in kinds if kind in VELOCITY_TYPES])
+            and name != COMMAND_TOPIC
+            and self._theirs(name)
+        ]
+
+    def _theirs(self, topic: str) -> list[Any]:
+        """Return the publishers of a topic that are the controller's."""
+        infos = self.get_publishers_info_by_topic(topic)
+        return [info for info in infos if info.node_name not in OWN_NODES]
 
     def hinting_sec(self, now_sec: float) -> float:
         """Return since when, until now, every look at the graph has found something wrong."""
@@ -72,58 +85,24 @@ class Watcher(Node):
 
     def state(self) -> dict[str, Any]:
         """Return the arguments of `Referee.over` that the newest pose gives."""
-        msg, first = self.latest, self._first
-        if msg is None or first is None:
+        now = self.latest
+        if now is None:
             raise RuntimeError('no pose yet')
-        position, twist = msg.pose.pose.position, msg.twist.twist
-        place = to_odom(first, position.x, position.y)
-        stamp = msg.header.stamp
         return {
-            'time_sec': stamp.sec + stamp.nanosec * 1e-9,
-            'place': place,
-            'speed_m_s': twist.linear.x,
-            'yaw_rate_rad_s': twist.angular.z,
+            'time_sec': now.time_sec,
+            'place': (now.x_m, now.y_m),
+            'speed_m_s': now.speed_m_s,
+            'yaw_rate_rad_s': now.yaw_rate_rad_s,
         }
 
 
-def _hints(node: Node, topic: str, own: Sequence[str]) -> list[str]:
-    """
-    Return what is wrong with how commands are published, seen from a node in the same graph.
-
-    :param topic: where the robot listens, fully qualified.
-    :param own: names of the nodes that are not the controller's.
-    """
-    publishers = [info for info in node.get_publishers_info_by_topic(topic) if _is_its(info, own)]
-    hints = [hint for info in publishers for hint in _wrong(info, topic)]
-    if publishers:
-        return hints
-    elsewhere = _elsewhere(node, topic, own)
-    return [
-        f'it publishes {kind} on {name}; the Husky listens on {topic}' for name, kind in elsewhere
-    ]
-
-
-def _is_its(info: Any, own: Sequence[str]) -> bool:
-    return info.node_name not in own
-
-
-def _wrong(info: Any, topic: str) -> list[str]:
-    hints = []
-    if info.topic_type != WANTED_TYPE:
-        hints.append(f'it publishes {info.topic_type} on {topic}; the Husky takes {WANTED_TYPE}')
+def _wrong(info: Any) -> list[str]:
+    kind, hints = info.topic_type, []
+    if kind != WANTED_TYPE:
+        hints.append(f'it publishes {kind} on {COMMAND_TOPIC}; the Husky takes {WANTED_TYPE}')
     if info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT:
         hints.append(
-            f'it publishes {topic} best effort; the Husky listens reliably and hears nothing'
+            f'it publishes {COMMAND_TOPIC} best effort; the Husky listens reliably and hears '
+            'nothing'
         )
     return hints
-
-
-def _elsewhere(node: Node, topic: str, own: Sequence[str]) -> list[tuple[str, str]]:
-    found = []
-    for name, kinds in sorted(node.get_topic_names_and_types()):
-        velocity = [kind for kind in kinds if kind in VELOCITY_TYPES]
-        if name != topic and velocity:
-            infos = node.get_publishers_info_by_topic(name)
-            if any(_is_its(info, own) for info in infos):
-                found.append((name, velocity[0]))
-    return found

@@ -32,10 +32,8 @@ class VelocityController:
 
     def reset(self) -> None:
         """Forget every command and stand still."""
-        self.asked_speed_m_s = 0.0
-        self.asked_yaw_rate_rad_s = 0.0
-        self.speed_m_s = 0.0
-        self.yaw_rate_rad_s = 0.0
+        self.asked_speed_m_s = self.asked_yaw_rate_rad_s = 0.0
+        self.speed_m_s = self.yaw_rate_rad_s = 0.0
         self.timed_out = False
         self._asked_at_sec = -math.inf
 
@@ -101,18 +99,13 @@ class WheelOdometry:
 
     def __init__(self, config: DriveConfig) -> None:
         self._config = config
-        self._angles_rad: tuple[float, float] | None = None
         self.reset()
 
     def reset(self) -> None:
         """Start again at the origin, whatever the wheels' angles are."""
-        self.x = 0.0
-        self.y = 0.0
-        self.yaw = 0.0
-        self.speed_m_s = 0.0
-        self.yaw_rate_rad_s = 0.0
-        self.distance_m = 0.0
-        self._angles_rad = None
+        self.x = self.y = self.yaw = 0.0
+        self.speed_m_s = self.yaw_rate_rad_s = 0.0
+        self._angles_rad: tuple[float, float] | None = None
 
     def update(self, left_rad: float, right_rad: float, *, period_sec: float) -> None:
         """
@@ -126,11 +119,11 @@ class WheelOdometry:
         left_m = (left_rad - self._angles_rad[0]) * radius
         right_m = (right_rad - self._angles_rad[1]) * radius
         self._angles_rad = (left_rad, right_rad)
-        self.distance_m = (left_m + right_m) / 2.0
+        distance_m = (left_m + right_m) / 2.0
         turned_rad = (right_m - left_m) / self._config.wheel_separation_m
-        self.speed_m_s = self.distance_m / period_sec
+        self.speed_m_s = distance_m / period_sec
         self.yaw_rate_rad_s = turned_rad / period_sec
-        self.x, self.y = along_arc(self.x, self.y, self.yaw, self.distance_m, turned_rad)
+        self.x, self.y = along_arc(self.x, self.y, self.yaw, distance_m, turned_rad)
         self.yaw = wrapped(self.yaw + turned_rad)
 
 

@@ -31,7 +31,8 @@ class RobotState(NamedTuple):
     @property
     def yaw(self) -> float:
         """Return the heading, from -pi to pi."""
-        return yaw_of(self.orientation)
+        w, x, y, z = self.orientation
+        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 class WheelState(NamedTuple):
@@ -156,12 +157,6 @@ def _block(values: np.ndarray, indices: list[int]) -> np.ndarray:
     if indices != list(range(indices[0], indices[0] + len(indices))):
         raise RuntimeError(f'the wheels lie apart in the model: {indices}')
     return values[indices[0] : indices[0] + len(indices)]
-
-
-def yaw_of(orientation: Quaternion) -> float:
-    """Return the heading of a quaternion w, x, y, z."""
-    w, x, y, z = orientation
-    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def into_body(orientation: Quaternion, vector: Vector) -> Vector:

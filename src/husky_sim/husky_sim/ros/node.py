@@ -31,13 +31,12 @@ from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.messages.messages import time_message
 from husky_sim.recording.recorder import open_recorder
-from husky_sim.ros.control_services import ControlServices
 from husky_sim.ros.diagnostics import PaceWatch
 from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pacing import Pacer
 from husky_sim.ros.parameters import FACTOR, read_factor, read_run, read_simulation
-from husky_sim.ros.simulation_services import add_simulation_services
+from husky_sim.ros.simulation_services import add_simulation_services, ControlServices
 from husky_sim.ros.simulation_topics import SimulationTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
@@ -78,19 +77,19 @@ class SimulatorNode(Node):
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)
-        self._simulation = Simulation(config)
-        self._record = open_recorder(self._simulation, self._run.record, self.get_logger().error)
+        self.simulation = Simulation(config)
+        self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         factor = self._run.real_time_factor
         self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
         self.over: Future[None] = Future()
-        self._paused = False
+        self.paused = False  # time stands still
         self._driven = False  # lockstep: the first odometry message is out
         self._answered = False  # lockstep: and was answered
         self._polls = 0  # lockstep: since the last message, without an answer
         self._sent_at_sec = 0.0
         self._topics = SimulationTopics(
             self,
-            self._simulation,
+            self.simulation,
             on_command=self._on_command,
             on_commander=lambda *event: self._interference.check_commands(*event),
         )
@@ -100,25 +99,20 @@ class SimulatorNode(Node):
             commands=self._topics.command_topics,
             on_found=self._on_interference,
         )
-        self._scene = SceneTopic(self, self._simulation, is_paused=lambda: self.paused)
+        self._scene = SceneTopic(self, self.simulation, is_paused=lambda: self.paused)
         ControlServices(self, self)
         add_simulation_services(self, self)
         self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
         self._timer = self._new_timer()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self._watch = PaceWatch(self._simulation)
+        self._watch = PaceWatch(self.simulation)
         self.create_timer(DIAGNOSTICS_PERIOD_SEC, self._on_diagnose, clock=self._steady)
         self.add_on_set_parameters_callback(self._on_set_parameters)
         self.get_logger().info(
-            f'{self._run.world}: {len(self._simulation.world.obstacles)} obstacles, '
+            f'{self._run.world}: {len(self.simulation.world.obstacles)} obstacles, '
             f'{", ".join(robot.name for robot in config.robots)}; '
             f'{self._describe_pace()}'
         )
-
-    @property
-    def simulation(self) -> Simulation:
-        """Return the simulation behind the node."""
-        return self._simulation
 
     def _tick_sec(self) -> float:
         if self._run.real_time_factor > 0.0:
@@ -150,7 +144,7 @@ class SimulatorNode(Node):
         return self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
 
     def _on_tick(self) -> None:
-        if self._paused:
+        if self.paused:
             return
         if self._run.lockstep:
             self._continue_lockstep()
@@ -163,7 +157,7 @@ class SimulatorNode(Node):
             now_sec = time.monotonic()
 
     def _on_command(self) -> None:
-        if self._run.lockstep and not self._paused:
+        if self._run.lockstep and not self.paused:
             self._answered = True
             self._advance_if_answered()
 
@@ -194,12 +188,12 @@ class SimulatorNode(Node):
 
     def _advance(self) -> None:
         self._topics.forget_commands()
-        self._simulation.advance()
+        self.simulation.advance()
         if self._record is not None:
             self._record.append()
         self._topics.publish()
         self._polls = 0
-        if 0.0 < self._run.limit_sec <= self._simulation.time_sec:
+        if 0.0 < self._run.limit_sec <= self.simulation.time_sec:
             self._end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._scene.append()
         self._topics.warn_of_timeouts()
@@ -213,34 +207,29 @@ class SimulatorNode(Node):
     def _on_interference(self, found: Interference) -> None:
         self.get_logger().error(str(found))
         if self._record is not None:
-            self._record.disturb(self._simulation.time_sec, found.topic, found.nodes)
+            self._record.disturb(self.simulation.time_sec, found.topic, found.nodes)
 
     def _on_diagnose(self) -> None:
-        waits = self._paused or self._run.lockstep
+        waits = self.paused or self._run.lockstep
         status = self._watch.status(self._pacer, self._run.real_time_factor, waits=waits)
         message = DiagnosticArray(status=[status])
-        message.header.stamp = time_message(self._simulation.stamp)
+        message.header.stamp = time_message(self.simulation.stamp)
         self._diagnostics.publish(message)
         self._topics.warn_of_other_types()
 
     @property
-    def paused(self) -> bool:
-        """Whether time stands still."""
-        return self._paused
-
-    @property
     def at_start(self) -> bool:
         """Whether no time has passed since the start or the last reset."""
-        return self._simulation.periods == 0
+        return self.simulation.periods == 0
 
     @property
     def time_sec(self) -> float:
         """Return the simulated time."""
-        return self._simulation.time_sec
+        return self.simulation.time_sec
 
     def pause(self, paused: bool) -> None:
         """Stop time, or continue."""
-        self._paused = paused
+        self.paused = paused
         self._pacer.restart()
 
     def step(self) -> None:
@@ -249,7 +238,7 @@ class SimulatorNode(Node):
 
     def reset(self) -> None:
         """Put everything back as it was at the start."""
-        self._simulation.reset()
+        self.simulation.reset()
         if self._record is not None:
             self._record.restart()
         self._pacer.restart()

@@ -1,17 +1,20 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The state services of simulation_interfaces, where that package is installed; else nothing.
+The services that control a run: ~/reset, ~/pause and ~/step.
 
-They do what ~/pause, ~/step and ~/reset do, for tools that control any simulator in this way:
-~/get_simulator_features, ~/get_simulation_state, ~/set_simulation_state, ~/reset_simulation and
-~/step_simulation. Result codes are those of Result.msg and SetSimulationState.srv, release 1.0.
+Where the package simulation_interfaces is installed, its state services do the same, for tools
+that control any simulator in this way: ~/get_simulator_features, ~/get_simulation_state,
+~/set_simulation_state, ~/reset_simulation and ~/step_simulation. Result codes are those of
+Result.msg and SetSimulationState.srv, release 1.0.
 """
 
-from typing import Any
+from typing import Any, Protocol
+
+from rclpy.node import Node
+from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_sim.config import CONTROL_PERIOD_SEC
-from husky_sim.ros.control_services import Run
 
 MOST_STEPS = 3000
 """A minute of simulated time: signals wait until the steps of one call are made."""
@@ -24,6 +27,57 @@ _FEATURES = (
     'STEP_SIMULATION_SINGLE',
     'STEP_SIMULATION_MULTIPLE',
 )
+
+
+class Run(Protocol):
+    """What services control; `at_start`: no time has passed since the start or a reset."""
+
+    @property
+    def paused(self) -> bool: ...
+
+    @property
+    def at_start(self) -> bool: ...
+
+    @property
+    def time_sec(self) -> float: ...
+
+    def pause(self, paused: bool) -> None: ...
+
+    def step(self) -> None: ...
+
+    def reset(self) -> None: ...
+
+
+class ControlServices:
+    """Offers the services of one run under its node."""
+
+    def __init__(self, node: Node, run: Run) -> None:
+        self._run = run
+        node.create_service(Empty, '~/reset', self._on_reset)
+        node.create_service(SetBool, '~/pause', self._on_pause)
+        node.create_service(Trigger, '~/step', self._on_step)
+
+    def _on_reset(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
+        self._run.reset()
+        return response
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._run.pause(request.data)
+        response.success = True
+        response.message = f'{"paused" if request.data else "going on"} at {self._now()}'
+        return response
+
+    def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._run.paused
+        if self._run.paused:
+            self._run.step()
+            response.message = f'stepped to {self._now()}'
+        else:
+            response.message = 'a step needs a paused simulation; call ~/pause with true first'
+        return response
+
+    def _now(self) -> str:
+        return f'{self._run.time_sec:.2f} s of simulated time'
 
 
 def add_simulation_services(node: Any, run: Run) -> bool:

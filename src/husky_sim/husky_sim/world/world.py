@@ -62,7 +62,7 @@ def load_world(path: str, robots: Sequence[RobotStart], *, husky: str = '') -> W
     """
     # By default MuJoCo writes its warnings to a file in the current folder. MjData counts them,
     # too.
-    mujoco.set_mju_user_warning(_ignore)
+    mujoco.set_mju_user_warning(lambda _: None)
     if len({robot.name for robot in robots}) != len(robots):
         raise StartPoseError(
             f'robots={[robot.name for robot in robots]}: every robot needs a name of its own'
@@ -88,10 +88,6 @@ def load_world(path: str, robots: Sequence[RobotStart], *, husky: str = '') -> W
         owners=owners,
         steps_per_period=steps,
     )
-
-
-def _ignore(_: str) -> None:
-    pass
 
 
 def _parsed(path: str) -> mujoco.MjSpec:
@@ -270,7 +266,7 @@ def _outlines(
 ) -> tuple[Outline, ...]:
     outlines = []
     for owner in range(robots, len(names)):
-        geoms = [int(geom) for geom in np.flatnonzero(owners == owner)]
+        geoms = np.flatnonzero(owners == owner).tolist()
         body = int(model.body_rootid[model.geom_bodyid[geoms[0]]])
         outlines.append(outline_of(names[owner], model, data, geoms, body=body))
     return tuple(outlines)

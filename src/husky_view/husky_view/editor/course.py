@@ -130,24 +130,18 @@ def _entry_of(waypoint: Waypoint) -> str:
     return f'  - {{x: {x}, y: {y}{more}}}\n' if more else f'  - [{x}, {y}]\n'
 
 
-@dataclass(frozen=True, kw_only=True)
-class Preview:
-    """The path that the driver would take, and its clearances, in the frame world."""
-
-    line: Array  # (n, 2)
-    clearance_m: Array  # (n,)
-
-
-def preview(course: Course, start: RobotStart, obstacles: Sequence[Outline]) -> Preview:
+def preview(
+    course: Course, start: RobotStart, obstacles: Sequence[Outline]
+) -> tuple[Array, Array]:
     """
-    Plan the driver's path through a course.
+    Return the path (n, 2) that the driver would take, and its clearances, in the frame world.
 
     :raises CourseRefused: if the driver would refuse it.
     """
     poses = _path(_parsed(text_of(course), 'the draft'))
     poses[:, :2] = to_world(start, poses[:, :2])
     poses[:, 2] += start.yaw
-    return Preview(line=poses[:, :2], clearance_m=clearances(poses, obstacles))
+    return poses[:, :2], clearances(poses, obstacles)
 
 
 def _path(course: Course) -> Array:

@@ -191,25 +191,27 @@ class Editor:
             highlighted=slice(0) if place is None else slice(place, place + 1),
         )
         try:
-            found = course.preview(self._edited.course, self._start, self._world.obstacles)
+            line, clearance_m = course.preview(
+                self._edited.course, self._start, self._world.obstacles
+            )
         except course.CourseRefused as error:
             few = len(points) < 2
             self._say('two waypoints make a course' if few else str(error), palette.SCARCE)
             return
-        self._show_path(found)
-        least = float(found.clearance_m.min())
+        self._show_path(line, clearance_m)
+        least = float(clearance_m.min())
         words = 'touches something' if least <= 0.0 else f'passes {least:.2f} m from something'
         color = _clearance_color(least)
         enough = '' if least >= ENOUGH_M else f'; keep {SCARCE_M} m at least'
         self._say(f'{len(points)} waypoints; {words}{enough}', color)
 
-    def _show_path(self, found: course.Preview) -> None:
-        colors = np.array([_clearance_color(float(c)) for c in found.clearance_m], dtype=np.uint8)
-        if len(found.line) >= 2:
+    def _show_path(self, line: Array, clearance_m: Array) -> None:
+        colors = np.array([_clearance_color(float(c)) for c in clearance_m], dtype=np.uint8)
+        if len(line) >= 2:
             add_line(
                 self._server,
                 _PATH,
-                lifted(found.line, self._height_m + 0.02),
+                lifted(line, self._height_m + 0.02),
                 np.stack([colors[:-1], colors[1:]], axis=1),
                 thickness_px=4.0,
             )

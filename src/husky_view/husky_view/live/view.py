@@ -4,9 +4,11 @@
 
 from contextlib import ExitStack
 import math
+import os
 from pathlib import Path
 import time
 
+from husky_runtime.children import ChildProcess
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
 from husky_sim.world import load_world, World
@@ -18,13 +20,14 @@ import viser
 
 from husky_view.editor.editor import Editor
 from husky_view.live.checks import RealTimeFactor, SceneCheck, SimulatorMonitor, State
-from husky_view.live.driver_process import DRIVER, DriverProcess
 from husky_view.live.links import RobotLink, SimulatorControl, SimulatorQuery
 from husky_view.live.panel import Panel
 from husky_view.picture.picture import Picture
 from husky_view.server import ActionQueue
 
 FIGURES_HZ = 5.0
+DRIVER = 'follow_path'
+DRIVER_END_SEC = 1.0
 _LOOK_FOR_FILES_SEC = 2.0
 
 _WARNINGS = {
@@ -37,6 +40,35 @@ _WARNINGS = {
 
 _INVALID = 'Not drawn, for it cannot be true: {what}.'
 _INVALID_SEC = 3.0
+
+
+class DriverProcess:
+    """The driver as a process, started from the page to drive a file; at most one at a time."""
+
+    def __init__(self) -> None:
+        self._process: ChildProcess | None = None
+
+    @property
+    def is_running(self) -> bool:
+        """Tell whether the last one still drives."""
+        return self._process is not None and self._process.exit_code is None
+
+    def start(self, file: Path, namespace: str) -> None:
+        """Begin to drive; one that still drives is ended first."""
+        self.end()
+        self._process = ChildProcess(
+            [
+                *('ros2', 'run', 'husky_driver', DRIVER, '--waypoints', str(file)),
+                *('--ros-args', '-p', 'use_sim_time:=true', '-r', f'__ns:=/{namespace}'),
+            ],
+            os.environ,
+        )
+
+    def end(self) -> None:
+        """Stop driving; may be called twice."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.end(within_sec=DRIVER_END_SEC)
 
 
 class LiveView:
