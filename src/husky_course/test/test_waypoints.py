@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from husky_course.route import DriveLimits, plan_route, plan_speeds
+from husky_course.route import plan_route, plan_speeds
 from husky_course.waypoints.course import Course
 from husky_course.waypoints.schema import schema_text
 from husky_course.waypoints.waypoint_file import load_course, parse_course
@@ -260,6 +260,4 @@ def test_any_file_is_either_a_course_or_refused_with_a_line(document: str | byte
     else:
         legs = plan_route(found).legs
         assert legs[-1].last == len(found.stops) - 1
-        assert all(
-            map(math.isfinite, plan_speeds(legs[0].curve, legs[0].speeds_m_s, DriveLimits()))
-        )
+        assert all(map(math.isfinite, plan_speeds(legs[0].curve, legs[0].speeds_m_s)))

@@ -10,7 +10,7 @@ import math
 
 from husky_course.route.legs import lead_in, Leg, legs_of
 from husky_course.route.path import Curve, joined, Point
-from husky_course.route.speeds import DriveLimits, plan_speeds
+from husky_course.route.speeds import plan_speeds
 from husky_course.waypoints import Course
 
 STOP_ALLOWANCE_SEC = 1.0  # for each stop on the way, beside the turning
@@ -51,8 +51,7 @@ class Route:
     @cached_property
     def limit_sec(self) -> float:
         """How long it may take: three times what it needs, bends included, and 20 s."""
-        limits = DriveLimits()
-        slowed = sum(_slowed_sec(leg, limits) for leg in self.legs)
+        slowed = sum(_slowed_sec(leg) for leg in self.legs)
         return LIMIT_FACTOR * (self.par_time_sec + slowed) + LIMIT_EXTRA_SEC
 
     def begun_at(self, place: Point) -> Route:
@@ -75,9 +74,9 @@ def _asked_sec(leg: Leg) -> float:
     return sum((knots[i + 1] - knots[i]) / speed for i, speed in enumerate(leg.speeds_m_s))
 
 
-def _slowed_sec(leg: Leg, limits: DriveLimits) -> float:
+def _slowed_sec(leg: Leg) -> float:
     """Return how much longer a leg takes than at the asked speed, for its bends and its end."""
     s = leg.curve.s
-    speeds = plan_speeds(leg.curve, leg.speeds_m_s, limits)
+    speeds = plan_speeds(leg.curve, leg.speeds_m_s)
     planned = sum(2.0 * (s[i + 1] - s[i]) / (speeds[i] + speeds[i + 1]) for i in range(len(s) - 1))
     return max(planned - _asked_sec(leg), 0.0)

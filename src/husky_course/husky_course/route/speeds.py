@@ -31,7 +31,10 @@ class DriveLimits:
     turn_braking_rad_s2: float = 4.5
 
 
-def plan_speeds(curve: Curve, asked_m_s: Sequence[float], limits: DriveLimits) -> list[float]:
+LIMITS = DriveLimits()
+
+
+def plan_speeds(curve: Curve, asked_m_s: Sequence[float]) -> list[float]:
     """
     Return the highest speed at every sample that bends, braking and the end allow.
 
@@ -43,11 +46,11 @@ def plan_speeds(curve: Curve, asked_m_s: Sequence[float], limits: DriveLimits) -
         while piece < len(asked_m_s) - 1 and s >= curve.knot_s[piece + 1]:
             piece += 1
         bend = max(abs(curvature), 1e-6)
-        bent = min(math.sqrt(limits.lateral_m_s2 / bend), limits.bend_yaw_rate_rad_s / bend)
-        speeds.append(min(asked_m_s[piece], bent, limits.speed_m_s))
+        bent = min(math.sqrt(LIMITS.lateral_m_s2 / bend), LIMITS.bend_yaw_rate_rad_s / bend)
+        speeds.append(min(asked_m_s[piece], bent, LIMITS.speed_m_s))
     speeds[-1] = 0.0
     for i in range(len(speeds) - 2, -1, -1):
         ds = curve.s[i + 1] - curve.s[i]
-        braking = math.sqrt(speeds[i + 1] ** 2 + 2 * limits.braking_m_s2 * ds)
+        braking = math.sqrt(speeds[i + 1] ** 2 + 2 * LIMITS.braking_m_s2 * ds)
         speeds[i] = min(speeds[i], braking)
     return speeds

@@ -12,7 +12,7 @@ from functools import partial
 import math
 
 from husky_course.frames import Pose, to_world
-from husky_course.route import DriveLimits, plan_route, Route
+from husky_course.route import LIMITS, plan_route, Route
 from husky_course.waypoints import Course, Waypoint
 
 from husky_driver.checks.plausibility import OdometryCheck
@@ -30,9 +30,7 @@ MAX_PERIOD_SEC = 0.1
 class Drive:
     """Follows a course; give it every odometry message once, in order."""
 
-    def __init__(
-        self, route: Route, limits: DriveLimits | None = None, *, slip: SlipModel | None = None
-    ) -> None:
+    def __init__(self, route: Route, *, slip: SlipModel | None = None) -> None:
         """
         Prepare; the course begins at the first odometry.
 
@@ -40,7 +38,6 @@ class Drive:
         """
         self._planned = route
         self._slip = SlipCorrection(slip or SlipModel())
-        self.limits = limits or DriveLimits()
         self.finished = False
         self.failure = ''  # why it gave up, if it did
         self.implausible = ''  # why a message cannot be true, if one could not
@@ -55,7 +52,7 @@ class Drive:
     def _begin(self, route: Route, odometry: Odometry) -> None:
         self._started_sec = odometry.time_sec
         self._command = STOP
-        self._follower = RouteFollower(route, self.limits, odometry)
+        self._follower = RouteFollower(route, odometry)
         self._watchdog = Watchdog(odometry)
         self._limit = TimeLimit(route, odometry.time_sec)
         self._least_m = math.inf  # of the path left, so far
@@ -180,8 +177,8 @@ class Drive:
         return None if self.finished else STOP
 
     def _within_limits(self, wish: Command, period_sec: float) -> Command:
-        change = self.limits.acceleration_m_s2 * period_sec
-        turn = self.limits.yaw_acceleration_rad_s2 * period_sec
+        change = LIMITS.acceleration_m_s2 * period_sec
+        turn = LIMITS.yaw_acceleration_rad_s2 * period_sec
         speed, yaw_rate = self._command
         return Command(
             min(max(wish.speed_m_s, speed - change), speed + change),

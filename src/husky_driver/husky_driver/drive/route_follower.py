@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Generator
 import math
 
-from husky_course.route import DriveLimits, Leg, plan_speeds, Route
+from husky_course.route import LIMITS, Route
 
 from husky_driver.drive.tracker import Tracker
 from husky_driver.motion import Command, Odometry, STOP
@@ -25,12 +25,11 @@ _TWO_PI = 2 * math.pi
 class RouteFollower:
     """Turns odometry into commands, and counts the waypoints that were reached."""
 
-    def __init__(self, route: Route, limits: DriveLimits, start: Odometry) -> None:
+    def __init__(self, route: Route, start: Odometry) -> None:
         self.route = route
         self.reached = 0  # waypoints, counted in order
         self.tracker: Tracker | None = None  # of the leg it is on; None before the first
         self.is_dwelling = False
-        self._limits = limits
         self._now = start
         self._leg_index = 0
         self._next = 0  # the waypoint that is driven to
@@ -66,7 +65,7 @@ class RouteFollower:
             yield from self._stand()
         for index, leg in enumerate(self.route.legs):
             self._leg_index = index
-            self.tracker = tracker = self._track(leg)
+            self.tracker = tracker = Tracker(leg)
             now = self._now
             tracker.locate(now.x_m, now.y_m, now.yaw_rad)
             yield from self._turn(now.yaw_rad - tracker.heading_error_rad, ENOUGH_RAD)
@@ -76,10 +75,6 @@ class RouteFollower:
                 yield from self._turn(leg.end_yaw_rad, ALIGNED_RAD)
                 yield from self._stand()
             yield from self._dwell(leg.dwell_sec)
-
-    def _track(self, leg: Leg) -> Tracker:
-        speeds = plan_speeds(leg.curve, leg.speeds_m_s, self._limits)
-        return Tracker(leg.curve, speeds, reverse=leg.reverse, limits=self._limits)
 
     def _follow(self, tracker: Tracker) -> Generator[Command, None, None]:
         while True:
@@ -103,8 +98,8 @@ class RouteFollower:
             error = math.remainder(yaw_rad - self._now.yaw_rad, _TWO_PI)
 
     def _turn_rate(self, error_rad: float) -> float:
-        braking = math.sqrt(2 * self._limits.turn_braking_rad_s2 * abs(error_rad))
-        rate = min(self._limits.turn_yaw_rate_rad_s, braking, 5.0 * abs(error_rad) + 0.01)
+        braking = math.sqrt(2 * LIMITS.turn_braking_rad_s2 * abs(error_rad))
+        rate = min(LIMITS.turn_yaw_rate_rad_s, braking, 5.0 * abs(error_rad) + 0.01)
         return math.copysign(rate, error_rad)
 
     def _stand(self) -> Generator[Command, None, None]:

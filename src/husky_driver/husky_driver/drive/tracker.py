@@ -12,46 +12,32 @@ those planned for the curve.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 import math
 
-from husky_course.route import Curve, DriveLimits
+from husky_course.route import Leg, LIMITS, plan_speeds
 
 _TWO_PI = 2 * math.pi
 
 
-@dataclass(frozen=True)
-class TrackerGains:
-    """Feedback in the frame of the path; lengths instead of times, so that speed cancels."""
-
-    offset_per_m2: float = 9.0  # natural frequency squared, 3 per metre
-    heading_per_m: float = 6.0  # twice the natural frequency: no overshoot
-    max_offset_m: float = 0.3  # a greater offset steers no harder
-    delay_sec: float = 0.04  # from odometry to the wheels turning at the new speed
-    preview_sec: float = 0.08  # the curve's yaw rate is commanded this much ahead
-    end_rate_per_s: float = 8.0  # speed over distance left, close to the end
+# Feedback in the frame of the path; lengths instead of times, so that speed cancels.
+OFFSET_PER_M2 = 9.0  # natural frequency squared, 3 per metre
+HEADING_PER_M = 6.0  # twice the natural frequency: no overshoot
+MAX_OFFSET_M = 0.3  # a greater offset steers no harder
+DELAY_SEC = 0.04  # from odometry to the wheels turning at the new speed
+PREVIEW_SEC = 0.08  # the curve's yaw rate is commanded this much ahead
+END_RATE_PER_S = 8.0  # speed over distance left, close to the end
 
 
 class Tracker:
-    """Follows one curve; on a leg driven backwards the robot faces against its curve."""
+    """Follows the curve of one leg; driven backwards, the robot faces against it."""
 
-    def __init__(
-        self,
-        curve: Curve,
-        speeds_m_s: list[float],
-        *,
-        reverse: bool = False,
-        limits: DriveLimits | None = None,
-        gains: TrackerGains | None = None,
-    ) -> None:
-        self.curve = curve
+    def __init__(self, leg: Leg) -> None:
+        self.curve = leg.curve
+        self.reverse = leg.reverse
         self.s = 0.0
         self.offset_m = 0.0
         self.heading_error_rad = 0.0
-        self._speeds = speeds_m_s
-        self.reverse = reverse
-        self._limits = limits or DriveLimits()
-        self._gains = gains or TrackerGains()
+        self._speeds = plan_speeds(leg.curve, leg.speeds_m_s)
         self._sample = 0
 
     @property
@@ -68,22 +54,20 @@ class Tracker:
         self, x: float, y: float, yaw: float, speed_m_s: float, yaw_rate_rad_s: float
     ) -> tuple[float, float]:
         """Return the speed (negative backwards) and yaw rate for the robot's pose and twist."""
-        gains = self._gains
-        delay = gains.delay_sec
-        middle = yaw + yaw_rate_rad_s * delay / 2
+        middle = yaw + yaw_rate_rad_s * DELAY_SEC / 2
         self.locate(
-            x + speed_m_s * delay * math.cos(middle),
-            y + speed_m_s * delay * math.sin(middle),
-            yaw + yaw_rate_rad_s * delay,
+            x + speed_m_s * DELAY_SEC * math.cos(middle),
+            y + speed_m_s * DELAY_SEC * math.sin(middle),
+            yaw + yaw_rate_rad_s * DELAY_SEC,
         )
         speed = self._speed()
         error = self.heading_error_rad
-        offset = min(max(self.offset_m, -gains.max_offset_m), gains.max_offset_m)
+        offset = min(max(self.offset_m, -MAX_OFFSET_M), MAX_OFFSET_M)
         bend = self._bend(speed)
         ahead = math.cos(error) / max(1.0 - bend * self.offset_m, 0.3)
         sinc = math.sin(error) / error if abs(error) > 1e-6 else 1.0
-        feedback = gains.offset_per_m2 * offset * sinc + gains.heading_per_m * error
-        limit = self._limits.yaw_rate_rad_s
+        feedback = OFFSET_PER_M2 * offset * sinc + HEADING_PER_M * error
+        limit = LIMITS.yaw_rate_rad_s
         yaw_rate = min(max(speed * (bend * ahead - feedback), -limit), limit)
         speed *= max(math.cos(error), 0.0)
         return (-speed if self.reverse else speed), yaw_rate
@@ -96,11 +80,11 @@ class Tracker:
         here, there = speeds[i], speeds[i + 1]
         planned = math.sqrt(max(here * here + part * (there * there - here * here), 0.0))
         remaining = curve.length_m - self.s
-        return min(planned, max(self._gains.end_rate_per_s * remaining, 0.02))
+        return min(planned, max(END_RATE_PER_S * remaining, 0.02))
 
     def _bend(self, speed: float) -> float:
         """Return the mean curvature of the stretch that this command will drive."""
-        preview = max(speed * self._gains.preview_sec, 0.02)
+        preview = max(speed * PREVIEW_SEC, 0.02)
         start = self.s + preview * 0.5
         end = min(start + preview, self.curve.length_m)
         start = min(start, end - 0.01)
