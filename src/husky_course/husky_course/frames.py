@@ -6,8 +6,6 @@ Places between the frames `world` and `odom`, which begins where the robot start
 The functions take numbers or numpy arrays, and give the same bits for both.
 """
 
-from __future__ import annotations
-
 import math
 from typing import TypeVar
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Text of others (names of files, of nodes, of obstacles) as a terminal or a page may show it."""
 
-from __future__ import annotations
-
 import unicodedata
 
 # Control, format (they turn the direction of writing) and surrogate characters, and line ends.

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drive the Husky along a waypoint file, or as asked at the terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 import signal

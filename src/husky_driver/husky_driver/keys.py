@@ -8,8 +8,6 @@ as held until no repeat has come for a time: first the delay of a keyboard's rep
 shorter one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from husky_driver.motion import Command, STOP

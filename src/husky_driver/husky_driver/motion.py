@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Odometry, which a drive takes, and velocity commands, which it returns."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

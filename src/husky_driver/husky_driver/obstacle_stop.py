@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stop while the laser shows an obstacle on the path, or while no scan comes."""
 
-from __future__ import annotations
-
 import math
 
 from husky_driver.checks.path_scan import look_along, Scan, Sighting

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ask at the terminal for a move, as the lab sheet does: speed, distance, forward."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 import math

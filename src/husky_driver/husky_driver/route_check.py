@@ -8,8 +8,6 @@ declares an entry point of the group `husky_driver.route_check`: a function as R
 husky_grader does.
 """
 
-from __future__ import annotations
-
 from importlib.metadata import entry_points
 from typing import Protocol
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drive the Husky by the keys of a terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 import os

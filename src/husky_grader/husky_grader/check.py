@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check a waypoint file, and the course against the obstacles of a world; draw it if asked."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from pathlib import Path

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drive a path through the playpen with real nodes, in a domain of their own; then a report."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack

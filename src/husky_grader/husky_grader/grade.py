@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grade waypoint files, or a run that the simulator has recorded."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 import json

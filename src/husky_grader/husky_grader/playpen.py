@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The playpen: the courses that come with the lab, and routes checked against its obstacles."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from husky_course.frames import Pose

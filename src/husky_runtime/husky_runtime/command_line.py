@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Command lines: wrong arguments are refused with one line and exit status 2."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import sys

@@ -7,8 +7,6 @@ On Linux a process whose parent has ended gets as parent the next ancestor that 
 (`adopt_orphans`). A mark in the environment names the child that it came from.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 import contextlib
 import ctypes

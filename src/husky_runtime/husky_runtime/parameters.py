@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Settings as ROS parameters, with descriptions and ranges."""
 
-from __future__ import annotations
-
 from typing import Any, TypeVar
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor

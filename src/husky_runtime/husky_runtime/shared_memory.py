@@ -7,8 +7,6 @@ A participant makes files fastrtps_NAME, fastrtps_NAME_el and sem.fastrtps_NAME_
 One that is killed leaves them, and the clean-up of the next one removes half of them.
 """
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 import time

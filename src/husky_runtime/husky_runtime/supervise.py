@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run a command and leave nothing of what it started: `-m husky_runtime.supervise COMMAND`."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 import os
 import signal

@@ -7,8 +7,6 @@ Its time begins with the drive, which begins with the first command: what the ro
 has negative times.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import hashlib
 import math

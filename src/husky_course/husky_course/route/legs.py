@@ -9,8 +9,6 @@ tight for a smooth curve is a sharp one, whatever the course says: of one that t
 the curve would be a cusp, which no robot can follow.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 import math

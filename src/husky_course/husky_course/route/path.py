@@ -8,8 +8,6 @@ Catmull-Rom curves", CAD 43, 2011): it goes through every waypoint, and between 
 makes neither loops nor cusps.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Sequence
 from copy import deepcopy

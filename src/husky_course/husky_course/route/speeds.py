@@ -7,8 +7,6 @@ Speed is regulated by curvature and by the distance to the end, as in regulated 
 (Macenski, Singh, Martin, Gines, arXiv 2305.20026).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math

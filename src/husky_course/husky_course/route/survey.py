@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Look along a route, before anything moves, for obstacles that the robot would pass too near."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 import math

@@ -6,8 +6,6 @@ A course, and the table of fields that a waypoint file may hold.
 The checker reads by this table; the JSON schema for editors is made from it, see `schema`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -6,8 +6,6 @@ The JSON schema of a waypoint file, for editors, made from the table of its fiel
 `./lab exec python3 -m husky_course.waypoints.schema > config/waypoints.schema.json`
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 import json

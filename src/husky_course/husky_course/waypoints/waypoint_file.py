@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read a waypoint file into a checked, frozen course; every mistake is named at once."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from itertools import pairwise

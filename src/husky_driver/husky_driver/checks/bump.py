@@ -10,8 +10,6 @@ on outdoor terrain", IEEE Transactions on Robotics 24, 2008, compare the same tw
 0.15 m/s a jolt is too weak to tell from noise.
 """
 
-from __future__ import annotations
-
 from collections import deque
 import math
 from typing import NamedTuple

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Look for obstacles on the path ahead in a scan of the laser."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 import math
 from typing import NamedTuple

@@ -6,8 +6,6 @@ Check messages for values that cannot be true, before they are used.
 Each function returns in a few words what is wrong, or an empty string.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 import math
 from typing import Any

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Detect a robot that does not follow its commands."""
 
-from __future__ import annotations
-
 import math
 
 from husky_driver.checks.bump import Bump

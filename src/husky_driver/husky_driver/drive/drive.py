@@ -6,8 +6,6 @@ Drive a course from its first waypoint to its last: odometry in, velocity comman
 Pure: the commands are a function of the sequence of odometry alone, so that a run repeats.
 """
 
-from __future__ import annotations
-
 from functools import partial
 import math
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Follow one route once, from its first leg to its last: one wished command a period."""
 
-from __future__ import annotations
-
 from collections.abc import Generator
 import math
 

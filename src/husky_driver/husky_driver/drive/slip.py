@@ -9,8 +9,6 @@ Martinez, Morales, Blanco, Garcia-Cerezo, Gonzalez: "Experimental kinematics for
 skid-steer mobile robots", IROS 2007).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import math
 

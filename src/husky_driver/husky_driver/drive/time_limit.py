@@ -6,8 +6,6 @@ When a drive has taken too long: a limit that follows from its course, and a rul
 All times are simulated ones: a slow or busy computer is no reason to end a drive.
 """
 
-from __future__ import annotations
-
 from husky_course.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, Route
 
 NO_NEARER_SEC = 30.0

@@ -10,8 +10,6 @@ nonholonomic car-like robot", 1998). Unlike pure pursuit it does not cut corners
 those planned for the curve.
 """
 
-from __future__ import annotations
-
 import math
 
 from husky_course.route import Leg, LIMITS, plan_speeds

@@ -7,8 +7,6 @@ Topics that show a drive, in the frame `odom`; they have no influence on it.
 that is steered for.
 """
 
-from __future__ import annotations
-
 from geometry_msgs.msg import PointStamped, Pose, PoseArray, PoseStamped
 from husky_course.route import Point
 from nav_msgs.msg import Path

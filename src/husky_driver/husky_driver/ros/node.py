@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node: it answers every odometry message with one command of a `Drive`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 import os

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Show how far a drive has come: one bar on a terminal, else a line every 10 %."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 import math
 import shutil

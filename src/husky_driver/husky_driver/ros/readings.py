@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read ROS messages, and check those that cannot be true."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of `follow_path`: the only place where their defaults live."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

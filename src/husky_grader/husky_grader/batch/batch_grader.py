@@ -7,8 +7,6 @@ A worker process that crashes costs its file, and another takes its place. So do
 which its own processor time tells, however busy the machine is.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import as_completed, Future
 from contextlib import contextmanager

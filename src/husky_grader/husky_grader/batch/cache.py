@@ -8,8 +8,6 @@ that the grade depends on and the report itself. The secret is a file that only 
 where it cannot be kept, everything is graded again.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 import hashlib
 import hmac

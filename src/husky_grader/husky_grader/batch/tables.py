@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The grades of many files as a table: for the terminal, and as CSV."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 import csv
 from itertools import count

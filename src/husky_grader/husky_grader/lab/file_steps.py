@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The steps of the lab that can be judged by looking at files: workspace, packages, build."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 import re

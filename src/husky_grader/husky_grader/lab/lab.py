@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grade a student's whole workspace: every step of the lab sheet, with points and reasons."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 import json

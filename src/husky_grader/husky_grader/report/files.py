@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A report as text, as report.json, as a page (report.html) and as a picture (path.png)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict

@@ -6,8 +6,6 @@ The map of a course or of a run, in the frame `world`, drawn once as SVG.
 A page holds the part around the course; a picture (SVG or PNG) shows the whole world with axes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from html import escape

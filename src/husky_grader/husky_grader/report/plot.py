@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draw curves over time as SVG text that a page can hold."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape

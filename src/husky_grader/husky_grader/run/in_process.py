@@ -7,8 +7,6 @@ In lockstep each odometry message is answered by one command, here as between th
 the trajectory is the same, bit for bit, in a fraction of the time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 import math

@@ -6,8 +6,6 @@ Run somebody's own controller: the simulator and the node as processes in a doma
 The result is the simulator's record, in simulated time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass, field, replace

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Decide when the run of somebody's controller is over; times are simulated ones."""
 
-from __future__ import annotations
-
 import math
 
 from husky_course.route import Point, Route

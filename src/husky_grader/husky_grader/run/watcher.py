@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Watches the graph of a live run: the true pose, and how the controller publishes commands."""
 
-from __future__ import annotations
-
 import time
 from typing import Any
 

@@ -8,8 +8,6 @@ The nearest point of the path alone would jump where a course crosses or comes b
 distance (dynamic time warping with free steps along the path, by dynamic programming).
 """
 
-from __future__ import annotations
-
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

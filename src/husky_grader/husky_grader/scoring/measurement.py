@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measure a run against its route: deviation, waypoints, speed, direction and smoothness."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import math
 

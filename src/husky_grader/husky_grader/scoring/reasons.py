@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The reasons for a score: what went wrong in a run, and which mistake may have caused it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 import math

@@ -8,8 +8,6 @@ and 1 and says why; what it costs is counted in points, in this order. The facto
 is the CARLA leaderboard's for a static obstacle.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ A course while it is edited, and the waypoint files that it is read from and sav
 What a waypoint file means is decided by husky_course alone, as for the driver.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 import math
