@@ -6,10 +6,10 @@ import json
 from pathlib import Path
 import signal
 
+from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_grader.run import drive_route
-from husky_grader.scoring import score
+from husky_grader.run.in_process import drive_route
 from playpen_testing.processes import Process, Processes
 from playpen_testing.shared_memory import left, own_files
 from playpen_testing.waiting import wait_until
@@ -62,7 +62,7 @@ def running(processes: list[psutil.Process]) -> list[str]:
 def trajectory_sha256() -> str:
     """Drive the default course in this process, where nothing was killed."""
     route = plan_route(load_course(ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'))
-    return score(drive_route(route)[0], route).trajectory_sha256
+    return read_run(drive_route(route)[0]).trajectory_sha256
 
 
 @pytest.mark.parametrize('name', PARTS)
