@@ -188,11 +188,15 @@ def closure(package: str) -> set[str]:
     return found
 
 
+# Which distributions a module is of: two seconds for all that is installed.
+distributions_by_module = cache(metadata.packages_distributions)
+
+
 @cache
 def needed_by(name: str) -> frozenset[str]:
     """Return the modules of the distributions that those of a module require."""
     needed: set[str] = set()
-    for distribution in metadata.packages_distributions().get(name, ()):
+    for distribution in distributions_by_module().get(name, ()):
         for line in metadata.requires(distribution) or ():
             if 'extra ==' not in line or 'fastrtps' in line:
                 required = re.split(r'[^\w.-]', line, maxsplit=1)[0]
@@ -204,7 +208,7 @@ def needed_by(name: str) -> frozenset[str]:
 def modules_of(required: str) -> frozenset[str]:
     return frozenset(
         module
-        for module, names in metadata.packages_distributions().items()
+        for module, names in distributions_by_module().items()
         if required in (name.lower().replace('_', '-') for name in names)
     )
 
