@@ -230,6 +230,16 @@ def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> N
     assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in course.text_of(edited.course)
 
 
+def test_what_cannot_be_saved_leaves_nothing_behind(tmp_path: Path) -> None:
+    edited = EditableCourse()
+    edited.add(1.0, 2.0)
+    edited.add(2.0, 2.0)
+    (tmp_path / 'mine.yaml').mkdir()
+    with pytest.raises(course.CourseRefused, match=r'mine\.yaml: Is a directory'):
+        course.save(edited.course, tmp_path, 'mine')
+    assert [path.name for path in tmp_path.iterdir()] == ['mine.yaml']
+
+
 @pytest.mark.parametrize('name', ['', '../evil', 'a/b', '.hidden', 'x' * 70, 'ä'])
 def test_a_name_outside_of_the_folder_is_not_saved(tmp_path: Path, name: str) -> None:
     edited = EditableCourse()

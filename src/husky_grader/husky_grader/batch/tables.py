@@ -8,10 +8,11 @@ from itertools import count
 from pathlib import Path
 import re
 
+from husky_course.files import replacing
 from husky_course.printable import printable
 
 from husky_grader.grading import Grade
-from husky_grader.report.files import replacing, REPORT_FILES
+from husky_grader.report.files import REPORT_FILES
 
 _OUR_FILES = ('grades.csv', '.grades.part.csv', *REPORT_FILES)
 _LONGEST_NAME = 100  # bytes

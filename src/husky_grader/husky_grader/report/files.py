@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A report as text, as report.json, as a page (report.html) and as a picture (path.png)."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import asdict
 import json
 from pathlib import Path
 from typing import Any
 
+from husky_course.files import replacing
 from husky_course.printable import printable
 from husky_course.record import Run
 from husky_course.route import Route
@@ -98,17 +97,6 @@ def keep_course(file: Path, folder: Path) -> None:
     if not (kept.exists() and kept.samefile(file)):
         with replacing(kept) as part:
             part.write_bytes(file.read_bytes())
-
-
-@contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """Give the name of a file to write; it takes the place of `path`, unless something fails."""
-    part = path.with_name(f'.{path.stem}.part{path.suffix}')
-    try:
-        yield part
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 def page(report: Report, run: Run, drawing: str, key: Key) -> str:

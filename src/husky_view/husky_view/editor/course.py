@@ -13,6 +13,7 @@ from pathlib import Path
 import re
 from typing import Any
 
+from husky_course.files import replacing
 from husky_course.frames import Array
 from husky_course.outline import clearances, Outline
 from husky_course.robot import RobotStart
@@ -204,10 +205,9 @@ def save(course: Course, folder: Path, name: str) -> Path:
     text = text_of(course)
     _parsed(text, f'{name}.yaml')
     file = folder / f'{name}.yaml'
-    part = folder / f'.{name}.yaml.part'
     try:
-        part.write_text(text, encoding='utf-8')
-        part.replace(file)
+        with replacing(file) as part:
+            part.write_text(text, encoding='utf-8')
     except OSError as error:
         raise CourseRefused(f'{file}: {error.strerror}') from error
     return file
