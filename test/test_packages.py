@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from importlib.util import find_spec
+from inspect import getmodulename
 import os
 from pathlib import Path
 import re
@@ -16,6 +18,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 import pytest
 
 pytestmark = pytest.mark.timeout(180)  # one of them builds every package
@@ -171,9 +175,9 @@ def only_declared(built_packages: Path, tmp_path: Path) -> dict[str, Path]:
     for package in PACKAGES:
         folders[package] = tmp_path / package
         folders[package].mkdir()
-        for name in closure(package):
-            for path in places_of(name, built_packages):
-                (folders[package] / path.name).symlink_to(path)
+        places = (place for name in closure(package) for place in places_of(name, built_packages))
+        for name, path in {path.name: path for path in places}.items():
+            (folders[package] / name).symlink_to(path)
     return folders
 
 
@@ -184,33 +188,44 @@ def closure(package: str) -> set[str]:
     while left:
         name = left.pop()
         found.add(name)
-        left |= (declared(name) if name in PACKAGES else needed_by(name)) - found
+        if name in PACKAGES:
+            left |= declared(name) - found
+        else:
+            found |= modules_with(name)
     return found
 
 
-# Which distributions a module is of: two seconds for all that is installed.
-distributions_by_module = cache(metadata.packages_distributions)
+@cache
+def modules_with(name: str) -> set[str]:
+    """Return the modules of a module's distribution, and of all that this requires."""
+    found: set[tuple[str, str]] = set()
+    owners = [each for each, modules in modules_of().items() if name in modules]
+    left = {(each, extra) for each in owners for extra in ('', 'fastrtps')}  # that of rclpy
+    while left:
+        found.add(distribution := left.pop())
+        left |= set(required_by(*distribution)) - found
+    return {module for distribution, _ in found for module in modules_of().get(distribution, ())}
+
+
+def required_by(distribution: str, extra: str) -> Iterator[tuple[str, str]]:
+    """Yield the distributions that one requires here with an extra, and their extras."""
+    for requirement in map(Requirement, metadata.requires(distribution) or ()):
+        if requirement.marker is None or requirement.marker.evaluate({'extra': extra}):
+            for its_extra in ('', *requirement.extras):
+                yield canonicalize_name(requirement.name), its_extra
 
 
 @cache
-def needed_by(name: str) -> frozenset[str]:
-    """Return the modules of the distributions that those of a module require."""
-    needed: set[str] = set()
-    for distribution in distributions_by_module().get(name, ()):
-        for line in metadata.requires(distribution) or ():
-            if 'extra ==' not in line or 'fastrtps' in line:
-                required = re.split(r'[^\w.-]', line, maxsplit=1)[0]
-                needed |= modules_of(required.lower().replace('_', '-'))
-    return frozenset(needed)
-
-
-@cache
-def modules_of(required: str) -> frozenset[str]:
-    return frozenset(
-        module
-        for module, names in distributions_by_module().items()
-        if required in (name.lower().replace('_', '-') for name in names)
-    )
+def modules_of() -> dict[str, set[str]]:
+    """Return the modules of every distribution (Python 3.10 itself tells only of some)."""
+    found: dict[str, set[str]] = {}
+    for distribution in metadata.distributions():
+        modules = found.setdefault(canonicalize_name(distribution.name), set())
+        for file in distribution.files or ():
+            module = getmodulename(file.name) if len(file.parts) == 1 else file.parts[0]
+            if module and module.isidentifier():
+                modules.add(module)
+    return found
 
 
 def places_of(name: str, built: Path) -> list[Path]:
