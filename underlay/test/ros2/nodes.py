@@ -36,7 +36,8 @@ def talker(node: Node) -> None:
 
 
 def listener(node: Node) -> None:
-    node.create_subscription(String, 'chatter', lambda msg: print(f'heard {msg.data}'), 10)
+    # Deep enough for all that comes while a busy machine leaves this process waiting.
+    node.create_subscription(String, 'chatter', lambda msg: print(f'heard {msg.data}'), 1000)
 
 
 def latched(node: Node) -> None:

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import importlib
+from itertools import islice
 from pathlib import Path
 import signal
+from threading import Thread
 import time
 from typing import Any
 
@@ -66,8 +68,11 @@ def test_a_bag_is_recorded_described_and_played(
     listener = processes.node('listener', 'listener')
     played = ros2('bag', 'play', str(bag), '--topics', '/chatter', '--rate', '4')
     assert played.status == 0
-    heard = [listener.stdout.readline().strip() for _ in texts]
-    assert heard == [f'heard {text}' for text in texts]
+    heard: list[str] = []
+    hearing = Thread(target=lambda: heard.extend(islice(listener.stdout, len(texts))), daemon=True)
+    hearing.start()
+    hearing.join(20.0)
+    assert heard == [f'heard {text}\n' for text in texts]
 
 
 def test_only_chosen_topics_are_recorded(
