@@ -302,13 +302,15 @@ def test_a_stamped_command_is_answered_with_what_is_wrong(
 
 
 def test_diagnostics_tell_the_pace_and_whether_it_is_kept(bench: Callable[..., Bench]) -> None:
-    run = bench(real_time_factor=2.0)
+    run = bench(real_time_factor=0.5)  # also a busy machine keeps this one, but for a moment
     received: list[DiagnosticArray] = []
     run.probe.create_subscription(DiagnosticArray, '/diagnostics', received.append, 10)
-    run.until(lambda: len(received) >= 2, 'two diagnostics')
+    run.until(
+        lambda: received and received[-1].status[0].level == DiagnosticStatus.OK, 'a pace kept'
+    )
     values = {entry.key: entry.value for entry in received[-1].status[0].values}
-    assert float(values['real_time_factor']) == pytest.approx(2.0, rel=0.2)
-    assert values['real_time_factor_asked'] == '2'
+    assert float(values['real_time_factor']) == pytest.approx(0.5, rel=0.2)
+    assert values['real_time_factor_asked'] == '0.5'
     assert values['physics_warnings'] == '0'
     assert received[-1].status[0].name == 'husky_sim: time'
 
