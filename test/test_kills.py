@@ -18,7 +18,6 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 LAB = str(ROOT / 'lab')
-COURSE = ROOT / 'config' / 'waypoints' / 'straight.yaml'
 PARTS = {
     'simulator': '/husky_sim/husky_sim',
     'driver': '/husky_driver/follow_path',
@@ -61,8 +60,8 @@ def running(processes: list[psutil.Process]) -> list[str]:
 
 @pytest.fixture(scope='module')
 def trajectory_sha256() -> str:
-    """Drive a course in this process, where nothing was killed."""
-    route = plan_route(load_course(COURSE))
+    """Drive the default course in this process, where nothing was killed."""
+    route = plan_route(load_course(ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'))
     return read_run(drive_route(route)[0]).trajectory_sha256
 
 
@@ -88,8 +87,7 @@ def test_a_killed_part_ends_the_run_in_3_s(
         what=lambda: f'the end of {running(members)}; the run printed:\n{run.output}',
     )
     assert 'Traceback' not in run.output
-    drive = (LAB, 'drive', '--fast', '--no-view', '--waypoints', str(COURSE))
-    following = processes.start(*drive, '--report', str(tmp_path))
+    following = processes.start(LAB, 'drive', '--fast', '--no-view', '--report', str(tmp_path))
     assert following.wait(timeout_sec=60.0) == 0, following.output
     report = json.loads((tmp_path / 'report.json').read_text())
     assert report['trajectory_sha256'] == trajectory_sha256
