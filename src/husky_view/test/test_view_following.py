@@ -5,6 +5,9 @@
 from husky_view.picture.camera import ChaseCamera, REPORT_TIMEOUT_SEC, USER_PAUSE_SEC
 import numpy as np
 
+BEHIND, NEARER = np.array([-3.0, 0.0, 1.9]), np.array([0.0, 2.0, 1.0])
+ROBOT = np.array([1.0, 0.0, 0.0])
+
 
 def test_a_following_camera_keeps_its_distance_to_the_robot() -> None:
     behind = np.array([-3.0, 0.0, 1.9])
@@ -37,31 +40,30 @@ def test_the_next_pose_is_sent_after_a_report_or_a_timeout() -> None:
     assert camera.step(robot, now_sec=0.17 + REPORT_TIMEOUT_SEC)
 
 
+def zoomed_camera() -> ChaseCamera:
+    """Follow the robot until 0.1 s, then be zoomed in by a person."""
+    camera = ChaseCamera(np.zeros(3), BEHIND, now_sec=0.0)
+    camera.report(BEHIND)
+    assert camera.step(ROBOT, now_sec=0.1)
+    camera.report(NEARER)
+    return camera
+
+
 def test_the_camera_stands_after_input_and_keeps_the_new_view() -> None:
-    behind, nearer = np.array([-3.0, 0.0, 1.9]), np.array([0.0, 2.0, 1.0])
-    camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)
-    camera.report(behind)
-    robot = np.array([1.0, 0.0, 0.0])
-    assert camera.step(robot, now_sec=0.1)
-    camera.report(nearer)
-    assert not camera.step(robot, now_sec=0.2), 'it pulls at the camera that a person holds'
-    camera.report(behind)  # a pose that was still on its way to the page
-    assert not camera.step(robot, now_sec=0.2 + 0.9 * USER_PAUSE_SEC)
-    assert camera.step(robot, now_sec=0.3 + USER_PAUSE_SEC)
-    assert camera.offset is nearer
+    camera = zoomed_camera()
+    assert not camera.step(ROBOT, now_sec=0.2), 'it pulls at the camera that a person holds'
+    camera.report(BEHIND)  # a pose that was still on its way to the page
+    assert not camera.step(ROBOT, now_sec=0.2 + 0.9 * USER_PAUSE_SEC)
+    assert camera.step(ROBOT, now_sec=0.3 + USER_PAUSE_SEC)
+    assert camera.offset is NEARER
 
 
 def test_a_pose_that_reaches_the_page_late_undoes_no_input() -> None:
-    behind, nearer = np.array([-3.0, 0.0, 1.9]), np.array([0.0, 2.0, 1.0])
-    camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)
-    camera.report(behind)
-    robot = np.array([1.0, 0.0, 0.0])
-    assert camera.step(robot, now_sec=0.1)
-    camera.report(nearer)
-    assert not camera.step(robot, now_sec=0.2)
-    camera.report(behind)  # the pose sent at 0.1 s
-    assert camera.step(robot, now_sec=0.3 + USER_PAUSE_SEC), 'the page gets the new view again'
-    assert camera.offset is nearer
+    camera = zoomed_camera()
+    assert not camera.step(ROBOT, now_sec=0.2)
+    camera.report(BEHIND)  # the pose sent at 0.1 s
+    assert camera.step(ROBOT, now_sec=0.3 + USER_PAUSE_SEC), 'the page gets the new view again'
+    assert camera.offset is NEARER
 
 
 def test_a_report_older_than_the_first_pose_is_not_input() -> None:
