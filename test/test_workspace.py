@@ -4,7 +4,10 @@
 
 import os
 from pathlib import Path
+import pty
+import select
 import subprocess
+import time
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -42,6 +45,35 @@ def test_a_build_puts_every_package_on_the_ament_path(built_packages: Path, inst
     course = folder / 'husky_driver/share/husky_driver/config/waypoints/central_barrier.yaml'
     assert world.read_text() == (ROOT / 'worlds/playpen.xml').read_text()
     assert course.read_text() == (ROOT / 'config/waypoints/central_barrier.yaml').read_text()
+
+
+def test_tab_completes_ros2_once_a_workspace_is_sourced(tmp_path: Path) -> None:
+    controller, terminal = pty.openpty()
+    # A terminal that knows nothing yet; the answer differs from what is typed.
+    plain = {'HOME': str(tmp_path), 'PATH': '/usr/local/bin:/usr/bin:/bin', 'TERM': 'dumb'}
+    with subprocess.Popen(
+        ['bash', '--norc', '--noprofile', '-i'],
+        cwd=ROOT, env=plain, stdin=terminal, stdout=terminal, stderr=terminal, start_new_session=True,
+    ) as shell:  # fmt: skip
+        os.close(terminal)
+        os.write(controller, b'source install/setup.bash; echo READY$((1))\n')
+        shown = _read_until(controller, 'READY1')
+        os.write(controller, b'ros2 to\t')
+        shown += _read_until(controller, 'ros2 topic ')
+        os.close(controller)
+        assert 'not found' not in shown
+        shell.kill()
+
+
+def _read_until(controller: int, wanted: str) -> str:
+    """Return what a terminal shows up to a text; fails after 30 s with what it has shown."""
+    shown = ''
+    deadline = time.monotonic() + 30.0
+    while wanted not in shown:
+        left = deadline - time.monotonic()
+        assert left > 0.0 and select.select([controller], [], [], left)[0], shown
+        shown += os.read(controller, 4096).decode()
+    return shown
 
 
 @pytest.mark.parametrize('package', PACKAGES)
