@@ -53,7 +53,8 @@ def test_tab_completes_ros2_once_a_workspace_is_sourced(tmp_path: Path) -> None:
     plain = {'HOME': str(tmp_path), 'PATH': '/usr/local/bin:/usr/bin:/bin', 'TERM': 'dumb'}
     with subprocess.Popen(
         ['bash', '--norc', '--noprofile', '-i'],
-        cwd=ROOT, env=plain, stdin=terminal, stdout=terminal, stderr=terminal, start_new_session=True,
+        cwd=ROOT, env=plain, stdin=terminal, stdout=terminal, stderr=terminal,
+        start_new_session=True,
     ) as shell:  # fmt: skip
         os.close(terminal)
         os.write(controller, b'source install/setup.bash; echo READY$((1))\n')
@@ -70,8 +71,8 @@ def _read_until(controller: int, wanted: str) -> str:
     shown = ''
     deadline = time.monotonic() + 30.0
     while wanted not in shown:
-        left = deadline - time.monotonic()
-        assert left > 0.0 and select.select([controller], [], [], left)[0], shown
+        left = max(0.0, deadline - time.monotonic())
+        assert select.select([controller], [], [], left)[0], shown
         shown += os.read(controller, 4096).decode()
     return shown
 

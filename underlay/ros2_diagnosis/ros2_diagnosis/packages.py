@@ -16,6 +16,7 @@ LAUNCH_SUFFIXES = (
 )  # fmt: skip
 
 _INDEX = 'share/ament_index/resource_index/packages'
+_PROGRAM = re.compile(r'^def main\(', re.MULTILINE)
 _PACKAGE_NAME = re.compile(r'<name>\s*([^<\s]+)\s*</name>')
 
 
@@ -86,6 +87,12 @@ def find_executable(package: str, name: str) -> Path:
             f"No executable found: '{name}' is declared in {source / 'setup.py'}, but package "
             f"'{package}' was built before that; run `colcon build --packages-select {package}` "
             f'in {workspace}'
+        )
+    stem = name.removesuffix('.py')
+    if source is not None and stem in undeclared_programs(source, package):
+        raise PackageError(
+            f'No executable found: {source / package / stem}.py has a main(), but no entry point; '
+            f'{how_to_declare(source, package, stem)}'
         )
     if not known:
         raise PackageError(
@@ -180,9 +187,39 @@ def built_prefix(workspace: Path, package: str) -> Path | None:
     return None
 
 
+def undeclared_programs(source: Path, package: str) -> list[str]:
+    """List the modules of an ament_python package that are programs, but that nothing names."""
+    setup = _setup_of(source)
+    if 'console_scripts' not in setup:
+        return []
+    files = sorted((source / package).glob('*.py'))
+    texts = {file.stem: file.read_text(encoding='utf-8', errors='replace') for file in files}
+    everything = '\n'.join([setup, *texts.values()])
+    return [
+        stem
+        for stem, text in texts.items()
+        if _PROGRAM.search(text)
+        and not _declares(source, stem)
+        and re.search(rf'\b{package}\.{stem}\b|\.{stem} import', everything) is None
+    ]
+
+
+def how_to_declare(source: Path, package: str, program: str) -> str:
+    """Say what makes a module an executable."""
+    return (
+        f"add '{program} = {package}.{program}:main' to 'console_scripts' in "
+        f'{source / "setup.py"}, then run `colcon build --packages-select {package}` in '
+        f'{workspace_of(source)}'
+    )
+
+
 def _declares(source: Path, executable: str) -> bool:
-    try:
-        text = (source / 'setup.py').read_text(encoding='utf-8')
-    except OSError:
-        return False
+    text = _setup_of(source)
     return re.search(rf"""['"]\s*{re.escape(executable)}\s*=""", text) is not None
+
+
+def _setup_of(source: Path) -> str:
+    try:
+        return (source / 'setup.py').read_text(encoding='utf-8')
+    except OSError:
+        return ''

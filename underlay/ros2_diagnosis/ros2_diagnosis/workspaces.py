@@ -57,6 +57,13 @@ def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
     source = packages.source_in(workspace, package) if workspace is not None else None
     if workspace is None or source is None:
         return
+    for program in packages.undeclared_programs(source, package):
+        yield Finding(
+            package,
+            f'{program}.py has a main(), but no entry point: `ros2 run` does not know it',
+            packages.how_to_declare(source, package, program),
+            serious=False,
+        )
     changed = changed_file(package, prefix, source, workspace / 'build' / package)
     if changed is not None:
         yield Finding(

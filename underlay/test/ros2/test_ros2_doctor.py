@@ -155,6 +155,15 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
     assert ran.out == 'Hi from mine.\n'
     assert domain
 
+    (source / 'mine' / 'mine' / 'subscriber.py').write_text('def main():\n    pass\n')
+    told = 'subscriber.py has a main(), but no entry point'
+    assert any(told in line for line in ros2('doctor', folder=tmp_path).lines)
+    for name in ('subscriber', 'subscriber.py'):
+        refused = ros2('run', 'mine', name)
+        assert told in refused.err
+        assert "add 'subscriber = mine.subscriber:main' to 'console_scripts'" in refused.err
+        assert refused.status == 1
+
 
 def test_nodes_on_another_machine() -> None:
     from ros2_diagnosis import places
