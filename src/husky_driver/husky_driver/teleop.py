@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 import os
 import select
 import signal
@@ -16,6 +17,8 @@ from typing import Any
 from geometry_msgs.msg import Twist
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.executor import spin
+from husky_runtime.parameters import declare_settings
+from husky_runtime.settings import names_of, refuse_unknown, setting
 from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.clock import Clock, ClockType
@@ -27,26 +30,38 @@ from rclpy.utilities import remove_ros_args
 
 from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, split_keys
 from husky_driver.motion import Command, STOP
+from husky_driver.ros.settings import refuse
 
 PERIOD_SEC = 0.05
+HINT_AFTER_SEC = 2.0
 DELIVERY_SEC = 0.5  # how long the last command, a stop, may take to arrive
 ENDINGS = ('\x03', '\x1b', '')  # Ctrl-C, Esc, and a terminal that was closed
+
+
+@dataclass(frozen=True)
+class TeleopSettings:
+    """What `--ros-args -p name:=value` can set."""
+
+    speed: float = setting(0.5, 'forward speed of a key, m/s', 0.01, MAX_SPEED_M_S)
+    turn: float = setting(1.0, 'yaw rate of a key, rad/s', 0.01, MAX_TURN_RAD_S)
 
 
 class Teleop(Node):
     """Publishes the commands of the keys, and zero without one; `finished` when it is over."""
 
     def __init__(self, terminal: int, **arguments: Any) -> None:
+        arguments.setdefault('automatically_declare_parameters_from_overrides', True)
         super().__init__('teleop', **arguments)
-        speed = _declare(self, 'speed', 0.5, MAX_SPEED_M_S)
-        turn = _declare(self, 'turn', 1.0, MAX_TURN_RAD_S)
+        refuse_unknown(self.get_parameters_by_prefix(''), names_of(TeleopSettings))
+        settings = declare_settings(self, TeleopSettings, refuse)
         self.finished: Future[None] = Future()
-        self.keyboard = Keyboard(speed_m_s=speed, turn_rad_s=turn)
+        self.keyboard = Keyboard(speed_m_s=settings.speed, turn_rad_s=settings.turn)
         self._terminal = terminal
         self._last = STOP
         self._commands = self.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(PERIOD_SEC, self._on_tick, clock=steady)
+        self._hint = self.create_timer(HINT_AFTER_SEC, self._on_hint, clock=steady)
 
     def _on_tick(self) -> None:
         now = time.monotonic()
@@ -55,6 +70,16 @@ class Teleop(Node):
         command = STOP if self.finished.done() else self.keyboard.command(now)
         if command != STOP or self._last != STOP:
             self._publish(command)
+
+    def _on_hint(self) -> None:
+        self._hint.cancel()
+        if not self._commands.get_subscription_count():
+            domain = self.context.get_domain_id()
+            print(
+                f'\rnobody takes {self._commands.topic_name} yet: is the simulator running, with '
+                f'ROS_DOMAIN_ID={domain} as here? `ros2 launch husky_sim husky_playpen.launch.py`',
+                file=sys.stderr,
+            )
 
     def _read(self, now: float) -> None:
         try:
@@ -88,13 +113,6 @@ class Teleop(Node):
         if not self.finished.done():
             self._publish(STOP)
             self.finished.set_result(None)
-
-
-def _declare(node: Node, name: str, default: float, most: float) -> float:
-    value = node.declare_parameter(name, default).value
-    if not 0.0 < value <= most:
-        raise ValueError(f'parameter {name}: {value} is out of range; allowed is up to {most:g}')
-    return float(value)
 
 
 @contextmanager

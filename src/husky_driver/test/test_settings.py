@@ -18,6 +18,6 @@ def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:
 
 
 def test_an_unknown_parameter_is_refused_with_a_suggestion() -> None:
-    refuse_unknown(['waypoints', 'use_sim_time', 'qos_overrides./x.depth'], Settings)
+    refuse_unknown(['waypoints', 'use_sim_time', 'qos_overrides./x.depth'], ['waypoints'])
     with pytest.raises(ValueError, match='wayponts does not exist; did you mean waypoints'):
-        refuse_unknown(['wayponts'], Settings)
+        refuse_unknown(['wayponts'], ['waypoints'])

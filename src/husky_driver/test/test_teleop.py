@@ -150,6 +150,35 @@ def test_a_released_key_or_a_closed_terminal_stops_the_robot(
         process.wait()
 
 
+def test_without_a_simulator_or_with_a_wrong_parameter_it_says_so(
+    domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+    monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
+    ours, theirs = pty.openpty()
+    command = [sys.executable, '-m', 'husky_driver.teleop', '--ros-args', '-p']
+    streams: dict[str, Any] = {
+        'stdin': theirs,
+        'stdout': subprocess.DEVNULL,
+        'stderr': subprocess.PIPE,
+    }
+    with subprocess.Popen([*command, 'speed:=0.3'], text=True, **streams) as process:
+        assert process.stderr is not None
+        # Its carriage return, over the line that shows the speed, counts as a line.
+        hint = process.stderr.readline() + process.stderr.readline()
+        process.terminate()
+        assert process.wait(timeout=10.0) == 0
+    assert 'nobody takes /husky_velocity_controller/cmd_vel yet' in hint
+    assert f'ROS_DOMAIN_ID={domain}' in hint
+    for wrong, message in (('sped:=0.3', 'did you mean speed'), ('speed:=3.0', '0.01 to 1')):
+        refused = subprocess.run([*command, wrong], text=True, timeout=20.0, **streams)
+        assert refused.returncode == 2
+        assert message in refused.stderr
+    os.close(ours)
+    os.close(theirs)
+
+
 def test_without_a_terminal_it_says_so_in_one_line() -> None:
     process = subprocess.run(
         [sys.executable, '-m', 'husky_driver.teleop'],

@@ -92,14 +92,21 @@ def settings_of(kind: Any) -> list[Setting]:
     ]
 
 
-def refuse_unknown(names: Iterable[str], kind: Any) -> None:
+def names_of(*kinds: Any) -> list[str]:
+    """Return the names of the settings of dataclasses."""
+    return [each.name for kind in kinds for each in settings_of(kind)]
+
+
+def refuse_unknown(given: Iterable[str], settings: Iterable[str]) -> None:
     """
     Refuse parameters that are not settings: a typing mistake would go unnoticed.
 
+    :param given: the names of the parameters that a node was given.
+    :param settings: the names of those that it has.
     :raises ValueError: naming the first one and the nearest right spelling.
     """
-    known = sorted(each.name for each in settings_of(kind))
-    for name in sorted(set(names) - set(known) - set(NODE_PARAMETERS)):
+    known = sorted(settings)
+    for name in sorted(set(given) - set(known) - set(NODE_PARAMETERS)):
         if not name.startswith('qos_overrides.'):
             near = get_close_matches(name, known, n=1, cutoff=0.5)
             hint = f'did you mean {near[0]}? ' if near else ''

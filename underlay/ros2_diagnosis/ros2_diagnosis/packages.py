@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 import re
 
-from ros2_diagnosis import nearest, PackageError
+from ros2_diagnosis import nearest, PackageError, stand_ins
 
 LAUNCH_SUFFIXES = (
     '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
@@ -130,6 +130,8 @@ def why_missing(package: str) -> str:
                 f'it is in {source}, but not built; run `colcon build --packages-select '
                 f'{package}` in {workspace}, then `source {workspace}/install/setup.bash`'
             )
+    if package in stand_ins.BY_PACKAGE:
+        return f'it has no wheel; here {stand_ins.BY_PACKAGE[package]}'
     near = nearest.hint(package, installed(), at_most=0)
     if near:
         return f'no such package is sourced or installed{near}'

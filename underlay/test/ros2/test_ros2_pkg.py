@@ -64,6 +64,22 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
     assert ran.stdout == 'Hi from my_package.\n', ran.stderr
 
 
+@pytest.mark.parametrize(
+    ('command', 'instead'),
+    [
+        ('rviz2', 'viewer:=true'),
+        ('rqt', 'ros2 run rqt_graph rqt_graph'),
+        ('ros2 run turtlesim turtlesim_node', 'husky_playpen.launch.py'),
+        ('ros2 run teleop_twist_keyboard teleop_twist_keyboard', 'ros2 run husky_driver teleop'),
+    ],
+)
+def test_a_program_without_wheel_names_what_does_its_job(command: str, instead: str) -> None:
+    done = subprocess.run(command.split(), capture_output=True, text=True)
+    assert done.returncode == 1
+    assert instead in done.stderr
+    assert done.stderr.count('\n') == 1
+
+
 def _colcon(verb: str, workspace: Path) -> None:
     colcon = shutil.which('colcon')
     assert colcon, 'colcon is part of the installation'

@@ -12,7 +12,7 @@ from geometry_msgs.msg import Twist
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_runtime.parameters import declare_settings
-from husky_runtime.settings import refuse_unknown
+from husky_runtime.settings import names_of, refuse_unknown
 from nav_msgs.msg import Odometry as OdometryMsg
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
@@ -70,7 +70,7 @@ class FollowPath(Node):
         """
         arguments.setdefault('automatically_declare_parameters_from_overrides', True)
         super().__init__('follow_path', **arguments)
-        refuse_unknown(self.get_parameters_by_prefix(''), Settings)
+        refuse_unknown(self.get_parameters_by_prefix(''), names_of(Settings))
         self.settings = declare_settings(self, Settings, refuse)
         self.finished: Future[int] = Future()
         self._drive = choose_drive(self.settings, self.get_logger().warning)

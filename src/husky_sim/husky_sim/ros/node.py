@@ -74,6 +74,7 @@ class SimulatorNode(Node):
         """
         context = arguments.get('context') or rclpy.get_default_context()
         self._lock = lock_simulator(context.get_domain_id())
+        arguments.setdefault('automatically_declare_parameters_from_overrides', True)
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)

@@ -7,7 +7,7 @@ from typing import Any
 
 from husky_course.robot import RobotStart
 from husky_runtime.parameters import declare_settings
-from husky_runtime.settings import Setting, settings_of
+from husky_runtime.settings import names_of, refuse_unknown, Setting, settings_of
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 from rclpy.node import Node
 
@@ -30,9 +30,19 @@ _ROBOTS = (
     'Empty: one robot named husky, at x, y, yaw, in the namespace of the node.'
 )
 
+_NAMES = ('robots', *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig, GroundConfig))
+
 
 def read_run(node: Node) -> RunConfig:
-    """Declare and read how time passes and what is kept."""
+    """
+    Declare and read how time passes and what is kept.
+
+    :raises SettingError: if a value is not allowed, or a parameter of the node does not exist.
+    """
+    try:
+        refuse_unknown(node.get_parameters_by_prefix(''), _NAMES)
+    except ValueError as error:
+        raise SettingError(str(error)) from None
     config = declare_settings(node, RunConfig, _refuse)
     if config.world:
         return config
@@ -74,6 +84,8 @@ def _read_robots(node: Node) -> tuple[RobotStart, ...]:
     descriptor = ParameterDescriptor(
         description=_ROBOTS, read_only=True, type=ParameterType.PARAMETER_STRING_ARRAY
     )
+    if node.has_parameter('robots'):  # from the command line, without a description
+        node.undeclare_parameter('robots')
     lines = node.declare_parameter('robots', [''], descriptor).value
     try:
         return tuple(RobotStart.parse(line) for line in lines if line.strip())
