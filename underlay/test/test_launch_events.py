@@ -270,3 +270,51 @@ def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_laun
         )
     )
     assert '[head-1] typed' in launched.lines
+
+
+def test_a_service_has_a_task_and_a_shutdown_to_await() -> None:
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(LaunchDescription([ExecuteProcess(cmd=['sleep', '30'])]))
+    assert service.task is None
+    assert service.shutdown() is None
+
+    async def run() -> int:
+        running = asyncio.create_task(service.run_async(shutdown_when_idle=False))
+        await asyncio.sleep(0.1)
+        assert service.task is running
+        ending = service.shutdown()
+        assert ending is not None
+        await asyncio.create_task(ending)
+        return await asyncio.wait_for(running, 10.0)
+
+    assert asyncio.run(run()) == 0
+
+
+def test_a_cancelled_service_ends_its_processes_and_returns_1(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    sleeper = ExecuteProcess(cmd=['sleep', '30'])
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(LaunchDescription([sleeper]))
+
+    async def run() -> int:
+        running = asyncio.create_task(service.run_async())
+        await asyncio.sleep(0.1)
+        running.cancel()
+        return await asyncio.wait_for(running, 10.0)
+
+    assert asyncio.run(run()) == 1
+    assert sleeper.return_code == -2
+    assert 'run task was canceled' in capsys.readouterr().out
+
+
+def test_the_event_loop_of_a_run_stays_set() -> None:
+    assert LaunchService().run() == 0
+    loop = asyncio.get_event_loop()
+    assert LaunchService().run() == 0
+    assert asyncio.get_event_loop() is loop
+
+
+def test_a_service_runs_in_the_main_thread_only() -> None:
+    with pytest.raises(RuntimeError, match='can only be run in the main thread'):
+        asyncio.run(asyncio.to_thread(LaunchService().run))

@@ -38,7 +38,7 @@ class LaunchContext:
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.argv = list(argv or [])
         self.noninteractive = noninteractive
-        self._event_queue: collections.deque[Event] = collections.deque()
+        self._event_queue: asyncio.Queue[Event] = asyncio.Queue()
         self._event_handlers: collections.deque[BaseEventHandler] = collections.deque()
         self._completion_futures: list[asyncio.Future[None]] = []
         self._wake: Callable[[], None] | None = None
@@ -154,7 +154,7 @@ class LaunchContext:
 
     def emit_event_sync(self, event: Event) -> None:
         """Queue an event; call it from the thread of the launch only."""
-        self._event_queue.append(event)
+        self._event_queue.put_nowait(event)
         if self._wake is not None:
             self._wake()
 

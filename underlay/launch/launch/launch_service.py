@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
 from collections.abc import Coroutine, Iterable
+import contextlib
 import logging
 import signal
 import threading
 import traceback
 from typing import Any
+import warnings
 
 from .event import Event
 from .event_handlers import OnIncludeLaunchDescription, OnShutdown
@@ -20,9 +23,11 @@ from .launch_description import LaunchDescription
 from .launch_description_entity import LaunchDescriptionEntity
 from .logging import get_logger, launch_config, log_launch_config
 from .source_location import attach_location, describe_error
-from .utilities import normalize_to_list_of_entities, visit_all_entities_and_collect_futures
-
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT)
+from .utilities import (
+    AsyncSafeSignalManager,
+    normalize_to_list_of_entities,
+    visit_all_entities_and_collect_futures,
+)
 
 
 class LaunchService:
@@ -43,18 +48,22 @@ class LaunchService:
         launch_config.level = logging.DEBUG if debug else logging.INFO
         self.__debug = debug
         self.__logger = get_logger('launch')
-        log_launch_config(logger=self.__logger)
-        self.context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
         self.context.register_event_handler(OnIncludeLaunchDescription())
         self.context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
         self.__futures: list[asyncio.Future[None]] = []
         self.__lock = threading.RLock()
         self.__loop: asyncio.AbstractEventLoop | None = None
+        self.__task: asyncio.Task[Any] | None = None
         self.__wakeup: asyncio.Event | None = None
         self.__shutting_down = False
         self.__shutdown_when_idle = True
         self.__sigint_received = False
         self.__return_code = 0
+
+    @property
+    def context(self) -> LaunchContext:
+        return self.__context
 
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
@@ -63,57 +72,72 @@ class LaunchService:
 
     @property
     def task(self) -> asyncio.Task[Any] | None:
-        return None if self.__loop is None else asyncio.current_task(self.__loop)
+        """The task that the service runs in or ran in last, None before."""
+        return self.__task
 
     # ---- from any thread ----
 
-    def emit_event(self, event: Event) -> Coroutine[Any, Any, None] | None:
+    def emit_event(self, event: Event) -> None:
         """Emit an event, from any thread; where the service does not run, for when it does."""
         with self.__lock:
             if self.__loop is None:
                 self.context.emit_event_sync(event)
             else:
                 self.__loop.call_soon_threadsafe(self.context.emit_event_sync, event)
-        return None
 
-    def include_launch_description(
-        self, launch_description: LaunchDescription
-    ) -> Coroutine[Any, Any, None] | None:
+    def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Visit a launch description; from any thread, before or while the service runs."""
-        return self.emit_event(IncludeLaunchDescription(launch_description))
+        self.emit_event(IncludeLaunchDescription(launch_description))
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
         """End everything, so that run() returns; from any thread.
 
         Does nothing where the service does not run.
+
+        :return: in the thread of the service, unless ``force_sync``, something to await.
         """
-        del force_sync
+        reason = 'LaunchService.shutdown() called'
         with self.__lock:
-            if self.__loop is not None:
-                self.__loop.call_soon_threadsafe(
-                    self.__begin_shutdown, 'LaunchService.shutdown() called', False
-                )
-        return None
+            if self.__loop is None:
+                return None
+            if threading.current_thread() is not threading.main_thread():
+                self.__loop.call_soon_threadsafe(self.__begin_shutdown, reason, False)
+                return None
+        self.__begin_shutdown(reason, False)
+        return None if force_sync else _nothing_left_to_do()
 
     # ---- running ----
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run until everything has ended.
+        """Run until everything has ended, in the event loop of the main thread.
 
-        Handles SIGINT, SIGTERM and SIGQUIT where it is called from the main thread.
+        Handles SIGINT, SIGTERM and SIGQUIT.
 
         :param shutdown_when_idle: end as soon as nothing runs and no event is left.
         :return: 0, or 1 where launching failed.
+        :raises RuntimeError: this is not the main thread.
         """
-        return asyncio.run(self.run_async(shutdown_when_idle=shutdown_when_idle))
+        loop = _loop_of_main_thread()
+        task = loop.create_task(self.run_async(shutdown_when_idle=shutdown_when_idle))
+        try:
+            return loop.run_until_complete(task)
+        except KeyboardInterrupt:  # came while the service did not handle signals
+            task.cancel()
+            loop.run_until_complete(asyncio.wait([task]))
+            raise
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """Run in the loop of the caller; see :meth:`run`."""
+        if threading.current_thread() is not threading.main_thread():
+            raise RuntimeError('LaunchService can only be run in the main thread.')
         with self.__lock:
             if self.__loop is not None:
                 raise RuntimeError('LaunchService cannot be run multiple times concurrently.')
             self.__loop = asyncio.get_running_loop()
-        self.__loop.set_debug(self.__debug)
+        self.__task = asyncio.current_task()
+        if self.__debug:
+            self.__loop.set_debug(True)
+        log_launch_config(logger=self.__logger)
         self.__wakeup = asyncio.Event()
         self.__shutdown_when_idle = shutdown_when_idle
         self.__shutting_down = self.__sigint_received = False
@@ -121,11 +145,10 @@ class LaunchService:
         self.context._set_is_shutdown(False)
         self.context._set_asyncio_loop(self.__loop)
         self.context._wake = self.__wakeup.set
-        previous = self.__install_signal_handlers(self.__loop)
         try:
-            await self.__run_to_the_end()
+            with self.__signals(self.__loop):
+                await self.__run_to_the_end()
         finally:
-            self.__restore_signal_handlers(self.__loop, previous)
             with self.__lock:
                 self.__loop = None
                 self.context._wake = None
@@ -137,9 +160,9 @@ class LaunchService:
             try:
                 await self.__run_loop()
             except asyncio.CancelledError:
+                self.__logger.error('run task was canceled')
+                self.__return_code = 1
                 self.__begin_shutdown('the launch was cancelled', False)
-                await self.__run_loop()
-                raise
             except Exception as error:
                 text = 'Caught exception in launch (see debug for traceback): '
                 self.__logger.debug(traceback.format_exc())
@@ -154,8 +177,8 @@ class LaunchService:
         assert self.__wakeup is not None
         while True:
             self.__wakeup.clear()
-            while self.context._event_queue:
-                self.__process_event(self.context._event_queue.popleft())
+            while not self.context._event_queue.empty():
+                self.__process_event(self.context._event_queue.get_nowait())
                 await asyncio.sleep(0)
             if self.__is_idle():
                 if self.__shutting_down:
@@ -174,7 +197,7 @@ class LaunchService:
         for future in done:
             if not future.cancelled() and future.exception() is not None:
                 raise future.exception()  # type: ignore[misc]
-        return not self.__futures and not self.context._event_queue
+        return not self.__futures and self.context._event_queue.empty()
 
     def __watch(self, futures: Iterable[asyncio.Future[None]]) -> None:
         for future in futures:
@@ -229,7 +252,7 @@ class LaunchService:
         self.__shutting_down = True
         self.context._set_is_shutdown(True)
 
-    def __on_sigint(self) -> None:
+    def __on_sigint(self, _number: int) -> None:
         text = 'user interrupted with ctrl-c (SIGINT)'
         if self.__sigint_received:
             self.__logger.warning(f'{text} again, ignoring...')
@@ -238,24 +261,38 @@ class LaunchService:
         self.__logger.warning(text)
         self.__begin_shutdown('ctrl-c (SIGINT)', True)
 
-    def __on_termination(self, number: signal.Signals) -> None:
+    def __on_termination(self, number: int) -> None:
         """End the children before the launch; upstream leaves them running."""
-        self.__logger.warning(f'received {number.name}: shutting down launched system')
-        self.__begin_shutdown(number.name, False)
+        name = signal.Signals(number).name
+        self.__logger.warning(f'received {name}: shutting down launched system')
+        self.__begin_shutdown(name, False)
 
-    def __install_signal_handlers(self, loop: asyncio.AbstractEventLoop) -> dict[int, Any]:
-        if threading.current_thread() is not threading.main_thread():
-            return {}
-        previous: dict[int, Any] = {number: signal.getsignal(number) for number in _SIGNALS}
-        loop.add_signal_handler(signal.SIGINT, self.__on_sigint)
-        for number in (signal.SIGTERM, signal.SIGQUIT):
-            loop.add_signal_handler(number, self.__on_termination, number)
-        return previous
+    def __signals(self, loop: asyncio.AbstractEventLoop) -> AsyncSafeSignalManager:
+        manager = AsyncSafeSignalManager(loop)
+        manager.handle(signal.SIGINT, self.__on_sigint)
+        manager.handle(signal.SIGTERM, self.__on_termination)
+        manager.handle(signal.SIGQUIT, self.__on_termination)
+        return manager
 
-    @staticmethod
-    def __restore_signal_handlers(
-        loop: asyncio.AbstractEventLoop, previous: dict[int, Any]
-    ) -> None:
-        for number, handler in previous.items():
-            loop.remove_signal_handler(number)
-            signal.signal(number, handler)
+
+async def _nothing_left_to_do() -> None:
+    """Do nothing: what upstream does here as late as this is awaited has been done."""
+
+
+_last_loop: asyncio.AbstractEventLoop | None = None
+
+
+def _loop_of_main_thread() -> asyncio.AbstractEventLoop:
+    """Return the event loop that is set, or else set one; it is closed at exit."""
+    global _last_loop  # noqa: PLW0603 -- as asyncio keeps the one of a thread
+    loop = _last_loop
+    with warnings.catch_warnings(), contextlib.suppress(RuntimeError):
+        warnings.simplefilter('ignore', DeprecationWarning)  # not the same in any two Pythons
+        loop = asyncio.get_event_loop()
+    if loop is None or loop.is_closed():
+        loop = asyncio.new_event_loop()
+    if loop is not _last_loop:
+        atexit.register(loop.close)
+    asyncio.set_event_loop(loop)
+    _last_loop = loop
+    return loop

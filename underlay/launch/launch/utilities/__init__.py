@@ -14,9 +14,11 @@ from .normalizing import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from .signal_management import AsyncSafeSignalManager
 from .visiting import visit_all_entities_and_collect_futures
 
 __all__ = [
+    'AsyncSafeSignalManager',
     'create_future',
     'ensure_argument_type',
     'is_a',
