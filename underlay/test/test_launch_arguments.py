@@ -6,9 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, GroupAction
-from launch.conditions import IfCondition
+from launch import Condition, LaunchContext, LaunchDescription
+from launch.actions import AppendEnvironmentVariable, DeclareLaunchArgument, GroupAction
+from launch.conditions import IfCondition, LaunchConfigurationNotEquals
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
 import pytest
 
@@ -89,7 +89,7 @@ def test_a_condition_that_says_neither_is_refused(
     path = python_launch_file("LogInfo(msg='x', condition=IfCondition('maybe')),")
     launched = run_launch(path)
     assert launched.returncode == 1
-    assert "expected one of '['true', '1', 'false', '0']' but got 'maybe'" in launched.output
+    assert "expected one of [true, 1, false, 0] but got 'maybe'" in launched.output
     assert f'(at {path}:10)' in launched.output
 
 
@@ -152,6 +152,12 @@ def test_scoping_and_forwarding_of_groups(python_launch_file: LaunchFile, run_la
     assert _logged(run_launch(path).output) == ['122', '1-1', '-3-', '141', '1--']
 
 
+def test_a_condition_without_a_predicate_does_not_hold() -> None:
+    assert Condition().evaluate(LaunchContext()) is False
+    with pytest.warns(UserWarning, match='is deprecated: use IfCondition with EqualsSubst'):
+        LaunchConfigurationNotEquals('mode', 'fast')
+
+
 def test_appending_to_an_environment_variable(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:
@@ -164,6 +170,8 @@ def test_appending_to_an_environment_variable(
         """
     )
     assert _logged(run_launch(path).output) == ['a:b:c;d']
+    action = AppendEnvironmentVariable('LIST_OF', 'a', prepend=True, separator=';')
+    assert (action.prepend, action.separator[0].perform(LaunchContext())) == (True, ';')
 
 
 def test_arguments_are_found_also_in_includes_and_groups(

@@ -4,7 +4,9 @@
 
 import asyncio
 from collections.abc import Callable
+import contextlib
 from pathlib import Path
+import signal
 from typing import Any
 
 from launch import Event, EventHandler, LaunchContext, LaunchDescription, LaunchService
@@ -21,6 +23,7 @@ from launch.actions import (
 from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
 from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import matches_name, ShutdownProcess
+from launch.utilities import AsyncSafeSignalManager
 import pytest
 
 LaunchFile = Callable[..., Path]
@@ -58,6 +61,14 @@ def test_on_process_exit_follows_one_process_only() -> None:
     assert notes == ['first is over']
     assert codes == [7]
     assert second.return_code == 7
+
+
+def test_handlers_refuse_what_is_no_action_of_theirs() -> None:
+    refused: Any = 'first'
+    with pytest.raises(TypeError, match=r"requires an ExecuteLocal action .* got 'first'"):
+        OnProcessExit(target_action=refused, on_exit=[])
+    with pytest.raises(TypeError, match=r"requires an Action action .* got 'first'"):
+        OnExecutionComplete(target_action=refused, on_completion=[])
 
 
 def test_on_process_io_sees_what_is_written() -> None:
@@ -313,6 +324,33 @@ def test_the_event_loop_of_a_run_stays_set() -> None:
     loop = asyncio.get_event_loop()
     assert LaunchService().run() == 0
     assert asyncio.get_event_loop() is loop
+
+
+def test_signals_reach_every_manager_that_is_entered() -> None:
+    seen: list[tuple[str, int]] = []
+    before = signal.signal(signal.SIGUSR1, lambda *_: seen.append(('before', 0)))
+
+    async def run() -> None:
+        outer = AsyncSafeSignalManager(asyncio.get_running_loop())
+        outer.handle(signal.SIGUSR1, lambda number: seen.append(('outer', number)))
+        with outer:
+            inner = AsyncSafeSignalManager(asyncio.get_running_loop())
+            inner.handle(signal.SIGUSR1, lambda number: seen.append(('inner', number)))
+            for manager in (inner, contextlib.nullcontext()):
+                with manager:
+                    signal.raise_signal(signal.SIGUSR1)
+                    await asyncio.sleep(0.01)
+                seen.append(('left', 0))
+        signal.raise_signal(signal.SIGUSR1)
+
+    asyncio.run(run())
+    number = signal.SIGUSR1
+    signal.signal(number, before)
+    assert seen == [
+        *[('inner', number), ('outer', number), ('left', 0)],
+        *[('outer', number), ('left', 0)],
+        ('before', 0),
+    ]
 
 
 def test_a_service_runs_in_the_main_thread_only() -> None:

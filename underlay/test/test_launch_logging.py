@@ -114,6 +114,14 @@ def test_debug_shows_the_traceback(capsys: pytest.CaptureFixture[str]) -> None:
     assert '[DEBUG] [launch]: processing event' in output
 
 
+def test_a_reset_forgets_levels_and_handlers(capsys: pytest.CaptureFixture[str]) -> None:
+    get_logger('some-part').setLevel(logging.ERROR)
+    launch_config.reset()
+    reset()
+    get_logger('some-part').info('once')
+    assert capsys.readouterr().out == '[INFO] [some-part]: once\n'
+
+
 def test_other_handlers_of_logging_can_be_used() -> None:
     made: list[logging.Handler] = []
 

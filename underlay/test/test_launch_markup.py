@@ -68,7 +68,7 @@ YAML = """
           cmd: echo from yaml
           output: screen
           emulate_tty: true
-          sigterm_timeout: '1'
+          sigterm_timeout: 1.0
           respawn_delay: 1.0
           env:
             - {name: A, value: b}
@@ -204,6 +204,8 @@ def test_errors_in_python_name_file_and_line(
 
 def test_a_file_of_no_known_name_is_tried_in_each_format(launch_file: LaunchFile) -> None:
     path = launch_file('launch:\n- log: {message: a}\n', 'whatever')
+    assert len(get_launch_description_from_any_launch_file(str(path)).entities) == 1
+    path = launch_file('launch:\n- log: {message: a}\n', 'yaml_inside.launch')
     assert len(get_launch_description_from_any_launch_file(str(path)).entities) == 1
     path = launch_file('launch: [', 'nothing')
     with pytest.raises(InvalidLaunchFileError, match='may have a syntax error, or its format is'):

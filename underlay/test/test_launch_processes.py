@@ -97,13 +97,13 @@ def test_own_log_writes_files_of_the_process(
         assert (folder / 'sh-1-stdout.log').read_text() == '[sh-1] out\n'
 
 
-def test_output_of_a_python_child_comes_at_once_and_unbuffered(
+def test_output_comes_as_soon_as_a_process_writes_it(
     python_launch_file: LaunchFile, interrupt_launch: Run
 ) -> None:
     path = python_launch_file(
         """
         ExecuteProcess(
-            cmd=['python3', '-c', 'import time; print("early"); time.sleep(30)'], output='screen'
+            cmd=['python3', '-uc', 'import time; print("early"); time.sleep(30)'], output='screen'
         ),
         """
     )

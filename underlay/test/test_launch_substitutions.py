@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchContext
-from launch.frontend import parse_substitution
+from launch.frontend import parse_if_substitutions, parse_substitution
 from launch.substitutions import (
     AllSubstitution,
     AndSubstitution,
@@ -34,7 +34,11 @@ from launch.substitutions import (
     ThisLaunchFileDir,
 )
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch.utilities.type_utils import coerce_to_type, perform_typed_substitution
+from launch.utilities.type_utils import (
+    coerce_to_type,
+    normalize_typed_substitution,
+    perform_typed_substitution,
+)
 import pytest
 
 pytestmark = pytest.mark.usefixtures('launch_environment')
@@ -107,8 +111,10 @@ def test_python_expressions_know_math_and_given_modules(context: LaunchContext) 
     assert _perform(context, PythonExpression([LaunchConfiguration('n'), ' + floor(1.5)'])) == '4'
     words = PythonExpression(["os.path.join('a', 'b')"], python_modules=['os'])
     assert _perform(context, words) == 'a/b'
-    with pytest.raises(SubstitutionFailure, match=r"cannot evaluate .* '1 /': SyntaxError"):
+    with pytest.raises(SyntaxError, match=r"cannot evaluate .* '1 /': SyntaxError"):
         _perform(context, PythonExpression('1 /'))
+    with pytest.raises(NameError, match=r"cannot evaluate .* 'floor\(1\)': NameError"):
+        _perform(context, PythonExpression('floor(1)', python_modules=[]))
 
 
 @pytest.mark.parametrize(
@@ -138,6 +144,8 @@ def test_logic(context: LaunchContext, substitution: Any, expected: str) -> None
 def test_logic_refuses_what_is_neither_true_nor_false(context: LaunchContext) -> None:
     with pytest.raises(SubstitutionFailure, match='perhaps'):
         _perform(context, NotSubstitution('perhaps'))
+    with pytest.raises(SubstitutionFailure, match='perhaps'):
+        _perform(context, AnySubstitution('true', 'perhaps'))
 
 
 def test_anonymous_names_are_unique_but_stay(context: LaunchContext) -> None:
@@ -150,7 +158,7 @@ def test_anonymous_names_are_unique_but_stay(context: LaunchContext) -> None:
 def test_files_and_folders(context: LaunchContext, tmp_path: Path) -> None:
     (tmp_path / 'file').write_text('content')
     assert _perform(context, FileContent(str(tmp_path / 'file'))) == 'content'
-    with pytest.raises(SubstitutionFailure, match='cannot read the file'):
+    with pytest.raises(SubstitutionFailure, match=r'File not found: .*none'):
         _perform(context, FileContent(str(tmp_path / 'none')))
     assert Path(_perform(context, LaunchLogDir())).parent == tmp_path / 'ros_log'
     with pytest.raises(SubstitutionFailure, match='used outside of a launch file'):
@@ -222,11 +230,24 @@ def test_text_becomes_the_wanted_type(text: str, kind: Any, value: Any) -> None:
     assert coerce_to_type(text, kind) == value
 
 
+def test_a_list_of_whole_and_other_numbers_is_of_floats(context: LaunchContext) -> None:
+    normalized = normalize_typed_substitution([1, 2.5, [TextSubstitution(text='3.0')]], None)
+    assert perform_typed_substitution(context, normalized, list[float]) == [1.0, 2.5, 3.0]
+    with pytest.raises(TypeError, match='expected list'):
+        normalize_typed_substitution([1, 2], list[float])
+
+
 def test_text_that_does_not_mean_the_type_is_refused(context: LaunchContext) -> None:
     with pytest.raises(ValueError, match='Cannot convert value'):
         coerce_to_type('maybe', bool)
     with pytest.raises(ValueError, match='yaml'):
         coerce_to_type('[1, ', None)
+    with pytest.raises(ValueError, match='yaml'):
+        coerce_to_type('[1, 2.0]', None)
+    with pytest.raises(ValueError, match='not of one type, but float and int'):
+        parse_if_substitutions(['$(var x)', 1, 2.0])
+    with pytest.raises(TypeError, match='is not an instance of'):
+        perform_typed_substitution(context, 1.0, int)
     with pytest.raises(ValueError, match='not of one type'):
         perform_typed_substitution(context, [1, 'a'], None)
 

@@ -21,11 +21,9 @@ class Condition:
     def describe(self) -> str:
         return self.__class__.__name__
 
-    def _predicate_func(self, context: LaunchContext) -> bool:
-        return True if self._predicate is None else bool(self._predicate(context))
-
     def evaluate(self, context: LaunchContext) -> bool:
-        self.__last_evaluation = self._predicate_func(context)
+        """Return what the predicate says; without one, False."""
+        self.__last_evaluation = self._predicate is not None and bool(self._predicate(context))
         return self.__last_evaluation
 
     @property

@@ -24,7 +24,13 @@ class _Locals:
         self.__dict__.update(values)
 
     def __getattr__(self, name: str) -> Any:
-        raise AttributeError(f"context.locals does not contain attribute '{name}'")
+        known = ', '.join(self.__dict__)
+        raise AttributeError(
+            f"context.locals does not contain attribute '{name}', it contains: [{known}]"
+        )
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"can't set attribute '{name}', locals are read-only")
 
 
 class LaunchContext:
@@ -161,5 +167,5 @@ class LaunchContext:
     async def emit_event(self, event: Event) -> None:
         self.emit_event_sync(event)
 
-    def perform_substitution(self, substitution: Substitution | str) -> str:
-        return substitution if isinstance(substitution, str) else substitution.perform(self)
+    def perform_substitution(self, substitution: Substitution) -> str:
+        return substitution.perform(self)

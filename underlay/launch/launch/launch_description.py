@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
-import warnings
 
 from .launch_context import LaunchContext
 from .launch_description_entity import LaunchDescriptionEntity
+from .logging import get_logger
 
 if TYPE_CHECKING:
     from .actions import DeclareLaunchArgument, IncludeLaunchDescription
@@ -32,11 +32,12 @@ class LaunchDescription(LaunchDescriptionEntity):
         self.deprecated_reason = deprecated_reason
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        del context
         if self.deprecated:
-            warnings.warn(
-                f'this launch file is deprecated: {self.deprecated_reason}', stacklevel=2
+            path = context.get_locals_as_dict().get('current_launch_file_path')
+            what = (
+                f'launch file [{path}] is deprecated' if path else 'deprecated launch description'
             )
+            get_logger().warning(f'{what}: {self.deprecated_reason}')
         return self.entities
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -93,7 +94,7 @@ def _collect_arguments(
 
     for entity in entities:
         if isinstance(entity, DeclareLaunchArgument):
-            entity._conditionally_included = conditional
+            entity._conditionally_included = conditional or entity.condition is not None
             found.append((entity, includes))
         if isinstance(entity, ResetLaunchConfigurations):
             # What is declared after it in this scope cannot be given from outside.

@@ -19,7 +19,7 @@ class LaunchDescriptionEntity:
     _location: tuple[str, int] | None = None
 
     def describe(self) -> str:
-        return self.__repr__()
+        raise NotImplementedError(f'{type(self).__name__} does not describe itself')
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that a visit yields for sure."""
@@ -35,6 +35,9 @@ class LaunchDescriptionEntity:
         """Do what the entity is for and return what is to be visited next."""
         del context
         return None
+
+    def _leave(self, context: LaunchContext) -> None:
+        """Do what is left when all that the visit yielded has been visited."""
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Return what is done when the entity is, or None when a visit was all."""

@@ -16,7 +16,7 @@ class LaunchDescriptionSource:
     def __init__(
         self,
         launch_description: LaunchDescription | None = None,
-        location: SomeSubstitutionsType = '',
+        location: SomeSubstitutionsType = '<string>',
         method: str = 'unspecified mechanism from a script',
     ) -> None:
         self.__launch_description = launch_description
@@ -47,11 +47,13 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        raise NotImplementedError(f'{type(self).__name__} does not read {location}')
+        raise RuntimeError(
+            f'{type(self).__name__} of {location} was given no launch description and reads none'
+        )
 
     @property
     def location(self) -> str:
-        """The path where it is known, else a description of it."""
+        """The path where it is known, else the substitutions that it is to be made of."""
         if self.__expanded_location is None:
-            return ' + '.join(str(sub.describe()) for sub in self.__location)
+            return ' + '.join(str(sub) for sub in self.__location)
         return self.__expanded_location

@@ -18,6 +18,7 @@ import warnings
 from .event import Event
 from .event_handlers import OnIncludeLaunchDescription, OnShutdown
 from .events import IncludeLaunchDescription, Shutdown
+from .events.shutdown import Interrupted
 from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
 from .launch_description_entity import LaunchDescriptionEntity
@@ -96,14 +97,14 @@ class LaunchService:
 
         :return: in the thread of the service, unless ``force_sync``, something to await.
         """
-        reason = 'LaunchService.shutdown() called'
+        event = Shutdown(reason='LaunchService.shutdown() called')
         with self.__lock:
             if self.__loop is None:
                 return None
             if threading.current_thread() is not threading.main_thread():
-                self.__loop.call_soon_threadsafe(self.__begin_shutdown, reason, False)
+                self.__loop.call_soon_threadsafe(self.__begin_shutdown, event)
                 return None
-        self.__begin_shutdown(reason, False)
+        self.__begin_shutdown(event)
         return None if force_sync else _nothing_left_to_do()
 
     # ---- running ----
@@ -162,13 +163,13 @@ class LaunchService:
             except asyncio.CancelledError:
                 self.__logger.error('run task was canceled')
                 self.__return_code = 1
-                self.__begin_shutdown('the launch was cancelled', False)
+                self.__begin_shutdown(Shutdown(reason='the launch was cancelled'))
             except Exception as error:
                 text = 'Caught exception in launch (see debug for traceback): '
                 self.__logger.debug(traceback.format_exc())
                 self.__logger.error(text + describe_error(error))
                 self.__return_code = 1
-                self.__begin_shutdown(text + str(error), False)
+                self.__begin_shutdown(Shutdown(reason=text + str(error)))
             else:
                 return
 
@@ -184,7 +185,7 @@ class LaunchService:
                 if self.__shutting_down:
                     return
                 if self.__shutdown_when_idle:
-                    self.__begin_shutdown('idle', False)
+                    self.__begin_shutdown(Shutdown(reason='idle'))
                     continue
             await self.__wakeup.wait()
 
@@ -246,9 +247,9 @@ class LaunchService:
         self.__shutting_down = True
         self.context._set_is_shutdown(True)
 
-    def __begin_shutdown(self, reason: str, due_to_sigint: bool) -> None:
+    def __begin_shutdown(self, event: Shutdown) -> None:
         if not self.__shutting_down:
-            self.context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
+            self.context.emit_event_sync(event)
         self.__shutting_down = True
         self.context._set_is_shutdown(True)
 
@@ -259,13 +260,13 @@ class LaunchService:
             return
         self.__sigint_received = True
         self.__logger.warning(text)
-        self.__begin_shutdown('ctrl-c (SIGINT)', True)
+        self.__begin_shutdown(Interrupted())
 
     def __on_termination(self, number: int) -> None:
         """End the children before the launch; upstream leaves them running."""
         name = signal.Signals(number).name
         self.__logger.warning(f'received {name}: shutting down launched system')
-        self.__begin_shutdown(name, False)
+        self.__begin_shutdown(Shutdown(reason=name))
 
     def __signals(self, loop: asyncio.AbstractEventLoop) -> AsyncSafeSignalManager:
         manager = AsyncSafeSignalManager(loop)

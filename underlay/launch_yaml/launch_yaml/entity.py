@@ -94,6 +94,6 @@ class Entity(BaseEntity):
             raise TypeError(f'{where} expected to be a list of dictionaries, got {value!r}')
         if not is_instance_of(value, data_type, can_be_str=can_be_str):
             kind = getattr(data_type, '__name__', data_type)
-            hint = ': put it in quotes' if data_type is str else ''
+            hint = {str: ': put it in quotes', float: ': write it with a point'}.get(data_type, '')
             raise TypeError(f"{where} expected to be of type '{kind}', got {value!r}{hint}")
         return value

@@ -67,4 +67,4 @@ class Parser(BaseParser):
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        return {'launch.yaml', 'launch.yml', 'yaml', 'yml'}
+        return {'launch.yaml', 'launch.yml', 'yaml', 'yml', 'launch'}

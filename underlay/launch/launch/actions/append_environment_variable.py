@@ -32,8 +32,8 @@ class AppendEnvironmentVariable(Action):
         super().__init__(**kwargs)
         self.name = normalize_to_list_of_substitutions(name)
         self.value = normalize_to_list_of_substitutions(value)
-        self.__prepend = normalize_typed_substitution(prepend, bool)
-        self.__separator = normalize_to_list_of_substitutions(separator)
+        self.prepend = normalize_typed_substitution(prepend, bool)
+        self.separator = normalize_to_list_of_substitutions(separator)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -49,9 +49,9 @@ class AppendEnvironmentVariable(Action):
     def execute(self, context: LaunchContext) -> None:
         name = perform_substitutions(context, self.name)
         value = perform_substitutions(context, self.value)
-        separator = perform_substitutions(context, self.__separator)
+        separator = perform_substitutions(context, self.separator)
         known = context.environment.get(name)
         if known is not None:
-            first = perform_typed_substitution(context, self.__prepend, bool)
+            first = perform_typed_substitution(context, self.prepend, bool)
             value = separator.join([value, known] if first else [known, value])
         context.environment[name] = value

@@ -16,6 +16,7 @@ from ..event_handler import EventHandler
 from ..event_handlers import OnProcessExit, OnProcessStart, OnShutdown
 from ..events import Shutdown
 from ..events.process import ProcessStdin, ShutdownProcess, SignalProcess
+from ..events.shutdown import Interrupted
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_substitutions_type import SomeSubstitutionsType
@@ -203,7 +204,8 @@ class ExecuteLocal(Action):
     def __on_launch_shutdown(self, event: Shutdown, context: LaunchContext) -> _Entities:
         by_terminal = event.due_to_sigint and not context.noninteractive
         actions = self._shutdown_process(context, send_sigint=not by_terminal)
-        if actions and self.__run and by_terminal and not terminal_reaches_children():
+        interrupted = isinstance(event, Interrupted) and by_terminal
+        if actions and self.__run and interrupted and not terminal_reaches_children():
             late = late_sigint(self)
             self.__run.timers.append(late)
             actions.append(late)

@@ -23,13 +23,13 @@ _TEXTS = {
     'name': 'name',
     'launch-prefix': 'prefix',
     'output': 'output',
-    'sigkill_timeout': 'sigkill_timeout',
-    'sigterm_timeout': 'sigterm_timeout',
 }
 _TYPED = {
     'respawn': bool,
     'respawn_delay': float,
     'respawn_max_retries': int,
+    'sigkill_timeout': float,
+    'sigterm_timeout': float,
     'shell': bool,
     'emulate_tty': bool,
 }

@@ -20,7 +20,6 @@ from ..some_substitutions_type import SomeSubstitutionsType
 from ..source_location import attach_location
 from ..substitutions import TextSubstitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
-from .opaque_function import OpaqueFunction
 from .set_launch_configuration import SetLaunchConfiguration
 
 _Argument = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
@@ -52,7 +51,7 @@ class IncludeLaunchDescription(Action):
         if isinstance(launch_arguments, dict):
             launch_arguments = launch_arguments.items()
         self.launch_arguments = tuple(launch_arguments or ())
-        self.__outer_place: dict[str, Any] = {}
+        self.__outer_places: list[dict[str, Any]] = []
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -85,12 +84,11 @@ class IncludeLaunchDescription(Action):
         return [
             *(SetLaunchConfiguration(name, value) for name, value in self.launch_arguments),
             description,
-            OpaqueFunction(function=self.__leave_place),
         ]
 
     def __enter_place(self, context: LaunchContext) -> None:
         known = context.get_locals_as_dict()
-        self.__outer_place = {name: known[name] for name in _PLACE if name in known}
+        self.__outer_places.append({name: known[name] for name in _PLACE if name in known})
         path = Path(self.launch_description_source.location).absolute()
         if path.exists():
             path = Path(os.path.normpath(path))
@@ -100,9 +98,11 @@ class IncludeLaunchDescription(Action):
         context.extend_globals(place)
         context.extend_locals(place)
 
-    def __leave_place(self, context: LaunchContext) -> None:
-        context.extend_globals(self.__outer_place)
-        context.extend_locals(self.__outer_place)
+    def _leave(self, context: LaunchContext) -> None:
+        if self.__outer_places:  # not where a condition kept it out
+            place = self.__outer_places.pop()
+            context.extend_globals(place)
+            context.extend_locals(place)
 
     def __check_arguments(self, context: LaunchContext, description: LaunchDescription) -> None:
         """Refuse a missing argument before anything of the file is started."""

@@ -24,16 +24,14 @@ def evaluate_condition_expression(
 
     :raises InvalidConditionExpressionError: it says neither true (1) nor false (0).
     """
-    text = perform_substitutions(context, expression)
-    word = text.strip().lower()
+    subs = list(expression)
+    word = perform_substitutions(context, subs).strip().lower()
     if word in VALID_TRUE_EXPRESSIONS:
         return True
     if word in VALID_FALSE_EXPRESSIONS:
         return False
     valid = VALID_TRUE_EXPRESSIONS + VALID_FALSE_EXPRESSIONS
-    raise InvalidConditionExpressionError(
-        f"invalid condition expression, expected one of '{valid}' but got '{text}'"
-    )
+    raise InvalidConditionExpressionError(word, subs, valid)
 
 
 class IfCondition(Condition):
@@ -41,9 +39,9 @@ class IfCondition(Condition):
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)
-        super().__init__(predicate=self._holds)
+        super().__init__(predicate=self._predicate_func)
 
-    def _holds(self, context: LaunchContext) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         return evaluate_condition_expression(context, self.__expression)
 
     def describe(self) -> str:

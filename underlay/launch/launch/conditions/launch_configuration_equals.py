@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 from ..condition import Condition
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
@@ -18,13 +20,19 @@ class LaunchConfigurationEquals(Condition):
         launch_configuration_name: str,
         expected_value: SomeSubstitutionsType | None,
     ) -> None:
+        warnings.warn(
+            f'{type(self).__name__} is deprecated: use IfCondition with EqualsSubstitution or '
+            f"NotEqualsSubstitution of LaunchConfiguration('{launch_configuration_name}')",
+            UserWarning,
+            stacklevel=2,
+        )
         self.__name = launch_configuration_name
         self.__expected = (
             None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
         )
-        super().__init__(predicate=self._holds)
+        super().__init__(predicate=self._predicate_func)
 
-    def _holds(self, context: LaunchContext) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         expected = None
         if self.__expected is not None:
             expected = perform_substitutions(context, self.__expected)

@@ -11,5 +11,5 @@ from .launch_configuration_equals import LaunchConfigurationEquals
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
     """Holds where the configuration is not the text, or with None where it is set."""
 
-    def _holds(self, context: LaunchContext) -> bool:
-        return not super()._holds(context)
+    def _predicate_func(self, context: LaunchContext) -> bool:
+        return not super()._predicate_func(context)

@@ -11,5 +11,5 @@ from .if_condition import IfCondition
 class UnlessCondition(IfCondition):
     """Holds where the expression says false."""
 
-    def _holds(self, context: LaunchContext) -> bool:
-        return not super()._holds(context)
+    def _predicate_func(self, context: LaunchContext) -> bool:
+        return not super()._predicate_func(context)

@@ -97,8 +97,6 @@ class Executable:
             self.final_cwd = str(Path(perform_substitutions(context, self.cwd)).expanduser())
         env = dict(context.environment) if self.env is None else _perform_env(context, self.env)
         env.update(_perform_env(context, self.additional_env or []))
-        # A node's print() is to be seen when it happens, not when 8 KiB have come together.
-        env.setdefault('PYTHONUNBUFFERED', '1')
         self.final_env = env
 
     def __prefix_words(self, context: LaunchContext, program: str) -> list[str]:

@@ -37,7 +37,7 @@ class OnActionEventBase(BaseEventHandler):
         if not isinstance(action_matcher, target_action_cls) and not (
             callable(action_matcher) or action_matcher is None
         ):
-            raise ValueError(
+            raise TypeError(
                 f'{type(self).__name__} requires an {target_action_cls.__name__} action or a '
                 f'predicate as target_action, got {action_matcher!r}'
             )
@@ -61,9 +61,9 @@ class OnActionEventBase(BaseEventHandler):
             return False
         matcher = self.__action_matcher
         action = cast(Any, event).action
-        if matcher is None or matcher is action:
-            return True
-        return not isinstance(matcher, LaunchDescriptionEntity) and matcher(action)
+        if matcher is not None and callable(matcher):
+            return bool(matcher(action))
+        return matcher is None or matcher is action
 
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
         super().handle(event, context)

@@ -16,3 +16,10 @@ class Shutdown(Event):
     def __init__(self, *, reason: str = 'reason not given', due_to_sigint: bool = False) -> None:
         self.reason = reason
         self.due_to_sigint = due_to_sigint
+
+
+class Interrupted(Shutdown):
+    """Emitted where this process itself has got SIGINT."""
+
+    def __init__(self) -> None:
+        super().__init__(reason='ctrl-c (SIGINT)', due_to_sigint=True)

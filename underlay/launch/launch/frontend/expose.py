@@ -11,7 +11,7 @@ import importlib
 from typing import Any, TYPE_CHECKING, TypeVar
 import warnings
 
-from entry_point_index import entry_points, load
+import entry_point_index
 
 if TYPE_CHECKING:
     from ..action import Action
@@ -25,15 +25,17 @@ substitution_parse_methods: dict[str, Callable[[Any], Any]] = {}
 _Exposed = TypeVar('_Exposed')
 
 
-def _expose(
+def __expose_impl(
     name: str, methods: dict[str, Callable[..., Any]], kind: str
 ) -> Callable[[_Exposed], _Exposed]:
     def decorator(exposed: _Exposed) -> _Exposed:
         parse = getattr(exposed, 'parse', None) if isinstance(exposed, type) else exposed
         if not callable(parse):
-            raise RuntimeError(f"exposed {kind} '{name}' needs a method 'parse'")
-        known = methods.get(name)
-        if known is not None and known != parse:
+            raise RuntimeError(
+                f'Exposed {kind} parser for {name} is not a callable or a class containing a '
+                'parse method'
+            )
+        if methods.get(name, parse) != parse:
             raise RuntimeError(f"two {kind}s are exposed under the name '{name}'")
         methods[name] = parse
         return exposed
@@ -43,12 +45,12 @@ def _expose(
 
 def expose_substitution(name: str) -> Callable[[_Exposed], _Exposed]:
     """Make a class known as ``$(name ...)``."""
-    return _expose(name, substitution_parse_methods, 'substitution')
+    return __expose_impl(name, substitution_parse_methods, 'substitution')
 
 
 def expose_action(name: str) -> Callable[[_Exposed], _Exposed]:
     """Make a class, or a function that parses, known as the element ``name``."""
-    return _expose(name, action_parse_methods, 'action')
+    return __expose_impl(name, action_parse_methods, 'action')
 
 
 @functools.cache
@@ -56,11 +58,18 @@ def load_extensions() -> None:
     """Import what belongs to launch, and what distributions register."""
     for name in ('launch.actions', 'launch.substitutions'):
         importlib.import_module(name)
-    for name, target in entry_points('launch.frontend.launch_extension').items():
+    load_entry_points('launch.frontend.launch_extension', 'launch extension')
+
+
+def load_entry_points(group: str, what: str) -> dict[str, Any]:
+    """Import what distributions register in a group; warn of what cannot be imported."""
+    loaded = {}
+    for name, target in sorted(entry_point_index.entry_points(group).items()):
         try:
-            load(target)
+            loaded[name] = entry_point_index.load(target)
         except Exception as error:
-            warnings.warn(f'Failed to load the launch extension {name}: {error}', stacklevel=2)
+            warnings.warn(f'Failed to load the {what} {name}: {error!r}', stacklevel=2)
+    return loaded
 
 
 def _find(name: str, methods: dict[str, Callable[..., Any]], what: str) -> Callable[..., Any]:

@@ -109,11 +109,23 @@ def parse_substitution(value: str) -> list[Substitution]:
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Return a value with every text in it parsed; one without substitutions stays text."""
+    """Return a value with every text in it parsed; one without substitutions stays text.
+
+    :raises ValueError: it is a list, and its items without substitutions are of several types.
+    """
+    if not isinstance(value, list):
+        return _parse_if_text(value)
+    items = [_parse_if_text(item) for item in value]
+    kinds = {type(item) for item in items if not isinstance(item, list)}
+    if len(kinds) > 1:
+        names = ' and '.join(sorted(kind.__name__ for kind in kinds))
+        raise ValueError(f'the items of {value} are not of one type, but {names}')
+    return items
+
+
+def _parse_if_text(value: Any) -> Any:
     from ..substitutions import TextSubstitution
 
-    if isinstance(value, list):
-        return [parse_if_substitutions(item) for item in value]
     if not isinstance(value, str):
         return value
     parsed = parse_substitution(value)

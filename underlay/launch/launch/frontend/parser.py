@@ -6,14 +6,16 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any, TextIO, TYPE_CHECKING
+import warnings
 
-from entry_point_index import entry_points, load
+# Upstream's name of what finds the entry points.
+import entry_point_index as importlib_metadata
 
 from ..invalid_launch_file_error import InvalidLaunchFileError
 from ..source_location import attach_location
 from ..substitution import Substitution
 from .entity import Entity
-from .expose import instantiate_action, load_extensions
+from .expose import instantiate_action, load_entry_points, load_extensions
 from .parse_substitution import (
     parse_if_substitutions,
     parse_substitution,
@@ -42,10 +44,8 @@ class Parser:
     @classmethod
     def load_parser_implementations(cls) -> None:
         if Parser.frontend_parsers is None:
-            Parser.frontend_parsers = {
-                name: load(target)
-                for name, target in entry_points('launch.frontend.parser').items()
-            }
+            group = 'launch.frontend.parser'
+            Parser.frontend_parsers = load_entry_points(group, 'parser extension')
 
     @classmethod
     def _parsers(cls) -> dict[str, type[Parser]]:
@@ -116,7 +116,19 @@ class Parser:
 
     @classmethod
     def is_extension_valid(cls, extension: str) -> bool:
-        return extension in cls.get_file_extensions_from_parsers()
+        _warn_of('is_extension_valid', 'is_filename_valid')
+        return extension in cls._parsers()
+
+    @classmethod
+    def get_parser_from_extension(cls, extension: str) -> type[Parser]:
+        """Return the parser that is registered under a name, as 'xml'.
+
+        :raises RuntimeError: there is none.
+        """
+        _warn_of('get_parser_from_extension', 'get_parsers_from_filename')
+        if extension not in cls._parsers():
+            raise RuntimeError(f"no parser is registered under the name '{extension}'")
+        return cls._parsers()[extension]
 
     @classmethod
     def is_filename_valid(cls, filename: str) -> bool:
@@ -151,3 +163,10 @@ class Parser:
         known = bool(cls.get_parsers_from_filename(name))
         extension = Path(name).suffix[1:] if known else ''
         raise InvalidFrontendLaunchFileError(extension, likely_errors=errors)
+
+
+def _warn_of(old: str, new: str) -> None:
+    warnings.warn(f'Parser.{old} is deprecated, use Parser.{new} instead', stacklevel=3)
+
+
+__all__ = ['InvalidFrontendLaunchFileError', 'Parser', 'importlib_metadata']

@@ -17,6 +17,7 @@ _IDENTIFIERS: dict[str, Any] = {
     'list_of_float': list[float],
     'list_of_bool': list[bool],
     'list_of_str': list[str],
+    'yaml': None,
 }
 
 

@@ -8,10 +8,14 @@ from collections.abc import Callable, Iterable, Mapping
 import logging
 import os
 from pathlib import Path
+import tempfile
 from typing import Any, Literal
+import warnings
 
 from . import handlers
-from .log_folder import new_log_folder
+from .log_folder import logging_directory as _get_logging_directory
+from .log_folder import make_unique_log_dir as _make_unique_log_dir
+from .log_folder import renew_latest_log_dir as _renew_latest_log_dir
 
 __all__ = [
     'get_logger',
@@ -78,7 +82,7 @@ class LaunchConfig:
     def log_dir(self) -> str:
         """The folder of the log files, made when first asked for."""
         if self._log_dir is None:
-            self._log_dir = str(new_log_folder())
+            self._log_dir = _new_log_dir()
         return self._log_dir
 
     @log_dir.setter
@@ -128,6 +132,27 @@ class LaunchConfig:
 launch_config = LaunchConfig()
 
 
+def _new_log_dir() -> str:
+    """Make a folder for logs, in the temporary folder where the proper one cannot be written."""
+    base = _get_logging_directory()
+    try:
+        log_dir = _make_unique_log_dir(base_path=base)
+    except OSError as error:
+        log_dir = _make_unique_log_dir(base_path=str(Path(tempfile.gettempdir()) / 'ros-log'))
+        warnings.warn(
+            f'cannot write logs below {base} ({error.strerror}): they go to {log_dir}; set '
+            'ROS_LOG_DIR to a folder you may write',
+            stacklevel=3,
+        )
+        return log_dir
+    try:
+        if not _renew_latest_log_dir(log_dir=log_dir):
+            warnings.warn("'latest' beside the log directory is no link: it stays", stacklevel=3)
+    except OSError as error:
+        warnings.warn(f'Cannot create a symlink to latest log directory: {error}', stacklevel=3)
+    return log_dir
+
+
 def log_launch_config(*, logger: logging.Logger = logging.root) -> None:
     """Tell where the log files are and from which level on is logged."""
     if launch_config.file_handlers:
@@ -136,9 +161,12 @@ def log_launch_config(*, logger: logging.Logger = logging.root) -> None:
     logger.info(f'Default logging verbosity is set to {level}')
 
 
+_handlers_of: dict[logging.Logger, set[logging.Handler]] = {}
+
+
 def _add(logger: logging.Logger, handler: logging.Handler) -> None:
-    if handler not in logger.handlers:
-        logger.addHandler(handler)
+    _handlers_of.setdefault(logger, set()).add(handler)
+    logger.addHandler(handler)
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
@@ -233,14 +261,13 @@ def get_output_loggers(
 
 
 def reset() -> None:
-    """Forget every handler and setting, as a test wants between two launches."""
-    known: list[logging.Handler] = [*launch_config.file_handlers.values()]
-    if launch_config.screen_handler is not None:
-        known.append(launch_config.screen_handler)
-    for logger in [logging.root, *logging.root.manager.loggerDict.values()]:
-        if isinstance(logger, logging.Logger):
-            for handler in [handler for handler in logger.handlers if handler in known]:
-                logger.removeHandler(handler)
-    for handler in known:
+    """Forget every handler, level and setting, as a test wants between two launches."""
+    for logger, known in _handlers_of.items():
+        logger.setLevel(logging.NOTSET)
+        for handler in known:
+            logger.removeHandler(handler)
+            handler.close()
+    for handler in launch_config.file_handlers.values():
         handler.close()
+    _handlers_of.clear()
     launch_config.reset()

@@ -85,18 +85,21 @@ class _ManyValued(Substitution):
     def describe(self) -> str:
         return f'{type(self).__name__}({" ".join(str(arg) for arg in self.args)})'
 
+    def _truths(self, context: LaunchContext) -> list[bool]:
+        return [_truth(context, arg) for arg in self.args]
+
 
 @expose_substitution('any')
 class AnySubstitution(_ManyValued):
-    """Becomes 'true' where at least one of the values says true."""
+    """Becomes 'true' where at least one of the values says true; each has to say something."""
 
     def perform(self, context: LaunchContext) -> str:
-        return _text(any(_truth(context, arg) for arg in self.args))
+        return _text(any(self._truths(context)))
 
 
 @expose_substitution('all')
 class AllSubstitution(_ManyValued):
-    """Becomes 'true' where all of the values say true."""
+    """Becomes 'true' where all of the values say true; each has to say something."""
 
     def perform(self, context: LaunchContext) -> str:
-        return _text(all(_truth(context, arg) for arg in self.args))
+        return _text(all(self._truths(context)))

@@ -30,5 +30,7 @@ class FileContent(Substitution):
         path = perform_substitutions(context, self.path)
         try:
             return Path(path).read_text(encoding='utf-8')
+        except FileNotFoundError:
+            raise SubstitutionFailure(f'File not found: {path}') from None
         except (OSError, UnicodeDecodeError) as error:
             raise SubstitutionFailure(f"cannot read the file '{path}': {error}") from None

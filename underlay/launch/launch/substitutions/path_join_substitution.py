@@ -12,7 +12,7 @@ from ..frontend.expose import expose_substitution
 from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
-from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ..utilities import normalize_to_list_of_substitutions
 
 
 @expose_substitution('path-join')
@@ -37,7 +37,7 @@ class PathJoinSubstitution(Substitution):
         return f'PathJoin({", ".join(parts)})'
 
     def perform(self, context: LaunchContext) -> str:
-        parts = [perform_substitutions(context, part) for part in self.substitutions]
+        parts = [''.join(sub.perform(context) for sub in part) for part in self.substitutions]
         return os.path.join('', *parts)  # noqa: PTH118
 
 

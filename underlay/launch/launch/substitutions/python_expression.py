@@ -13,7 +13,6 @@ from ..launch_context import LaunchContext
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import MarkupArguments, Substitution
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
-from .substitution_failure import SubstitutionFailure
 
 
 @expose_substitution('eval')
@@ -22,6 +21,8 @@ class PythonExpression(Substitution):
 
     :param python_modules: names of modules the expression may use; what is in ``math`` is also
         known by itself.
+
+    What the expression raises is raised with the expression in its message.
     """
 
     _arguments = MarkupArguments(
@@ -39,7 +40,7 @@ class PythonExpression(Substitution):
         kwargs = super().parse(data)[1]
         if 'python_modules' in kwargs:
             names = ''.join(sub.text for sub in kwargs['python_modules'])
-            kwargs['python_modules'] = [name.strip() for name in names.split(',')]
+            kwargs['python_modules'] = [name.strip() for name in names.split(',') if name.strip()]
         return cls, kwargs
 
     def describe(self) -> str:
@@ -61,6 +62,10 @@ class PythonExpression(Substitution):
         try:
             return str(eval(text, {}, names))
         except Exception as error:
-            raise SubstitutionFailure(
+            what = (
                 f"cannot evaluate the Python expression '{text}': {type(error).__name__}: {error}"
-            ) from error
+            )
+            if isinstance(error, SyntaxError):
+                error.msg, error.filename, error.lineno = what, None, None
+            error.args = (what,)
+            raise

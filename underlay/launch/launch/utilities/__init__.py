@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What actions and substitutions share, under upstream's name of it."""
 
-from .argument_types import (
-    create_future,
-    ensure_argument_type,
-    is_a,
-    is_a_subclass,
-    isclassinstance,
-)
+from .argument_types import create_future, ensure_argument_type
+from .class_tools_impl import is_a, is_a_subclass, isclassinstance
 from .normalizing import (
     normalize_to_list_of_entities,
     normalize_to_list_of_substitutions,

@@ -6,23 +6,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterable
-import inspect
 from typing import Any
-
-
-def isclassinstance(obj: object) -> bool:
-    return not inspect.isclass(obj)
-
-
-def is_a(obj: object, entity_type: type) -> bool:
-    return isinstance(obj, entity_type)
-
-
-def is_a_subclass(obj: object, entity_type: type) -> bool:
-    """Return whether an object or a class is of the type or one derived from it."""
-    if isinstance(obj, type):
-        return issubclass(obj, entity_type)
-    return isinstance(obj, entity_type)
 
 
 def ensure_argument_type(

@@ -29,6 +29,9 @@ def visit_all_entities_and_collect_futures(
     except Exception as error:
         attach_location(error, entity._location)
         raise
+    future = entity.get_asyncio_future()
+    if future is not None:
+        pairs.append((entity, future))
     for sub_entity in sub_entities or ():
         if not isinstance(sub_entity, LaunchDescriptionEntity):
             failure = TypeError(
@@ -38,7 +41,5 @@ def visit_all_entities_and_collect_futures(
             attach_location(failure, entity._location)
             raise failure
         pairs.extend(visit_all_entities_and_collect_futures(sub_entity, context))
-    future = entity.get_asyncio_future()
-    if future is not None:
-        pairs.append((entity, future))
+    entity._leave(context)
     return pairs
