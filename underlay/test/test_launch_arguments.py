@@ -52,6 +52,16 @@ def test_a_missing_argument_is_refused_before_anything_starts(
     assert 'process started' not in launched.output
 
 
+def test_a_misspelt_argument_is_hinted_at(python_launch_file: LaunchFile, run_launch: Run) -> None:
+    path = python_launch_file("DeclareLaunchArgument('viewer', default_value='on'),")
+    launched = run_launch(path, 'viewr:=off', 'launch-prefix:=')
+    (line,) = [line for line in launched.lines if 'WARNING' in line]
+    assert line == (
+        f"[WARNING] [launch]: launch argument 'viewr' is not declared in {path} "
+        "(is 'viewer' meant?)"
+    )
+
+
 def test_a_value_outside_of_the_choices_is_refused_with_them(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

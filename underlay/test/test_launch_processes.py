@@ -187,7 +187,7 @@ def interrupted(number, frame):
     global count
     count += 1
 signal.signal(signal.SIGINT, interrupted)
-print('ready')
+print('ready', flush=True)
 while not count:
     time.sleep(0.05)
 time.sleep(0.8)

@@ -14,7 +14,7 @@ import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from ros2cli import interfaces
 from ros2cli.errors import CommandError
-from ros2launch.command import launch
+from ros2launch import api
 from ros2param import params
 
 MESSAGES = (
@@ -97,7 +97,7 @@ def test_any_text_is_a_parameter_value_or_refused(text: str) -> None:
 @settings(max_examples=100, deadline=None)
 @given(st.lists(st.text(max_size=10), max_size=4))
 def test_any_words_are_launch_arguments_or_refused(words: list[str]) -> None:
-    refusal, parsed = _refusal(launch.parse_launch_arguments, words)
+    refusal, parsed = _refusal(api.parse_launch_arguments, words)
     if refusal is not None:
         assert "expected format '<name>:=<value>'" in refusal
     else:

@@ -8,7 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from launch import LaunchDescription
+from launch.actions import LogInfo
+import launch.logging
 import pytest
+from ros2launch import api
+from ros2launch.option import OptionExtension
 
 _LAUNCH = """
 from launch import LaunchDescription
@@ -79,6 +84,8 @@ def test_the_description_is_printed_without_a_launch(ros2: Callable[..., Any]) -
         (('dmo', 'greet.launch.py'), "did you mean 'demo'?"),
         (('./nothing.launch.py',), "'./nothing.launch.py' is no file"),
         (('demo', 'greet.launch.py', 'who=you'), "malformed launch argument 'who=you'"),
+        (('demo', 'greet.launch.py', 'who:='), "malformed launch argument 'who:='"),
+        (('demo', 'greet.launch.py', '--launch-prefix-filter', 'x'), 'but no --launch-prefix'),
         (('demo', 'greet.launch.py'), 'must'),
     ],
 )
@@ -88,3 +95,41 @@ def test_what_cannot_be_launched_is_said(
     answer = ros2('launch', *words)
     assert answer.status == 1
     assert message in answer.err + answer.out
+
+
+class _Shout(OptionExtension):
+    """Greets in another way, and notes what it was asked."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked: list[Any] = []
+
+    def prestart(self, args: Any) -> None:
+        self.asked.append('prestart')
+
+    def prelaunch(self, launch_description: Any, args: Any) -> tuple[LaunchDescription, ...]:
+        return (LaunchDescription([LogInfo(msg='HELLO'), launch_description]),)
+
+    def postlaunch(self, launch_return_code: int, args: Any) -> None:
+        self.asked.append(launch_return_code)
+
+
+def test_other_programs_launch_files_with_options(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = api.get_share_file_path_from_package(package_name='demo', file_name='greet.launch.py')
+    assert path == str(package / 'greet.launch.py')
+    assert api.get_launch_file_paths(path=str(package)) == [path]
+    shout = _Shout()
+    launch.logging.reset()
+    status = api.launch_a_launch_file(
+        launch_file_path=path,
+        launch_file_arguments=['must:=a', 'whom:=you'],
+        option_extensions={'shout': shout},
+    )
+    launch.logging.reset()
+    assert (status, shout.asked) == (0, ['prestart', 0])
+    output = capsys.readouterr().out
+    assert 'HELLO' in output
+    assert 'hello world' in output
+    assert "'whom' is not declared" in output

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+import difflib
 import os
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from ..launch_description import LaunchDescription
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..launch_description_source import LaunchDescriptionSource
 from ..launch_description_sources import AnyLaunchDescriptionSource
+from ..logging import get_logger
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..source_location import attach_location
 from ..substitutions import TextSubstitution
@@ -23,6 +25,8 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from .set_launch_configuration import SetLaunchConfiguration
 
 _Argument = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+# Of 1: other names, as launch-prefix, are often given without being declared.
+_NEARLY_THE_SAME = 0.75
 _PLACE = ('current_launch_file_path', 'current_launch_file_directory')
 
 
@@ -125,3 +129,14 @@ class IncludeLaunchDescription(Action):
                 )
                 attach_location(error, argument._location)
                 raise error
+        self.__hint_at_misspelt(given, {argument.name for argument, _ in pairs})
+
+    def __hint_at_misspelt(self, given: list[str], declared: set[str]) -> None:
+        """Warn of an argument that the file does not know, but one of nearly the same name."""
+        missing = declared - set(given)
+        for name in sorted(set(given) - declared):
+            if near := difflib.get_close_matches(name, missing, 1, _NEARLY_THE_SAME):
+                get_logger('launch').warning(
+                    f"launch argument '{name}' is not declared in "
+                    f"{self.launch_description_source.location} (is '{near[0]}' meant?)"
+                )

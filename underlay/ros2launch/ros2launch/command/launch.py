@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import os
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,8 @@ from ros2cli.arguments import add_completed, add_package
 from ros2cli.command import CommandExtension
 from ros2cli.discovery import settings_from_environment
 from ros2cli.errors import CommandError
+
+from ..option import get_option_extensions
 
 _SUFFIXES = (*packages.LAUNCH_SUFFIXES, '.py', '.xml', '.yaml', '.yml', '.launch')
 
@@ -34,7 +36,8 @@ class LaunchCommand(CommandExtension):
             action='store_true',
             help='Put the launch system in debug mode, provides more verbose output.',
         )
-        parser.add_argument(
+        either = parser.add_mutually_exclusive_group()
+        either.add_argument(
             '-p',
             '--print',
             '--print-description',
@@ -42,7 +45,7 @@ class LaunchCommand(CommandExtension):
             action='store_true',
             help='Print the launch description to the console without launching it.',
         )
-        parser.add_argument(
+        either.add_argument(
             '-s',
             '--show-args',
             '--show-arguments',
@@ -77,31 +80,54 @@ class LaunchCommand(CommandExtension):
             nargs='*',
             help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
         )
+        self._option_extensions = get_option_extensions()
+        for _, extension in sorted(self._option_extensions.items()):
+            extension.add_arguments(parser, cli_name)
 
     def main(self, *, parser: argparse.ArgumentParser, args: argparse.Namespace) -> int:
         path, words = find_launch_file(
             args.package_name, args.launch_file_name, args.launch_arguments
         )
-        arguments = parse_launch_arguments(words)
-        try:
-            from ros2launch import launching
-        except ModuleNotFoundError as error:
-            raise CommandError(f"`ros2 launch` needs the module '{error.name}'") from None
+        if args.launch_prefix_filter is not None and args.launch_prefix is None:
+            raise CommandError('--launch-prefix-filter is given, but no --launch-prefix')
+        api = _api()
+        api.parse_launch_arguments(words)  # refuses a malformed one before anything is loaded
         if args.show_arguments:
-            return launching.print_arguments(path)
+            return _print(api.print_arguments_of_launch_file, path)
         if args.print_description:
-            return launching.print_description(path)
+            return _print(api.print_a_launch_file, path)
         settings_from_environment()  # refuses what a node would take without a word
         if args.show_all_subprocesses_output:
             os.environ['OVERRIDE_LAUNCH_PROCESS_OUTPUT'] = 'both'
         if args.package_name in packages.installed():
             workspaces.print_hints(args.package_name)
-        if args.launch_prefix:
-            arguments.append(('launch-prefix', args.launch_prefix))
-            arguments.append(('launch-prefix-filter', args.launch_prefix_filter or ''))
-        return launching.launch_file(
-            path, arguments, words, noninteractive=args.noninteractive, debug=args.debug
+        return int(
+            api.launch_a_launch_file(
+                launch_file_path=str(path),
+                launch_file_arguments=words,
+                noninteractive=args.noninteractive,
+                args=args,
+                option_extensions=self._option_extensions,
+                debug=args.debug,
+            )
         )
+
+
+def _api() -> Any:
+    """Import what launches; `ros2 --help` does without."""
+    try:
+        from ros2launch import api
+    except ModuleNotFoundError as error:
+        raise CommandError(f"`ros2 launch` needs the module '{error.name}'") from None
+    return api
+
+
+def _print(what: Callable[..., None], path: Path) -> int:
+    try:
+        what(launch_file_path=str(path))
+    except Exception as error:
+        raise CommandError(f"'{path}' cannot be loaded: {error}") from None
+    return 0
 
 
 def _launch_files(args: argparse.Namespace) -> list[str]:
@@ -130,32 +156,11 @@ def find_launch_file(
             'A launch file name is required in case a package name is given'
             f"; package '{package}' has {', '.join(sorted(p.name for p in known)) or 'none'}"
         )
-    matching = [p for p in known if p.name == file_name]
-    matching = matching or [p for p in share.rglob(file_name) if p.is_file()] if file_name else []
-    if not matching:
-        raise CommandError(
-            f"file '{file_name}' was not found in the share directory of package '{package}' "
-            f"which is at '{share}'{nearest.hint(file_name, (p.name for p in known))}"
-        )
-    if len(matching) > 1:
-        raise CommandError(
-            f"file '{file_name}' was found more than once inside the share directory of package "
-            f"'{package}': [{', '.join(repr(str(p)) for p in sorted(matching))}]"
-        )
-    return matching[0], list(words)
-
-
-def parse_launch_arguments(words: Sequence[str]) -> list[tuple[str, str]]:
-    """Split 'name:=value' words; of duplicates the last wins.
-
-    :raises CommandError: a word has another form.
-    """
-    parsed: dict[str, Any] = {}
-    for word in words:
-        name, separator, value = word.partition(':=')
-        if not separator or not name:
-            raise CommandError(
-                f"malformed launch argument '{word}', expected format '<name>:=<value>'"
-            )
-        parsed[name] = value
-    return list(parsed.items())
+    api = _api()
+    try:
+        found = api.get_share_file_path_from_package(package_name=package, file_name=file_name)
+    except FileNotFoundError as error:
+        raise CommandError(f'{error}{nearest.hint(file_name, (p.name for p in known))}') from None
+    except api.MultipleLaunchFilesError as error:
+        raise CommandError(str(error)) from None
+    return Path(found), list(words)
