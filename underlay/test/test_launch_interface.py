@@ -25,7 +25,7 @@ NAMES = {
     'launch.conditions': 'IfCondition UnlessCondition LaunchConfigurationEquals '
     'LaunchConfigurationNotEquals InvalidConditionExpressionError evaluate_condition_expression',
     'launch.event_handlers': 'OnActionEventBase OnExecutionComplete OnProcessExit OnProcessIO '
-    'OnProcessStart OnShutdown',
+    'OnProcessStart OnShutdown event_named',
     'launch.events': 'ExecutionComplete IncludeLaunchDescription Shutdown TimerEvent '
     'matches_action process',
     'launch.events.process': 'ProcessExited ProcessIO ProcessStarted ProcessStderr ProcessStdin '
@@ -44,10 +44,15 @@ NAMES = {
     'OrSubstitution PathJoinSubstitution PythonExpression SubstitutionFailure TextSubstitution '
     'ThisLaunchFile ThisLaunchFileDir',
     'launch.some_substitutions_type': 'SomeSubstitutionsType SomeSubstitutionsType_types_tuple',
-    'launch.utilities': 'create_future ensure_argument_type is_a is_a_subclass isclassinstance '
+    'launch.utilities': 'AsyncSafeSignalManager create_future ensure_argument_type is_a '
+    'is_a_subclass isclassinstance '
     'normalize_to_list_of_entities normalize_to_list_of_substitutions perform_substitutions '
     'visit_all_entities_and_collect_futures',
-    'launch.utilities.type_utils': 'coerce_to_type normalize_typed_substitution '
+    'launch.utilities.class_tools_impl': 'is_a is_a_subclass isclassinstance',
+    'launch.utilities.type_utils': 'AllowedTypesType AllowedValueType NormalizedValueType '
+    'ScalarTypesTuple SomeValueType StrSomeValueType coerce_list coerce_to_type extract_type '
+    'get_typed_value is_instance_of is_instance_of_valid_type is_normalized_substitution '
+    'is_substitution is_typing_list is_valid_scalar_type normalize_typed_substitution '
     'perform_typed_substitution',
     'launch.logging': 'get_logger get_output_loggers launch_config handlers reset',
     'launch_ros': 'actions descriptions event_handlers events substitutions '
@@ -67,6 +72,11 @@ NAMES = {
     'make_namespace_absolute prefix_namespace',
     'launch_xml.launch_description_sources': 'XMLLaunchDescriptionSource',
     'launch_yaml.launch_description_sources': 'YAMLLaunchDescriptionSource',
+    'ros2launch.api': 'LaunchFileNameCompleter MultipleLaunchFilesError get_launch_file_paths '
+    'get_share_file_path_from_package is_launch_file launch_a_launch_file '
+    'parse_launch_arguments print_a_launch_file print_arguments_of_launch_description '
+    'print_arguments_of_launch_file',
+    'ros2launch.option': 'OptionExtension get_option_extensions',
     'ros2run.api': 'get_executable_path',
 }
 

@@ -16,9 +16,9 @@ from .utilities import normalize_to_list_of_substitutions
 _Tree = tuple[str, list[Any]]
 
 
-def format_substitutions(subs: Any) -> str:
+def format_substitutions(substitutions: Any) -> str:
     """Return the substitutions of text, a substitution or a list, as they describe themselves."""
-    return ' + '.join(sub.describe() for sub in normalize_to_list_of_substitutions(subs))
+    return ' + '.join(sub.describe() for sub in normalize_to_list_of_substitutions(substitutions))
 
 
 def _process(action: ExecuteProcess) -> str:

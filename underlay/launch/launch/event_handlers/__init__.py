@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Event handlers for the events of launch."""
 
+from .event_named import event_named
 from .on_action_event_base import OnActionEventBase
 from .on_execution_complete import OnExecutionComplete
 from .on_include_launch_description import OnIncludeLaunchDescription
@@ -18,4 +19,5 @@ __all__ = [
     'OnProcessIO',
     'OnProcessStart',
     'OnShutdown',
+    'event_named',
 ]

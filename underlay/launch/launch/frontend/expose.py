@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 import difflib
 import functools
 import importlib
@@ -90,10 +90,12 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
     return action
 
 
-def instantiate_substitution(name: str, arguments: list[list[Substitution]]) -> Substitution:
+def instantiate_substitution(
+    type_name: str, args: Iterable[list[Substitution]] | None = None
+) -> Substitution:
     """Return the substitution that ``$(name arguments)`` means."""
-    parse = _find(name, substitution_parse_methods, 'Unknown substitution: ')
-    substitution_type, kwargs = parse(arguments)
-    args = kwargs.pop('args', ())
-    substitution: Substitution = substitution_type(*args, **kwargs)
+    parse = _find(type_name, substitution_parse_methods, 'Unknown substitution: ')
+    substitution_type, kwargs = parse(list(args or ()))
+    positional = kwargs.pop('args', ())
+    substitution: Substitution = substitution_type(*positional, **kwargs)
     return substitution

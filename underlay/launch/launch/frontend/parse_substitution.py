@@ -100,12 +100,12 @@ class _Reader:
                 arguments.append(self.fragments(' \t\n)' + quote, quote))
 
 
-def parse_substitution(value: str) -> list[Substitution]:
+def parse_substitution(string_value: str) -> list[Substitution]:
     """Return the substitutions whose joined texts the value means.
 
     :raises ValueError: it is not well formed; the message shows where.
     """
-    return _Reader(str(value)).fragments('', '')
+    return _Reader(str(string_value)).fragments('', '')
 
 
 def parse_if_substitutions(value: Any) -> Any:

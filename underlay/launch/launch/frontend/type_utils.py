@@ -28,11 +28,13 @@ def check_is_list_entity(data_type: Any) -> bool:
     )
 
 
-def get_data_type_from_identifier(identifier: str) -> Any:
+def get_data_type_from_identifier(type_identifier: str) -> Any:
     """Return the type of a name as 'int' or 'list_of_str'.
 
     :raises ValueError: there is no such name.
     """
-    if identifier not in _IDENTIFIERS:
-        raise ValueError(f"unknown type '{identifier}': allowed are {', '.join(_IDENTIFIERS)}")
-    return _IDENTIFIERS[identifier]
+    if type_identifier not in _IDENTIFIERS:
+        raise ValueError(
+            f"unknown type '{type_identifier}': allowed are {', '.join(_IDENTIFIERS)}"
+        )
+    return _IDENTIFIERS[type_identifier]

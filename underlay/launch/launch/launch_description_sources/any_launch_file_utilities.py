@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import errno
+import functools
 from pathlib import Path
 
 from ..frontend import Parser
@@ -17,11 +18,14 @@ from .python_launch_file_utilities import get_launch_description_from_python_lau
 __all__ = ['InvalidLaunchFileError', 'get_launch_description_from_any_launch_file']
 
 
-def get_launch_description_from_any_launch_file(launch_file_path: str) -> LaunchDescription:
+def get_launch_description_from_any_launch_file(
+    launch_file_path: str, *, parser: type[Parser] = Parser
+) -> LaunchDescription:
     """Return the description of a launch file in Python, XML or YAML.
 
     The name says which it is; where it does not, each is tried.
 
+    :param parser: of the markup languages.
     :raises InvalidLaunchFileError: it cannot be read.
     :raises FileNotFoundError: there is no such file.
     """
@@ -31,7 +35,7 @@ def get_launch_description_from_any_launch_file(launch_file_path: str) -> Launch
         raise FileNotFoundError(errno.ENOENT, 'there is no such launch file', path)
     loaders: list[Callable[[str], LaunchDescription]] = [
         get_launch_description_from_python_launch_file,
-        get_launch_description_from_frontend_launch_file,
+        functools.partial(get_launch_description_from_frontend_launch_file, parser=parser),
     ]
     known = True
     if path.endswith('.py'):

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import random
+import re
 import socket
 from typing import cast
 
@@ -32,8 +33,10 @@ class AnonName(Substitution):
         name = perform_substitutions(context, self.name)
         key = 'anon' + name
         if key not in context.launch_configurations:
-            tail = f'{socket.gethostname()}_{os.getpid()}_{random.randint(0, 2**32)}'
-            for character in '.-:':
-                tail = tail.replace(character, '_')
-            context.launch_configurations[key] = f'{name}_{tail}'
+            context.launch_configurations[key] = self.compute_name(name)
         return cast(str, context.launch_configurations[key])
+
+    def compute_name(self, id_value: str) -> str:
+        """Return a new name that begins with the given one."""
+        tail = f'{socket.gethostname()}_{os.getpid()}_{random.randint(0, 2**32)}'
+        return re.sub(r'[.\-:]', '_', f'{id_value}_{tail}')

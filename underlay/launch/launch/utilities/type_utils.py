@@ -154,23 +154,19 @@ def get_typed_value(value: str | list[str], data_type: Any, *, can_be_str: bool 
     return coerce_list(value, scalar, can_be_str=can_be_str)
 
 
-def is_substitution(value: Any) -> bool:
+def is_substitution(x: Any) -> bool:
     """Return whether a value is a substitution, or texts and substitutions to be joined."""
-    if isinstance(value, Substitution):
+    if isinstance(x, Substitution):
         return True
     return (
-        isinstance(value, (list, tuple))
-        and all(isinstance(item, (Substitution, str)) for item in value)
-        and any(isinstance(item, Substitution) for item in value)
+        isinstance(x, (list, tuple))
+        and all(isinstance(item, (Substitution, str)) for item in x)
+        and any(isinstance(item, Substitution) for item in x)
     )
 
 
-def is_normalized_substitution(value: Any) -> bool:
-    return (
-        isinstance(value, list)
-        and bool(value)
-        and all(isinstance(item, Substitution) for item in value)
-    )
+def is_normalized_substitution(x: Any) -> bool:
+    return isinstance(x, list) and bool(x) and all(isinstance(item, Substitution) for item in x)
 
 
 def normalize_typed_substitution(value: Any, data_type: Any) -> Any:
