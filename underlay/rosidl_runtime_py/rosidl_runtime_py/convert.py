@@ -90,30 +90,17 @@ def message_to_ordereddict(
     msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
     """Convert a message to nested dictionaries; parameters as message_to_yaml."""
-
-    def convert(value: Any, field_type: Any = None) -> Any:
-        if isinstance(value, bytes):
-            return ''.join(map(chr, value[:truncate_length])) + _dots(value, truncate_length)
-        if isinstance(value, str):
-            if no_str:
-                return f'<string length: <{len(value)}>>'
-            return _cut(value, truncate_length)
-        if isinstance(value, _SEQUENCES):
-            if no_arr and field_type is not None:
-                return _abbreviated(value, field_type)
-            items = [convert(item) for item in value[:truncate_length]]
-            items += ['...'] * bool(_dots(value, truncate_length))
-            return tuple(items) if isinstance(value, tuple) else items
-        if isinstance(value, numpy.generic):
-            return value.item()
-        if isinstance(value, (bool, float, int)):
-            return value
-        return message_to_ordereddict(
-            value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
-        )
-
     return OrderedDict(
-        (name, convert(getattr(msg, name), field_type))
+        (
+            name,
+            _convert_value(
+                getattr(msg, name),
+                field_type=field_type,
+                truncate_length=truncate_length,
+                no_arr=no_arr,
+                no_str=no_str,
+            ),
+        )
         for name, field_type in get_message_slot_types(msg).items()
     )
 
@@ -121,6 +108,40 @@ def message_to_ordereddict(
 def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
     """Map the fields of a message to their types (of rosidl_parser.definition)."""
     return OrderedDict(zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=True))
+
+
+def _convert_value(
+    value: Any,
+    *,
+    field_type: Any = None,
+    truncate_length: int | None = None,
+    no_arr: bool = False,
+    no_str: bool = False,
+) -> Any:
+    """Return plain Python values for what a field holds; parameters as message_to_yaml."""
+
+    def convert(item: Any) -> Any:
+        return _convert_value(item, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
+
+    if isinstance(value, bytes):
+        return ''.join(map(chr, value[:truncate_length])) + _dots(value, truncate_length)
+    if isinstance(value, str):
+        return f'<string length: <{len(value)}>>' if no_str else _cut(value, truncate_length)
+    if isinstance(value, _SEQUENCES):
+        if no_arr and field_type is not None:
+            return _abbreviated(value, field_type)
+        items = [convert(item) for item in value[:truncate_length]]
+        items += ['...'] * bool(_dots(value, truncate_length))
+        return tuple(items) if isinstance(value, tuple) else items
+    if isinstance(value, dict):
+        return type(value)((key, convert(item)) for key, item in value.items())
+    if isinstance(value, numpy.generic):
+        return value.item()
+    if isinstance(value, (bool, float, int)):
+        return value
+    return message_to_ordereddict(
+        value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
+    )
 
 
 def _dots(value: Any, truncate_length: int | None) -> str:

@@ -24,13 +24,14 @@ def get_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
     :raises LookupError: a package is not installed.
     """
     chosen = list(package_names)
-    if not chosen:
-        return {package: _interfaces(package) for package in sorted(get_interface_packages())}
     for package in chosen:
         if not has_resource('packages', package):
             raise LookupError(f"Unknown package '{package}'")
     known = get_interface_packages()
-    return {package: _interfaces(package) for package in chosen if package in known}
+    found = {
+        package: _interfaces(package) for package in chosen or sorted(known) if package in known
+    }
+    return {package: names for package, names in found.items() if names}
 
 
 def get_message_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
@@ -48,11 +49,11 @@ def get_action_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[s
 def get_interface_path(interface_name: str) -> str:
     """Return the file that defines an interface, as 'std_msgs/msg/String'.
 
-    :raises ValueError: the name has fewer than two parts.
+    :raises ValueError: the name has fewer than two parts, or '..' among them.
     :raises LookupError: the package is not installed, or has no such interface.
     """
     parts = interface_name.split('/')
-    if len(parts) < 2 or not all(parts):
+    if len(parts) < 2 or not all(parts) or '..' in parts:
         raise ValueError(f"Invalid name '{interface_name}': it has the form 'package/msg/Type'")
     if not has_resource('packages', parts[0]):
         raise LookupError(f"Unknown package '{parts[0]}'")

@@ -42,7 +42,7 @@ def set_message_fields(
         too.
     :raises AttributeError: the message has no such field.
     :raises TypeError: a value has another type than its field.
-    :raises ValueError: a value is out of the range of its field.
+    :raises ValueError: a value is out of the range of its field, or text that is no number.
     """
     filler = _Filler(expand_header_auto, expand_time_now)
     filler.fill(msg, values, '')
@@ -61,7 +61,6 @@ class _Filler:
         if not isinstance(given, Mapping):
             raise TypeError(
                 f"Value '{given}' is expected to be a dictionary but is a {type(given).__name__}"
-                + (f' (field {path})' if path else '')
             )
         slots = get_message_slot_types(message)
         for name, value in given.items():
@@ -169,6 +168,11 @@ def _scalar(value: Any, typename: str, path: str) -> Any:
     return _integer(value, typename, path)
 
 
+def _refusal(value: Any) -> type[Exception]:
+    """Return what to raise for a value that is no number."""
+    return ValueError if isinstance(value, str) else TypeError
+
+
 def _float(value: Any, typename: str, path: str) -> float:
     try:
         # YAML 1.1 reads 1e3 as text; a person means a number.
@@ -176,7 +180,7 @@ def _float(value: Any, typename: str, path: str) -> float:
     except (TypeError, ValueError, OverflowError):
         number = None
     if number is None:
-        raise TypeError(f"{path}: '{value}' is refused, expected a number")
+        raise _refusal(value)(f"{path}: '{value}' is refused, expected a number")
     if typename == 'float' and math.isfinite(number):
         try:
             struct.pack('<f', number)
@@ -192,7 +196,7 @@ def _integer(value: Any, typename: str, path: str) -> int:
         with contextlib.suppress(ValueError):
             value = int(value, 0)
     if isinstance(value, bool) or not isinstance(value, (int, numpy.integer)):
-        raise TypeError(f"{path}: '{value}' is refused, expected a whole number")
+        raise _refusal(value)(f"{path}: '{value}' is refused, expected a whole number")
     bits = int(typename.removeprefix('u').removeprefix('int'))
     low, high = (
         (0, 2**bits - 1) if typename[0] == 'u' else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

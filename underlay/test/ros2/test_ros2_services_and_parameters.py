@@ -37,7 +37,7 @@ def test_a_request_may_come_from_stdin(ros2: Callable[..., Any]) -> None:
     [
         (('std_srvs/srv/SetBool', 'data: 5'), 'expected true or false'),
         (('std_srvs/srv/SetBol',), "no service 'SetBol'; did you mean 'SetBool'"),
-        (('std_msgs/msg/String',), 'to be a service'),
+        (('std_msgs/msg/String',), 'the full name of a service'),
         (('std_srvs/srv/SetBool', '{{'), 'is no YAML'),
     ],
 )
