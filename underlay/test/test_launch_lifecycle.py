@@ -116,6 +116,9 @@ def test_a_ros_timer_rings_once(python_launch_file: LaunchFile, run_launch: Run)
 
 
 def test_an_unknown_transition_is_refused() -> None:
-    with pytest.raises(ValueError, match=r'transition_id=77 is none of .*1 \(configure\)'):
+    with pytest.raises(
+        ValueError, match=r'transition_id=77 is none of .*1 \(TRANSITION_CONFIGURE\)'
+    ):
         ChangeState(lifecycle_node_matcher=bool, transition_id=77)
-    assert ChangeState.valid_transitions[Transition.TRANSITION_CONFIGURE] == 'configure'
+    name = ChangeState.valid_transitions[Transition.TRANSITION_CONFIGURE]
+    assert name == 'TRANSITION_CONFIGURE'

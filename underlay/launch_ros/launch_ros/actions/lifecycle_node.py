@@ -60,9 +60,7 @@ class LifecycleNode(Node):
         self._perform_substitutions(context)
         if self.UNSPECIFIED_NODE_NAME in self.node_name:
             raise RuntimeError('node_name unexpectedly incomplete for lifecycle node')
-        # Without a namespace the node is at the root, and its services are there.
-        name = self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, '')
-        self.__manager = LifecycleEvents(self, name, context)
+        self.__manager = LifecycleEvents(self, self.node_name, context)
         entities = super().execute(context) or []
         if perform_typed_substitution(context, self.__autostart, bool):
             from lifecycle_msgs.msg import Transition  # type: ignore[import-untyped]

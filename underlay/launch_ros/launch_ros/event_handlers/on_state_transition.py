@@ -5,16 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from launch.event import Event
 from launch.event_handler import EventHandler
 from launch.some_entities_type import SomeEntitiesType
 
+from ..actions import LifecycleNode
 from ..events.lifecycle import StateTransition
-
-if TYPE_CHECKING:
-    from ..actions import LifecycleNode
 
 
 class OnStateTransition(EventHandler):
@@ -24,6 +22,7 @@ class OnStateTransition(EventHandler):
     :param start_state: from that state only.
     :param goal_state: to that state only.
     :param matcher: in place of the other conditions.
+    :raises RuntimeError: the target is no lifecycle node.
     """
 
     def __init__(
@@ -37,6 +36,12 @@ class OnStateTransition(EventHandler):
         matcher: Callable[[Event], bool] | None = None,
         **kwargs: Any,
     ) -> None:
+        if not isinstance(target_lifecycle_node, LifecycleNode | None):
+            raise RuntimeError(
+                "OnStateTransition requires a 'LifecycleNode' action as the target, got "
+                f'{target_lifecycle_node!r}'
+            )
+        self.__target = target_lifecycle_node
         wanted = {'transition': transition, 'start_state': start_state, 'goal_state': goal_state}
 
         def matches(event: Event) -> bool:
@@ -49,3 +54,14 @@ class OnStateTransition(EventHandler):
             )
 
         super().__init__(matcher=matcher or matches, entities=entities, **kwargs)
+
+    @property
+    def handler_description(self) -> str:
+        return '<actions>'
+
+    @property
+    def matcher_description(self) -> str:
+        if self.__target is None:
+            return 'event == StateTransition'
+        target = f'LifecycleNode({hex(id(self.__target))})'
+        return f'event == StateTransition and event.action == {target}'

@@ -23,28 +23,34 @@ class ChangeState(Event):
     name = 'launch_ros.events.lifecycle.ChangeState'
 
     valid_states = {
-        State.PRIMARY_STATE_UNKNOWN: 'unknown',
-        State.PRIMARY_STATE_UNCONFIGURED: 'unconfigured',
-        State.PRIMARY_STATE_INACTIVE: 'inactive',
-        State.PRIMARY_STATE_ACTIVE: 'active',
-        State.PRIMARY_STATE_FINALIZED: 'finalized',
-        State.TRANSITION_STATE_CONFIGURING: 'configuring',
-        State.TRANSITION_STATE_CLEANINGUP: 'cleaningup',
-        State.TRANSITION_STATE_SHUTTINGDOWN: 'shuttingdown',
-        State.TRANSITION_STATE_ACTIVATING: 'activating',
-        State.TRANSITION_STATE_DEACTIVATING: 'deactivating',
-        State.TRANSITION_STATE_ERRORPROCESSING: 'errorprocessing',
+        getattr(State, name): name
+        for name in (
+            'PRIMARY_STATE_UNKNOWN',
+            'PRIMARY_STATE_UNCONFIGURED',
+            'PRIMARY_STATE_INACTIVE',
+            'PRIMARY_STATE_ACTIVE',
+            'PRIMARY_STATE_FINALIZED',
+            'TRANSITION_STATE_CONFIGURING',
+            'TRANSITION_STATE_CLEANINGUP',
+            'TRANSITION_STATE_SHUTTINGDOWN',
+            'TRANSITION_STATE_ACTIVATING',
+            'TRANSITION_STATE_DEACTIVATING',
+            'TRANSITION_STATE_ERRORPROCESSING',
+        )
     }
     valid_transitions = {
-        Transition.TRANSITION_CREATE: 'create',
-        Transition.TRANSITION_CONFIGURE: 'configure',
-        Transition.TRANSITION_CLEANUP: 'cleanup',
-        Transition.TRANSITION_ACTIVATE: 'activate',
-        Transition.TRANSITION_DEACTIVATE: 'deactivate',
-        Transition.TRANSITION_UNCONFIGURED_SHUTDOWN: 'unconfigured_shutdown',
-        Transition.TRANSITION_INACTIVE_SHUTDOWN: 'inactive_shutdown',
-        Transition.TRANSITION_ACTIVE_SHUTDOWN: 'active_shutdown',
-        Transition.TRANSITION_DESTROY: 'destroy',
+        getattr(Transition, name): name
+        for name in (
+            'TRANSITION_CREATE',
+            'TRANSITION_CONFIGURE',
+            'TRANSITION_CLEANUP',
+            'TRANSITION_ACTIVATE',
+            'TRANSITION_DEACTIVATE',
+            'TRANSITION_UNCONFIGURED_SHUTDOWN',
+            'TRANSITION_INACTIVE_SHUTDOWN',
+            'TRANSITION_ACTIVE_SHUTDOWN',
+            'TRANSITION_DESTROY',
+        )
     }
 
     def __init__(

@@ -8,8 +8,6 @@ from typing import Any, TYPE_CHECKING
 
 from launch.event import Event
 
-from .change_state import ChangeState
-
 if TYPE_CHECKING:
     from ...actions import LifecycleNode
 
@@ -36,8 +34,8 @@ class StateTransition(Event):
 
     @property
     def start_state(self) -> str:
-        return ChangeState.valid_states[self.msg.start_state.id]
+        return str(self.msg.start_state.label)
 
     @property
     def goal_state(self) -> str:
-        return ChangeState.valid_states[self.msg.goal_state.id]
+        return str(self.msg.goal_state.label)
