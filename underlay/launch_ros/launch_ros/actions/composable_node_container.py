@@ -14,13 +14,12 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 
 from ..descriptions import ComposableNode
-from .load_composable_nodes import REFUSAL
 from .node import Node
 
 
 @expose_action('node_container')
 class ComposableNodeContainer(Node):
-    """Refused when it is executed: there are no component containers here."""
+    """Runs a program that loads nodes, and has it load some; see LoadComposableNodes."""
 
     def __init__(
         self,
@@ -46,5 +45,14 @@ class ComposableNodeContainer(Node):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        del context
-        raise RuntimeError(f'ComposableNodeContainer: {REFUSAL}')
+        from .load_composable_nodes import load_node_service, LoadComposableNodes
+
+        wanted = [node for node in self.__descriptions if node.is_wanted(context)]
+        if not wanted:
+            return super().execute(context)
+        load_node_service()  # before the container runs
+        entities = super().execute(context) or []
+        return [
+            *entities,
+            LoadComposableNodes(composable_node_descriptions=wanted, target_container=self),
+        ]

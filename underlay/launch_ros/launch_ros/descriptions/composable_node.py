@@ -9,6 +9,7 @@ from typing import Any
 from launch.condition import Condition
 from launch.conditions import IfCondition, UnlessCondition
 from launch.frontend import Entity, Parser
+from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions
@@ -53,22 +54,30 @@ class ComposableNode:
         kwargs: dict[str, Any] = {
             'package': parser.parse_substitution(entity.get_attr('pkg')),
             'plugin': parser.parse_substitution(entity.get_attr('plugin')),
+            'name': parser.parse_substitution(entity.get_attr('name')),
         }
-        for name in ('name', 'namespace'):
-            text = entity.get_attr(name, optional=True)
-            if text is not None:
-                kwargs[name] = parser.parse_substitution(text)
+        namespace = entity.get_attr('namespace', optional=True)
+        if namespace is not None:
+            kwargs['namespace'] = parser.parse_substitution(namespace)
         for name, condition in (('if', IfCondition), ('unless', UnlessCondition)):
             text = entity.get_attr(name, optional=True)
             if text is not None:
+                if 'condition' in kwargs:
+                    raise RuntimeError("if and unless conditions can't be used simultaneously")
                 kwargs['condition'] = condition(parser.parse_substitution(text))
-        for tag, keyword in (('param', 'parameters'), ('extra_arg', 'extra_arguments')):
-            items = entity.get_attr(tag, data_type=list[Entity], optional=True)
-            if items:
-                kwargs[keyword] = parse_nested_parameters(items, parser)
+        parameters = entity.get_attr('param', data_type=list[Entity], optional=True)
+        if parameters:
+            kwargs['parameters'] = parse_nested_parameters(parameters, parser)
+        arguments = parser.parse_pairs(entity, 'extra_arg', 'name', 'value')
+        if arguments:
+            kwargs['extra_arguments'] = [{tuple(name): value} for name, value in arguments]
         kwargs['remappings'] = parser.parse_pairs(entity, 'remap', 'from', 'to') or None
         entity.assert_entity_completely_parsed()
         return cls, kwargs
 
     def condition(self) -> Condition | None:
         return self.__condition
+
+    def is_wanted(self, context: LaunchContext) -> bool:
+        """Return whether the condition, if there is one, holds."""
+        return self.__condition is None or self.__condition.evaluate(context)
