@@ -47,8 +47,8 @@ def test_names_parameters_and_remappings_reach_real_nodes(
         """
         DeclareLaunchArgument('f', default_value='0.5'),
         GroupAction([
-            PushRosNamespace('deep'), SetParameter('everywhere', 'a: b'), SetUseSimTime(True),
-            SetRemap('chatter', '/elsewhere'),
+            PushRosNamespace('deep'), SetRemap('chatter', '/elsewhere'),
+            SetParameter('everywhere', '1'), SetParameter('use_sim_time', True),
             SetParametersFromFile(FindPackageShare('some_pkg') / 'plain.yaml'),
             node(
                 name='me', namespace='space', arguments=['--plain', 'argument'],
@@ -72,7 +72,7 @@ def test_names_parameters_and_remappings_reach_real_nodes(
     name, topic, parameters = nodes['plain_node-1']
     assert (name, topic) == ('/deep/space/me', '/elsewhere')
     assert parameters == {
-        'everywhere': 'a: b',
+        'everywhere': 1,
         'use_sim_time': True,
         'number': 2,
         'own': ['a', 'b'],
@@ -105,7 +105,7 @@ def test_nodes_of_xml_files_are_the_same(
         <launch>
           <arg name="n" default="4"/>
           <set_parameter name="everywhere" value="1.5"/>
-          <set_use_sim_time value="true"/>
+          <set_parameter name="use_sim_time" value="true"/>
           <group>
             <push_ros_namespace namespace="deep"/>
             <set_remap from="chatter" to="talk"/>
@@ -178,7 +178,7 @@ def test_two_nodes_of_one_name_are_warned_about(
         ),
         (
             "package='some_pkg', executable='plain_node', parameters=[{'a': [1, 'b']}]",
-            "parameter 'a' has the value [1, 'b']",
+            "for parameter 'a', got [1, 'b']",
         ),
         (
             "package='some_pkg', executable='plain_node', "
@@ -187,8 +187,12 @@ def test_two_nodes_of_one_name_are_warned_about(
         ),
         (
             "package='some_pkg', executable='plain_node', "
-            "parameters=[{'a': TextSubstitution(text='')}]",
-            "parameter 'a' has the value nothing",
+            "parameters=[{'a': TextSubstitution(text='[1, 2.0]')}]",
+            "for parameter 'a', got [1, 2.0]",
+        ),
+        (
+            "package='some_pkg', executable='plain_node', remappings=[['a', 'b']]",
+            "a remapping is a tuple as ('from', 'to'), got ['a', 'b']",
         ),
         ("package='some_pkg', executable='plain_node', output='scren'", "output 'scren' is not"),
         (

@@ -16,7 +16,7 @@ import pytest
 def test_parameter_values_keep_or_get_their_types(launch_environment: None) -> None:
     del launch_environment
     context = LaunchContext()
-    context.launch_configurations['x'] = '1'
+    context.launch_configurations.update(x='1', empty='')
     x = LaunchConfiguration('x')
     given = {
         'plain': '1',
@@ -26,24 +26,27 @@ def test_parameter_values_keep_or_get_their_types(launch_environment: None) -> N
         'typed': ParameterValue(x, value_type=bool),
         'typed_list': ParameterValue([x, 'a'], value_type=str),
         'text': [TextSubstitution(text='a'), TextSubstitution(text='b')],
-        'path': Path('/a'),
         'bytes': b'x',
+        'empty': LaunchConfiguration('empty'),
     }
     (values,) = evaluate_parameters(context, normalize_parameters([given]))
     assert values == {
         'plain': '1',
         'yaml': 1,
         'joined': 1.5,
-        'list': [1, 10],
+        'list': (1, 10),
         'typed': True,
         'typed_list': '1a',
         'text': 'ab',
-        'path': '/a',
         'bytes': b'x',
+        'empty': '',
     }
 
 
-@pytest.mark.parametrize('parameters', ['file.yaml', {'a': 1}, [5], [{'a': None}], [{'a': {1}}]])
+@pytest.mark.parametrize(
+    'parameters',
+    ['file.yaml', {'a': 1}, ({'a': 1},), [5], [{'a': None}], [{'a': {1}}], [{'a': Path('/a')}]],
+)
 def test_wrong_parameters_are_refused_when_written(parameters: Any) -> None:
     with pytest.raises(TypeError):
         Node(package='a', executable='b', parameters=parameters)

@@ -99,6 +99,7 @@ class ParameterFile:
         self.__param_file = normalize_to_list_of_substitutions(param_file)
         self.allow_substs = normalize_typed_substitution(allow_substs, bool)
         self.__evaluated: Path | None = None
+        self.__is_temporary = False
 
     @property
     def param_file(self) -> FilePath | list[Substitution]:
@@ -115,6 +116,7 @@ class ParameterFile:
         path = Path(perform_substitutions(context, self.__param_file))
         if perform_typed_substitution(context, self.allow_substs, bool):
             path = self.__substitute(context, path)
+            self.__is_temporary = True
         self.__evaluated = path
         return path
 
@@ -135,4 +137,7 @@ class ParameterFile:
         return write_temporary_file(text)
 
     def cleanup(self) -> None:
-        """Do nothing: temporary files are removed when the launch ends."""
+        """Remove the file that evaluating has written; else it is removed at the end."""
+        if self.__is_temporary and self.__evaluated is not None:
+            self.__evaluated.unlink(missing_ok=True)
+            self.__evaluated = None

@@ -8,7 +8,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.some_substitutions_type import (
+    SomeSubstitutionsType,
+    SomeSubstitutionsType_types_tuple,
+)
 from launch.substitution import Substitution
 
 from .parameter_descriptions import Parameter, ParameterFile, ParameterValue
@@ -26,9 +29,12 @@ EvaluatedParameterValue = (
 )
 EvaluatedParameters = Sequence[Path | dict[str, EvaluatedParameterValue] | Parameter]
 SomeParameterFile = SomeSubstitutionsType | ParameterFile
+SomeParameterName = Sequence[Substitution | str]
 SomeParameterValue = Any
+SomeParameterValue_types_tuple = (*SomeSubstitutionsType_types_tuple, str, int, float, bool, bytes)
 SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
 SomeParameters = Sequence[SomeParameterFile | Parameter | Mapping[Any, Any]]
+ParameterName = Sequence[Substitution]
 ParametersDict = dict[tuple[Substitution, ...], ParameterValue]
 Parameters = Sequence[ParameterFile | ParametersDict | Parameter]
 
@@ -37,11 +43,14 @@ __all__ = [
     'EvaluatedParameters',
     'Parameter',
     'ParameterFile',
+    'ParameterName',
     'ParameterValue',
     'Parameters',
     'ParametersDict',
     'SomeParameterFile',
+    'SomeParameterName',
     'SomeParameterValue',
+    'SomeParameterValue_types_tuple',
     'SomeParameters',
     'SomeParametersDict',
 ]

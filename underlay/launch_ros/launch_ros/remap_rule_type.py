@@ -9,9 +9,7 @@ from collections.abc import Iterable
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 
-SomeRemapRule = (
-    tuple[SomeSubstitutionsType, SomeSubstitutionsType] | Iterable[SomeSubstitutionsType]
-)
+SomeRemapRule = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
 SomeRemapRules = Iterable[SomeRemapRule]
 RemapRule = tuple[tuple[Substitution, ...], tuple[Substitution, ...]]
 RemapRules = Iterable[RemapRule]

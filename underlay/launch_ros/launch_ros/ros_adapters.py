@@ -18,16 +18,10 @@ _KEY = 'ros_adapter'
 
 
 class ROSAdapter:
-    """A node spun in a thread of its own, with a context of its own.
+    """A node spun in a thread of its own, with a context of its own."""
 
-    :param use_sim_time: of the node.
-    """
-
-    def __init__(
-        self, *, argv: list[str] | None = None, use_sim_time: bool = False, autostart: bool = True
-    ) -> None:
+    def __init__(self, *, argv: list[str] | None = None, autostart: bool = True) -> None:
         self.argv = argv or []
-        self.__use_sim_time = use_sim_time
         self.__thread: threading.Thread | None = None
         self.ros_context: Any = None
         self.ros_node: Any = None
@@ -42,7 +36,6 @@ class ROSAdapter:
         """
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
-        from rclpy.parameter import Parameter
         from rclpy.signals import SignalHandlerOptions
 
         if self.__thread is not None:
@@ -58,7 +51,6 @@ class ROSAdapter:
             f'launch_ros_{os.getpid()}',
             context=self.ros_context,
             use_global_arguments=False,
-            parameter_overrides=[Parameter('use_sim_time', value=self.__use_sim_time)],
         )
         self.ros_executor = SingleThreadedExecutor(context=self.ros_context)
         self.ros_executor.add_node(self.ros_node)
@@ -74,9 +66,12 @@ class ROSAdapter:
             return
 
     def shutdown(self) -> None:
-        """Stop spinning and destroy the node; may be called twice."""
+        """Stop spinning and destroy the node.
+
+        :raises RuntimeError: it does not run.
+        """
         if self.__thread is None:
-            return
+            raise RuntimeError('Cannot shutdown a ROS adapter that is not running')
         self.ros_context.try_shutdown()
         self.ros_executor.wake()
         self.__thread.join(5.0)
@@ -85,19 +80,11 @@ class ROSAdapter:
         self.__thread = None
 
 
-def _wants_sim_time(context: LaunchContext) -> bool:
-    values = [context.launch_configurations.get('use_sim_time')]
-    for item in context.launch_configurations.get('global_params', ()):
-        if isinstance(item, tuple) and item[0] == 'use_sim_time':
-            values.append(item[1])
-    return str(values[-1]).lower() in ('true', '1')
-
-
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     """Return the adapter of this launch, made when first asked for."""
     adapter: ROSAdapter | None = context.get_locals_as_dict().get(_KEY)
     if adapter is None:
-        adapter = ROSAdapter(use_sim_time=_wants_sim_time(context))
+        adapter = ROSAdapter()
         context.extend_globals({_KEY: adapter})
         stop = adapter.shutdown
         context.register_event_handler(OnShutdown(on_shutdown=lambda *_: stop()), append=True)

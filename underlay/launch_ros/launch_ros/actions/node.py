@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-import json
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,12 @@ from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.logging import get_logger
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.substitutions import LocalSubstitution
+from launch.utilities import (
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
 import yaml
 
 from ..parameter_descriptions import Parameter
@@ -34,6 +38,7 @@ from ..utilities import (
     prefix_namespace,
 )
 from ..utilities.namespace_utils import validate_namespace, validate_node_name
+from ..utilities.normalize_parameters import as_yaml
 from .markup import parse_nested_parameters
 
 _TEXTS = {
@@ -82,17 +87,22 @@ class Node(ExecuteProcess):
         if ros_arguments is not None:
             cmd += ['--ros-args', *_list(ros_arguments, 'ros_arguments')]
         cmd += ['--ros-args']
+        if name is not None:
+            cmd += ['-r', LocalSubstitution("ros_specific_arguments['name']", 'node name')]
+        if parameters is not None:
+            ensure_argument_type(parameters, list, 'parameters', 'Node')
         super().__init__(cmd=cmd, name=exec_name, **kwargs)
-        self.node_package = package
-        self.node_executable = executable
+        self.__package = package
+        self.__node_executable = executable
         self.__node_name = name
         self.__node_namespace = namespace
-        self.__parameters = () if parameters is None else normalize_parameters(parameters)
-        self.__remappings = [] if remappings is None else normalize_remap_rules(remappings)
+        self.__parameters = normalize_parameters(parameters or [])
+        self.__remappings = normalize_remap_rules(remappings or [])
         self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME
-        self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
+        self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
+        self.__expanded_parameter_arguments: list[tuple[str, bool]] = []
+        self.__expanded_remappings: list[tuple[str, str]] | None = None
         self.__final_node_name: str | None = None
-        self.expanded_remapping_rules: list[tuple[str, str]] | None = None
 
     @staticmethod
     def parse_nested_parameters(params: Iterable[Entity], parser: Parser) -> list[Any]:
@@ -121,6 +131,22 @@ class Node(ExecuteProcess):
         return cls, kwargs
 
     @property
+    def node_package(self) -> SomeSubstitutionsType | None:
+        return self.__package
+
+    @property
+    def node_executable(self) -> SomeSubstitutionsType:
+        return self.__node_executable
+
+    @property
+    def expanded_node_namespace(self) -> str:
+        return self.__expanded_node_namespace
+
+    @property
+    def expanded_remapping_rules(self) -> list[tuple[str, str]] | None:
+        return self.__expanded_remappings
+
+    @property
     def node_name(self) -> str:
         """The name with its namespace, once the action is executed."""
         if self.__final_node_name is None:
@@ -136,21 +162,22 @@ class Node(ExecuteProcess):
         if self.__final_node_name is not None:
             return
         words = self.__name_arguments(context)
-        words += self.__global_parameter_arguments(context)
-        words += self.__parameter_arguments(context)
+        self.__expand_global_parameters(context)
+        self.__expand_parameters(context)
+        for argument, is_file in self.__expanded_parameter_arguments:
+            words += ['--params-file' if is_file else '-p', argument]
         words += self.__remapping_arguments(context)
         command = self.process_description.cmd
         command.extend(normalize_to_list_of_substitutions(word) for word in words)
 
-    def __name_arguments(self, context: LaunchContext) -> list[str]:
-        words: list[str] = []
+    def __name_arguments(self, context: LaunchContext) -> list[SomeSubstitutionsType]:
+        words: list[SomeSubstitutionsType] = []
         if self.__node_name is not None:
             name = perform_substitutions(
                 context, normalize_to_list_of_substitutions(self.__node_name)
             )
             validate_node_name(name)
             self.__expanded_node_name = name
-            words += ['-r', f'__node:={name}']
         namespace: str | None = None
         if self.__node_namespace is not None:
             namespace = perform_substitutions(
@@ -160,38 +187,45 @@ class Node(ExecuteProcess):
         namespace = make_namespace_absolute(prefix_namespace(base, namespace))
         if namespace is not None:
             validate_namespace(namespace)
-            self.expanded_node_namespace = namespace
-            words += ['-r', f'__ns:={namespace}']
+            self.__expanded_node_namespace = namespace
+            words += ['-r', LocalSubstitution("ros_specific_arguments['ns']")]
         self.__final_node_name = prefix_namespace(
-            self.expanded_node_namespace, self.__expanded_node_name
+            self.__expanded_node_namespace, self.__expanded_node_name
         )
         return words
 
-    def __global_parameter_arguments(self, context: LaunchContext) -> list[str]:
-        words: list[str] = []
+    def __expand_global_parameters(self, context: LaunchContext) -> None:
+        """Take those of SetParameter and SetParametersFromFile.
+
+        :raises FileNotFoundError: there is no such file.
+        """
         for item in context.launch_configurations.get('global_params', ()):
             if isinstance(item, tuple):
-                words += ['-p', f'{item[0]}:={_as_yaml(item[1])}']
-            else:
-                words += ['--params-file', str(Path(item).absolute())]
-        return words
+                name, value = item
+                # As upstream: the node reads text as YAML, so that '1' is a number to it.
+                text = value if isinstance(value, str) and value else as_yaml(value)
+                self.__expanded_parameter_arguments.append((f'{name}:={text}', False))
+                continue
+            path = Path(item).absolute()
+            if not path.is_file():
+                raise FileNotFoundError(
+                    f"the parameter file '{path}' of SetParametersFromFile is not a file"
+                )
+            self.__expanded_parameter_arguments.append((str(path), True))
 
-    def __parameter_arguments(self, context: LaunchContext) -> list[str]:
-        words: list[str] = []
+    def __expand_parameters(self, context: LaunchContext) -> None:
         for item in evaluate_parameters(context, self.__parameters):
             if isinstance(item, Parameter):
                 name, value = item.evaluate(context)
-                words += ['-p', f'{name}:={_as_yaml(value)}']
-            elif isinstance(item, Path):
-                if item.is_file():
-                    words += ['--params-file', str(item)]
-                else:
-                    get_logger('launch_ros.actions.node').warning(
-                        f'Parameter file path is not a file: {item}'
-                    )
-            elif item:
-                words += ['--params-file', str(self.__write_parameters(item))]
-        return words
+                self.__expanded_parameter_arguments.append((f'{name}:={as_yaml(value)}', False))
+                continue
+            path = item if isinstance(item, Path) else self.__write_parameters(item)
+            if path.is_file():
+                self.__expanded_parameter_arguments.append((str(path), True))
+            else:
+                get_logger('launch_ros.actions.node').warning(
+                    f'Parameter file path is not a file: {path}'
+                )
 
     def __write_parameters(self, parameters: dict[str, Any]) -> Path:
         node = self.node_name if self.is_node_name_fully_specified() else '/**'
@@ -204,7 +238,7 @@ class Node(ExecuteProcess):
             pairs.append(
                 (perform_substitutions(context, source), perform_substitutions(context, target))
             )
-        self.expanded_remapping_rules = pairs
+        self.__expanded_remappings = pairs or None
         words: list[str] = []
         for source, target in pairs:
             words += ['-r', f'{source}:={target}']
@@ -212,6 +246,11 @@ class Node(ExecuteProcess):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         self._perform_substitutions(context)
+        names = {
+            'name': f'__node:={self.__expanded_node_name}',
+            'ns': f'__ns:={self.__expanded_node_namespace}',
+        }
+        context.extend_locals({'ros_specific_arguments': names})
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
             add_node_name(context, self.node_name)
@@ -230,10 +269,3 @@ def _list(words: Any, name: str) -> list[SomeSubstitutionsType]:
     if not isinstance(words, Iterable) or isinstance(words, str):
         raise TypeError(f"Node '{name}' is {words!r}: write it as a list, as ['--flag', 'value']")
     return list(words)
-
-
-def _as_yaml(value: Any) -> str:
-    """Return a value as YAML of one line that keeps its type."""
-    if isinstance(value, bytes):
-        return yaml.safe_dump(value).strip()
-    return json.dumps(value, ensure_ascii=False)

@@ -10,6 +10,7 @@ from launch.action import Action
 from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 from ..utilities import make_namespace_absolute, prefix_namespace
@@ -31,9 +32,11 @@ class PushROSNamespace(Action):
         pushed = perform_substitutions(context, self.namespace)
         previous = context.launch_configurations.get('ros_namespace')
         namespace = make_namespace_absolute(prefix_namespace(previous, pushed))
-        if namespace is None:
-            return
-        validate_namespace(namespace)
+        assert namespace is not None  # what is pushed is text
+        try:
+            validate_namespace(namespace)
+        except ValueError as error:
+            raise SubstitutionFailure(f"'{pushed}' cannot be pushed: {error}") from None
         context.launch_configurations['ros_namespace'] = namespace
 
 

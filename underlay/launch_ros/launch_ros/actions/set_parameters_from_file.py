@@ -10,24 +10,23 @@ from launch.action import Action
 from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-
-from ..parameter_descriptions import ParameterFile
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 @expose_action('set_parameters_from_file')
 class SetParametersFromFile(Action):
-    """Gives a parameter file to the nodes that follow in its scope; their own settings win."""
+    """Gives a parameter file to the nodes that follow in its scope; their own settings win.
+
+    The file is looked for when such a node starts.
+    """
 
     _attributes = {'filename': 'filename'}
 
-    def __init__(self, filename: ParameterFile | SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(self, filename: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        is_file = isinstance(filename, ParameterFile)
-        self.__file: ParameterFile = filename if is_file else ParameterFile(filename)  # type: ignore[assignment, arg-type]
+        self._input_file = normalize_to_list_of_substitutions(filename)
 
     def execute(self, context: LaunchContext) -> None:
-        path = self.__file.evaluate(context)
-        if not path.is_file():
-            raise FileNotFoundError(f"the parameter file '{path}' does not exist")
+        path = perform_substitutions(context, self._input_file)
         known = context.launch_configurations.get('global_params', [])
-        context.launch_configurations['global_params'] = [*known, str(path)]
+        context.launch_configurations['global_params'] = [*known, path]

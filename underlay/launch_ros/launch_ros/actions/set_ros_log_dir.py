@@ -9,19 +9,24 @@ from typing import Any
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.launch_context import LaunchContext
+from launch.logging.log_folder import logging_directory
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
 @expose_action('set_ros_log_dir')
 class SetROSLogDir(Action):
-    """Sets ROS_LOG_DIR of what is started afterwards."""
+    """Sets ROS_LOG_DIR of what is started afterwards.
 
-    _attributes = {'new_log_dir': 'path'}
+    :param new_log_dir: a relative one is below the present one.
+    """
+
+    _attributes = {'new_log_dir': 'new_log_dir'}
 
     def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.__new_log_dir = normalize_to_list_of_substitutions(new_log_dir)
+        self.log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
     def execute(self, context: LaunchContext) -> None:
-        context.environment['ROS_LOG_DIR'] = perform_substitutions(context, self.__new_log_dir)
+        folder = logging_directory() / perform_substitutions(context, self.log_dir)
+        context.environment['ROS_LOG_DIR'] = str(folder)

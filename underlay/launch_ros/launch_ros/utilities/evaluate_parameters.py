@@ -4,71 +4,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
-from launch.utilities import perform_substitutions
+from launch.utilities import ensure_argument_type, perform_substitutions
 import yaml
 
 from ..parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 _SCALARS = (bool, int, float, str, bytes)
-_ALLOWED = (
-    'Allowed value types are bytes, bool, int, float, str, and non-empty lists of one of bool, '
-    'int, float, str'
+_AS_TEXT = (
+    'If the parameter is meant to be a string, try wrapping it in '
+    'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
 )
 
 
 def _perform(context: LaunchContext, name: str, subs: tuple[Substitution, ...]) -> Any:
+    """Return what YAML takes the text of the substitutions for; empty text is text."""
     text = perform_substitutions(context, subs)
     try:
-        return yaml.safe_load(text)
+        return yaml.safe_load(text) if text else ''
     except yaml.YAMLError:
-        raise ValueError(
-            f'Unable to parse the value of parameter {name} as yaml. If the parameter is meant to '
-            'be a string, try wrapping it in '
-            'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
+        raise TypeError(
+            f'Unable to parse the value of parameter {name} as yaml. {_AS_TEXT}'
         ) from None
 
 
-def _check(name: str, value: Any) -> Any:
-    """Return the value where a parameter can have it."""
-    if isinstance(value, _SCALARS):
-        return value
-    if isinstance(value, Sequence):
-        kinds = {type(item) for item in value}
-        if kinds == {int, float}:
-            return [float(item) for item in value]
-        if len(kinds) == 1 and kinds <= {bool, int, float, str}:
-            return list(value)
-    said = 'nothing' if value is None else repr(value)
-    raise TypeError(f"parameter '{name}' has the value {said}. {_ALLOWED}.")
+def _check_list(name: str, values: list[Any]) -> tuple[Any, ...]:
+    """Return the values where they are of one type that the items of a parameter can have."""
+    kinds = {type(item) for item in values}
+    if len(kinds) == 1 and kinds <= {bool, int, float, str}:
+        return tuple(values)
+    raise TypeError(
+        'Expected a non-empty sequence of items of one type, which is bool, int, float or str, '
+        f"for parameter '{name}', got {values}"
+    )
 
 
 def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
     if isinstance(value, ParameterValue):
-        return _check(name, value.evaluate(context))
-    if isinstance(value, tuple):
-        return _check(name, _perform(context, name, value))
-    if isinstance(value, list):
-        items = [
-            _perform(context, name, item) if isinstance(item, tuple) else item for item in value
-        ]
-        return _check(name, items)
-    return _check(name, value)
+        return value.evaluate(context)
+    if not isinstance(value, tuple):
+        ensure_argument_type(value, _SCALARS, f"value of parameter '{name}'")
+        return value
+    if value and isinstance(value[0], Substitution):
+        loaded = _perform(context, name, value)
+        if isinstance(loaded, _SCALARS):
+            return loaded
+        if isinstance(loaded, list):
+            return _check_list(name, loaded)
+        raise TypeError(
+            'Allowed value types are bool, int, float, str, bytes and lists of one of bool, int, '
+            f"float, str. Got {loaded!r} of type {type(loaded).__name__} for parameter '{name}'. "
+            f'{_AS_TEXT}'
+        )
+    items = [_perform(context, name, item) if isinstance(item, tuple) else item for item in value]
+    return _check_list(name, items)
 
 
 def evaluate_parameter_dict(
     context: LaunchContext, parameters: Mapping[Any, Any]
 ) -> dict[str, Any]:
-    """Return names and values of a normalized dictionary.
+    """Return names and values of a normalized dictionary; lists become tuples.
 
     The text of substitutions is read as YAML, where no ParameterValue says otherwise.
+
+    :raises TypeError: a value is none that a parameter can have.
     """
     evaluated = {}
     for key, value in parameters.items():
+        ensure_argument_type(key, tuple, 'name of a normalized parameter')
         name = perform_substitutions(context, key)
         evaluated[name] = _evaluate(context, name, value)
     return evaluated
@@ -80,11 +87,9 @@ def evaluate_parameters(context: LaunchContext, parameters: Any) -> tuple[Any, .
     for item in parameters:
         if isinstance(item, ParameterFile):
             output.append(item.evaluate(context))
-        elif isinstance(item, Parameter):
-            item.evaluate(context)
-            output.append(item)
         elif isinstance(item, Mapping):
             output.append(evaluate_parameter_dict(context, item))
         else:
-            raise TypeError(f'{item!r} is not normalized')
+            ensure_argument_type(item, Parameter, 'normalized parameter')
+            output.append(item)
     return tuple(output)

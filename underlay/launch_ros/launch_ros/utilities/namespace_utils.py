@@ -18,12 +18,19 @@ def is_namespace_absolute(ns: str) -> bool:
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Return a namespace below another one; an absolute one stays as it is."""
-    if not ns:
-        return base_ns
-    if not base_ns or is_namespace_absolute(ns):
-        return ns if is_root_namespace(ns) else ns.rstrip('/')
-    return f'{base_ns.rstrip("/")}/{ns}'.rstrip('/')
+    """Return a namespace below another one; an absolute one stays as it is.
+
+    None is no namespace at all, '' the one that the node would have anyway.
+    """
+    if ns is None:
+        joined = base_ns
+    elif not base_ns or is_namespace_absolute(ns):
+        joined = ns
+    else:
+        joined = f'{base_ns.rstrip("/")}/{ns}'
+    if joined is None or is_root_namespace(joined):
+        return joined
+    return joined.rstrip('/')
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:

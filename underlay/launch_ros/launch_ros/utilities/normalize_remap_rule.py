@@ -15,16 +15,14 @@ from ..remap_rule_type import RemapRule
 def normalize_remap_rule(remap_rule: Any) -> RemapRule:
     """Return a pair of substitutions.
 
-    :raises TypeError: it is no pair.
+    :raises TypeError: it is no tuple of two.
     """
-    if isinstance(remap_rule, str) or not isinstance(remap_rule, Iterable):
-        raise TypeError(f"a remapping is a pair as ('from', 'to'), got {remap_rule!r}")
-    pair = tuple(remap_rule)
-    if len(pair) != 2:
-        raise TypeError(f"a remapping is a pair as ('from', 'to'), got {pair!r}")
+    if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
+        raise TypeError(f"a remapping is a tuple as ('from', 'to'), got {remap_rule!r}")
+    source, target = remap_rule
     return (
-        tuple(normalize_to_list_of_substitutions(pair[0])),
-        tuple(normalize_to_list_of_substitutions(pair[1])),
+        tuple(normalize_to_list_of_substitutions(source)),
+        tuple(normalize_to_list_of_substitutions(target)),
     )
 
 
