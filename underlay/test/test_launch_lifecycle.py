@@ -122,3 +122,32 @@ def test_an_unknown_transition_is_refused() -> None:
         ChangeState(lifecycle_node_matcher=bool, transition_id=77)
     name = ChangeState.valid_transitions[Transition.TRANSITION_CONFIGURE]
     assert name == 'TRANSITION_CONFIGURE'
+
+
+def test_a_ros_timer_follows_the_clock_that_is_set_after_it(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    path = python_launch_file(
+        """
+        ROSTimer(period=60.0, actions=[LogInfo(msg='rang'), Shutdown()]),
+        SetUseSimTime(True),
+        ExecuteProcess(cmd=[sys.executable, '-c', CLOCK]),
+        """,
+        before=BEFORE
+        + """
+import sys
+CLOCK = '''
+import rclpy, time
+from rosgraph_msgs.msg import Clock
+rclpy.init()
+node = rclpy.create_node('clock')
+publisher = node.create_publisher(Clock, '/clock', 10)
+message = Clock()
+while rclpy.ok():
+    message.clock.sec += 10
+    publisher.publish(message)
+    time.sleep(0.05)
+'''
+""",
+    )
+    assert 'rang' in run_launch(path).output

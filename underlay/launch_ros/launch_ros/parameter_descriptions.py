@@ -85,7 +85,8 @@ class Parameter:
 class ParameterFile:
     """A file of parameters.
 
-    :param allow_substs: the file has substitutions, as ``$(var name)``.
+    :param allow_substs: the file has substitutions, as ``$(var name)``, also in its comments; in
+        quotes they are text.
     """
 
     def __init__(
@@ -122,18 +123,14 @@ class ParameterFile:
 
     @staticmethod
     def __substitute(context: LaunchContext, path: Path) -> Path:
-        def load(text: str, when: str) -> Any:
-            try:
-                return yaml.safe_load(text)
-            except yaml.YAMLError as error:
-                raise SubstitutionFailure(
-                    f"the parameter file '{path}' is not valid YAML, {when} applying "
-                    f'substitutions: {error}'
-                ) from None
-
-        text = yaml.safe_dump(load(path.read_text(encoding='utf-8'), 'before'))
+        text = path.read_text(encoding='utf-8')
         text = perform_substitutions(context, parse_substitution(text))
-        load(text, 'after')
+        try:
+            yaml.safe_load(text)
+        except yaml.YAMLError as error:
+            raise SubstitutionFailure(
+                f"the parameter file '{path}' is not valid YAML after its substitutions: {error}"
+            ) from None
         return write_temporary_file(text)
 
     def cleanup(self) -> None:

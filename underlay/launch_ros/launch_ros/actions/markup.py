@@ -44,8 +44,10 @@ def parse_nested_parameters(params: Iterable[Entity], parser: Parser) -> list[An
         file = param.get_attr('from', optional=True)
         allow_substs = param.get_attr('allow_substs', data_type=bool, optional=True)
         name = param.get_attr('name', optional=True)
-        if (file is None) == (name is None):
-            raise RuntimeError('a param needs either a name or from, and not both')
+        if file is None and name is None:
+            raise ValueError('a param needs a name or from')
+        if file is not None and name is not None:
+            raise RuntimeError('a param has either a name or from, and not both')
         if file is None:
             if allow_substs is not None:
                 raise RuntimeError("'allow_substs' can only be used together with 'from'")

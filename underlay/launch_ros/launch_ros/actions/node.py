@@ -41,6 +41,7 @@ from ..utilities.namespace_utils import validate_namespace, validate_node_name
 from ..utilities.normalize_parameters import as_yaml
 from .markup import parse_nested_parameters
 
+_LOGGER = 'launch_ros.actions.node'
 _TEXTS = {
     'name': 'name',
     'exec_name': 'exec_name',
@@ -83,9 +84,15 @@ class Node(ExecuteProcess):
         cmd: list[SomeSubstitutionsType] = [executable]
         if package is not None:
             cmd = [ExecutableInPackage(package=package, executable=executable)]
-        cmd += _list(arguments, 'arguments')
+        if arguments is not None:
+            if isinstance(arguments, str) or not isinstance(arguments, Iterable):
+                raise TypeError(
+                    f"Node 'arguments' is {arguments!r}: write it as a list, as ['--flag', '5']"
+                )
+            cmd += arguments
         if ros_arguments is not None:
-            cmd += ['--ros-args', *_list(ros_arguments, 'ros_arguments')]
+            ensure_argument_type(ros_arguments, list, 'ros_arguments', 'Node')
+            cmd += ['--ros-args', *ros_arguments]
         cmd += ['--ros-args']
         if name is not None:
             cmd += ['-r', LocalSubstitution("ros_specific_arguments['name']", 'node name')]
@@ -202,6 +209,11 @@ class Node(ExecuteProcess):
         for item in context.launch_configurations.get('global_params', ()):
             if isinstance(item, tuple):
                 name, value = item
+                if isinstance(value, tuple):
+                    get_logger(_LOGGER).warning(
+                        f"SetParameter '{name}' has a list, which a full ROS 2 Jazzy passes on as "
+                        'text: use ParameterValue(list)'
+                    )
                 # As upstream: the node reads text as YAML, so that '1' is a number to it.
                 text = value if isinstance(value, str) and value else as_yaml(value)
                 self.__expanded_parameter_arguments.append((f'{name}:={text}', False))
@@ -223,9 +235,7 @@ class Node(ExecuteProcess):
             if path.is_file():
                 self.__expanded_parameter_arguments.append((str(path), True))
             else:
-                get_logger('launch_ros.actions.node').warning(
-                    f'Parameter file path is not a file: {path}'
-                )
+                get_logger(_LOGGER).warning(f'Parameter file path is not a file: {path}')
 
     def __write_parameters(self, parameters: dict[str, Any]) -> Path:
         node = self.node_name if self.is_node_name_fully_specified() else '/**'
@@ -261,11 +271,3 @@ class Node(ExecuteProcess):
                     'within this launch context'
                 )
         return entities
-
-
-def _list(words: Any, name: str) -> list[SomeSubstitutionsType]:
-    if words is None:
-        return []
-    if not isinstance(words, Iterable) or isinstance(words, str):
-        raise TypeError(f"Node '{name}' is {words!r}: write it as a list, as ['--flag', 'value']")
-    return list(words)
