@@ -4,12 +4,23 @@
 
 from collections.abc import Callable
 import json
+import os
 from pathlib import Path
 import re
+import sys
+import types
 from typing import Any
 
 from launch import LaunchContext, LaunchDescription, LaunchService
-from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes
+from launch.conditions import IfCondition
+from launch_ros.actions import (
+    ComposableNodeContainer,
+    LoadComposableNodes,
+    PushRosNamespace,
+    SetParametersFromFile,
+    SetRemap,
+)
+from launch_ros.actions.load_composable_nodes import get_composable_node_load_request
 from launch_ros.descriptions import ComposableNode
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 from launch_ros.utilities import (
@@ -251,6 +262,69 @@ def test_component_containers_are_refused_in_one_line(
             text for text in capsys.readouterr().out.splitlines() if text.startswith('[ERROR]')
         ]
         assert 'component containers are C++ programs' in line
+
+
+def test_a_container_is_asked_for_what_the_scope_and_the_node_say(
+    launch_environment: None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    del launch_environment
+    services = types.ModuleType('composition_interfaces.srv')
+    services.LoadNode = types.SimpleNamespace(Request=types.SimpleNamespace)  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, 'composition_interfaces', types.ModuleType('c'))
+    monkeypatch.setitem(sys.modules, 'composition_interfaces.srv', services)
+    file = tmp_path / 'parameters.yaml'
+    file.write_text(
+        '/**: {ros__parameters: {all: 1, own: 2}}\n/deep: {me: {ros__parameters: {own: 3}}}\n'
+        '/deep/other: {ros__parameters: {none: 4}}\n'
+    )
+    context = LaunchContext()
+    actions = [PushRosNamespace('deep'), SetRemap('a', 'b'), SetParametersFromFile(str(file))]
+    for action in actions:
+        action.execute(context)
+    node = ComposableNode(
+        package='pkg', plugin='pkg::Me', name='me', remappings=[('c', 'd')],
+        parameters=[{'text': '1'}], extra_arguments=[{'use_intra_process_comms': True}],
+    )  # fmt: skip
+    request = get_composable_node_load_request(node, context)
+    assert (request.package_name, request.plugin_name) == ('pkg', 'pkg::Me')
+    assert (request.node_namespace, request.node_name) == ('/deep', 'me')
+    assert request.remap_rules == ['a:=b', 'c:=d']
+    assert {item.name: item.value.integer_value for item in request.parameters[:2]} == {
+        'all': 1,
+        'own': 3,
+    }
+    assert request.parameters[2].value.string_value == '1'
+    assert request.extra_arguments[0].value.bool_value
+    never = ComposableNode(package='a', plugin='b', condition=IfCondition('false'))
+    assert get_composable_node_load_request(never, context) is None
+
+
+def test_an_extension_takes_part_in_the_start_of_nodes(
+    python_launch_file: LaunchFile,
+    run_launch: Run,
+    ros_package: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    del ros_package
+    folder = tmp_path / 'extensions' / 'some.dist-info'
+    folder.mkdir(parents=True)
+    (folder / 'entry_points.txt').write_text(
+        '[launch_ros.node_action]\ngood = some_extension:Good\nbad = some_extension:Bad\n'
+    )
+    (folder.parent / 'some_extension.py').write_text(
+        'from launch_ros.actions.node import NodeActionExtension\n'
+        'class Good(NodeActionExtension):\n'
+        '    def prepare_for_execute(self, context, ros_specific_arguments, node_action):\n'
+        "        return ['-p', 'added:=1'], {**ros_specific_arguments, 'name': '__node:=other'}\n"
+        'class Bad(NodeActionExtension):\n'
+        "    EXTENSION_POINT_VERSION = '0.2'\n"
+    )
+    monkeypatch.setenv('PYTHONPATH', str(folder.parent), prepend=os.pathsep)
+    launched = run_launch(python_launch_file("node(name='me'),", before=BEFORE))
+    name, _, parameters = _nodes(launched.output)['plain_node-1']
+    assert (name, parameters['added']) == ('/other', 1)
+    assert "Failed to load the node extension 'bad': Extension point 0.2 is" in launched.output
 
 
 def test_packages_are_found_and_their_parts(ros_package: Path) -> None:

@@ -40,6 +40,9 @@ from ..utilities import (
 from ..utilities.namespace_utils import validate_namespace, validate_node_name
 from ..utilities.normalize_parameters import as_yaml
 from .markup import parse_nested_parameters
+from .node_extensions import get_extensions, NodeActionExtension
+
+__all__ = ['Node', 'NodeActionExtension', 'get_extensions']
 
 _LOGGER = 'launch_ros.actions.node'
 _TEXTS = {
@@ -260,6 +263,9 @@ class Node(ExecuteProcess):
             'name': f'__node:={self.__expanded_node_name}',
             'ns': f'__ns:={self.__expanded_node_namespace}',
         }
+        for extension in get_extensions(get_logger(_LOGGER)).values():
+            words, names = extension.prepare_for_execute(context, names, self)
+            self.process_description.cmd.extend(map(normalize_to_list_of_substitutions, words))
         context.extend_locals({'ros_specific_arguments': names})
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
