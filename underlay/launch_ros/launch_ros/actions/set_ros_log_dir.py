@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from launch.action import Action
@@ -28,5 +29,5 @@ class SetROSLogDir(Action):
         self.log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
     def execute(self, context: LaunchContext) -> None:
-        folder = logging_directory() / perform_substitutions(context, self.log_dir)
+        folder = Path(logging_directory(), perform_substitutions(context, self.log_dir))
         context.environment['ROS_LOG_DIR'] = str(folder)
