@@ -87,6 +87,14 @@ def test_a_missing_file_of_set_parameters_is_told_when_a_node_starts(
         Node(executable='x')._perform_substitutions(context)
 
 
+def test_text_that_no_node_starts_with_is_refused(launch_environment: None) -> None:
+    del launch_environment
+    context = LaunchContext()
+    SetParameter('a', 'b: c').execute(context)
+    with pytest.raises(ValueError, match="SetParameter 'a' has 'b: c', which is no value"):
+        Node(executable='x')._perform_substitutions(context)
+
+
 def test_a_relative_log_folder_is_below_the_present_one(launch_environment: None) -> None:
     del launch_environment
     before = os.environ['ROS_LOG_DIR']

@@ -39,6 +39,7 @@ from ..utilities import (
 )
 from ..utilities.namespace_utils import validate_namespace, validate_node_name
 from ..utilities.normalize_parameters import as_yaml
+from .global_parameters import global_parameter_arguments
 from .markup import parse_nested_parameters
 from .node_extensions import get_extensions, NodeActionExtension
 
@@ -172,8 +173,10 @@ class Node(ExecuteProcess):
         if self.__final_node_name is not None:
             return
         words = self.__name_arguments(context)
-        self.__expand_global_parameters(context)
-        self.__expand_parameters(context)
+        self.__expanded_parameter_arguments = [
+            *global_parameter_arguments(context),
+            *self.__parameter_arguments(context),
+        ]
         for argument, is_file in self.__expanded_parameter_arguments:
             words += ['--params-file' if is_file else '-p', argument]
         words += self.__remapping_arguments(context)
@@ -204,41 +207,19 @@ class Node(ExecuteProcess):
         )
         return words
 
-    def __expand_global_parameters(self, context: LaunchContext) -> None:
-        """Take those of SetParameter and SetParametersFromFile.
-
-        :raises FileNotFoundError: there is no such file.
-        """
-        for item in context.launch_configurations.get('global_params', ()):
-            if isinstance(item, tuple):
-                name, value = item
-                if isinstance(value, tuple):
-                    get_logger(_LOGGER).warning(
-                        f"SetParameter '{name}' has a list, which a full ROS 2 Jazzy passes on as "
-                        'text: use ParameterValue(list)'
-                    )
-                # As upstream: the node reads text as YAML, so that '1' is a number to it.
-                text = value if isinstance(value, str) and value else as_yaml(value)
-                self.__expanded_parameter_arguments.append((f'{name}:={text}', False))
-                continue
-            path = Path(item).absolute()
-            if not path.is_file():
-                raise FileNotFoundError(
-                    f"the parameter file '{path}' of SetParametersFromFile is not a file"
-                )
-            self.__expanded_parameter_arguments.append((str(path), True))
-
-    def __expand_parameters(self, context: LaunchContext) -> None:
+    def __parameter_arguments(self, context: LaunchContext) -> list[tuple[str, bool]]:
+        arguments = []
         for item in evaluate_parameters(context, self.__parameters):
             if isinstance(item, Parameter):
                 name, value = item.evaluate(context)
-                self.__expanded_parameter_arguments.append((f'{name}:={as_yaml(value)}', False))
+                arguments.append((f'{name}:={as_yaml(value)}', False))
                 continue
             path = item if isinstance(item, Path) else self.__write_parameters(item)
             if path.is_file():
-                self.__expanded_parameter_arguments.append((str(path), True))
+                arguments.append((str(path), True))
             else:
                 get_logger(_LOGGER).warning(f'Parameter file path is not a file: {path}')
+        return arguments
 
     def __write_parameters(self, parameters: dict[str, Any]) -> Path:
         node = self.node_name if self.is_node_name_fully_specified() else '/**'

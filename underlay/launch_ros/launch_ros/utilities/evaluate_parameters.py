@@ -21,11 +21,13 @@ _AS_TEXT = (
 )
 
 
-def _perform(context: LaunchContext, name: str, subs: tuple[Substitution, ...]) -> Any:
-    """Return what YAML takes the text of the substitutions for; empty text is text."""
+def _perform(
+    context: LaunchContext, name: str, subs: tuple[Substitution, ...], *, empty: Any
+) -> Any:
+    """Return what YAML takes the text of the substitutions for."""
     text = perform_substitutions(context, subs)
     try:
-        return yaml.safe_load(text) if text else ''
+        return yaml.safe_load(text) if text else empty
     except yaml.YAMLError:
         raise TypeError(
             f'Unable to parse the value of parameter {name} as yaml. {_AS_TEXT}'
@@ -50,7 +52,7 @@ def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
         ensure_argument_type(value, _SCALARS, f"value of parameter '{name}'")
         return value
     if value and isinstance(value[0], Substitution):
-        loaded = _perform(context, name, value)
+        loaded = _perform(context, name, value, empty='')
         if isinstance(loaded, _SCALARS):
             return loaded
         if isinstance(loaded, list):
@@ -60,8 +62,13 @@ def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
             f"float, str. Got {loaded!r} of type {type(loaded).__name__} for parameter '{name}'. "
             f'{_AS_TEXT}'
         )
-    items = [_perform(context, name, item) if isinstance(item, tuple) else item for item in value]
-    return _check_list(name, items)
+    return _check_list(
+        name,
+        [
+            _perform(context, name, item, empty=None) if isinstance(item, tuple) else item
+            for item in value
+        ],
+    )
 
 
 def evaluate_parameter_dict(
