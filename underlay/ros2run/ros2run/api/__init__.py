@@ -1,13 +1,26 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Executables of packages, as some launch files look them up."""
+"""Executables of packages: where they are, and how they are run."""
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Sequence
 import os
 from pathlib import Path
+import signal
+from typing import Any
 
-__all__ = ['MultipleExecutables', 'get_executable_path', 'get_executable_paths']
+__all__ = [
+    'ROS2RUN_MSG_PREFIX',
+    'ExecutableNameCompleter',
+    'MultipleExecutables',
+    'get_executable_path',
+    'get_executable_paths',
+    'run_executable',
+]
+
+ROS2RUN_MSG_PREFIX = '[ros2run]:'
 
 
 class MultipleExecutables(Exception):
@@ -43,3 +56,36 @@ def get_executable_path(*, package_name: str, executable_name: str) -> str | Non
     if len(paths) > 1:
         raise MultipleExecutables(paths)
     return paths[0] if paths else None
+
+
+def run_executable(*, path: str, argv: Sequence[str], prefix: Sequence[str] | None = None) -> int:
+    """Run an executable to its end, say if that was not a good one, and return its exit status.
+
+    :param prefix: words to go before the path.
+    :returns: -N where signal N ended it.
+    :raises OSError: it cannot be started.
+    """
+    from ros2run import child
+
+    status = child.run([*(prefix or ()), path, *argv])
+    if status < 0:
+        print(ROS2RUN_MSG_PREFIX, signal.strsignal(-status))
+    elif status > 0:
+        print(ROS2RUN_MSG_PREFIX, f'Process exited with failure {status}')
+    return status
+
+
+class ExecutableNameCompleter:
+    """Offers the executables of the package that the arguments name.
+
+    :param package_name_key: where the arguments hold the package.
+    """
+
+    def __init__(self, *, package_name_key: str | None = None) -> None:
+        self.package_name_key = package_name_key
+
+    def __call__(self, prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+        from ros2_diagnosis import packages
+
+        package = getattr(parsed_args, self.package_name_key or '')
+        return [path.name for path in packages.executables(package)]

@@ -4,19 +4,16 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 import shlex
-import signal
-import sys
-from typing import NoReturn
 
-from interrupt_while_loading import takes_blocked_interrupt
 from ros2_diagnosis import packages, workspaces
 from ros2cli import arguments
 from ros2cli.command import CommandExtension
 from ros2cli.discovery import settings_from_environment
 from ros2cli.errors import CommandError, UsageError
+
+from ros2run.api import run_executable
 
 
 class RunCommand(CommandExtension):
@@ -41,13 +38,12 @@ class RunCommand(CommandExtension):
             'argv', nargs=argparse.REMAINDER, help='Pass arbitrary arguments to the executable'
         )
 
-    def main(self, *, parser: argparse.ArgumentParser, args: argparse.Namespace) -> NoReturn:
+    def main(self, *, parser: argparse.ArgumentParser, args: argparse.Namespace) -> int:
         if args.executable_name is None:
             known = sorted(path.name for path in packages.executables(args.package_name))
             raise UsageError(
                 f"ros2 run: the name of the executable is missing; package '{args.package_name}' "
-                f'has '
-                f'{", ".join(known) or "none"}'
+                f'has {", ".join(known) or "none"}'
             )
         settings_from_environment()  # refuses what a node would take without a word
         path = packages.find_executable(args.package_name, args.executable_name)
@@ -56,26 +52,19 @@ class RunCommand(CommandExtension):
         except ValueError as error:
             raise UsageError(f'--prefix {args.prefix!r} is refused: {error}') from None
         workspaces.print_hints(args.package_name)
-        replace_process([*prefix, str(path), *args.argv])
+        return _run(str(path), args.argv, prefix)
 
 
-def replace_process(command: list[str]) -> NoReturn:
-    """Become the command: signals, exit status and terminal are then its own.
-
-    :raises CommandError: it cannot be started.
-    """
-    sys.stdout.flush()
-    sys.stderr.flush()
-    if takes_blocked_interrupt(command[0]):
-        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
+def _run(path: str, words: list[str], prefix: list[str]) -> int:
     try:
-        os.execvp(command[0], command)
+        return run_executable(path=path, argv=words, prefix=prefix)
     except OSError as error:
+        program = (prefix or [path])[0]
         reason = error.strerror or str(error)
-        shebang = _shebang(Path(command[0]))
+        shebang = _shebang(Path(program))
         if isinstance(error, FileNotFoundError) and shebang:
             reason = f"its first line names '{shebang}', which does not exist; build it again"
-        raise CommandError(f"'{command[0]}' cannot be run: {reason}") from None
+        raise CommandError(f"'{program}' cannot be run: {reason}") from None
 
 
 def _shebang(path: Path) -> str:
