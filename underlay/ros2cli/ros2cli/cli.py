@@ -6,8 +6,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 import contextlib
+import functools
 import os
 import signal
 import sys
@@ -19,13 +20,26 @@ from ros2_diagnosis import PackageError
 from ros2cli.command import add_subparsers_on_demand, CommandExtension, CommandLineParser
 from ros2cli.errors import CommandError
 
+_Build = Callable[[Sequence[str]], argparse.ArgumentParser]
 _BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run `ros2` with the given words (default: those of the process); return its exit status."""
+def main(
+    argv: Sequence[str] | None = None,
+    *,
+    script_name: str = 'ros2',
+    description: str | None = None,
+    extension: CommandExtension | None = None,
+) -> int:
+    """Run `ros2` with the given words (default: those of the process); return its exit status.
+
+    :param extension: the only command, of a program `script_name` of its own.
+    """
+    build = functools.partial(
+        build_parser, script_name=script_name, description=description, extension=extension
+    )
     try:
-        return _run(list(sys.argv[1:] if argv is None else argv))
+        return _run(build, list(sys.argv[1:] if argv is None else argv))
     except KeyboardInterrupt:
         return int(signal.SIGINT)
 
@@ -43,8 +57,8 @@ def _interrupt_ends() -> Iterator[None]:
             signal.signal(signal.SIGINT, before)
 
 
-def _read_line(words: Sequence[str]) -> argparse.Namespace:
-    parser = build_parser(_completed_words() if '_ARGCOMPLETE' in os.environ else words)
+def _read_line(build: _Build, words: Sequence[str]) -> argparse.Namespace:
+    parser = build(_completed_words() if '_ARGCOMPLETE' in os.environ else words)
     if '_ARGCOMPLETE' in os.environ:
         import argcomplete
 
@@ -56,10 +70,10 @@ def _read_line(words: Sequence[str]) -> argparse.Namespace:
     return args
 
 
-def _run(words: Sequence[str]) -> int:
+def _run(build: _Build, words: Sequence[str]) -> int:
     try:
         with _interrupt_ends():
-            args = _read_line(words)
+            args = _read_line(build, words)
         command: CommandExtension | None = getattr(args, '_command', None)
         if command is None:
             args.parser.print_help()
@@ -96,11 +110,17 @@ def _completed_words() -> list[str]:
     return [word for word in words[1:-1] if word]
 
 
-def build_parser(words: Sequence[str]) -> argparse.ArgumentParser:
+def build_parser(
+    words: Sequence[str],
+    *,
+    script_name: str = 'ros2',
+    description: str | None = None,
+    extension: CommandExtension | None = None,
+) -> argparse.ArgumentParser:
     """Build the parser of a line; only what its words name is imported."""
     parser = CommandLineParser(
-        prog='ros2',
-        description='ros2 is an extensible command-line tool for ROS 2.',
+        prog=script_name,
+        description=description or f'{script_name} is an extensible command-line tool for ROS 2.',
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
@@ -110,7 +130,11 @@ def build_parser(words: Sequence[str]) -> argparse.ArgumentParser:
     )
     parser.words = words
     parser.set_defaults(parser=parser)
-    add_subparsers_on_demand(parser, 'ros2', '_command', 'ros2cli.command', required=False)
+    if extension is not None:
+        parser.set_defaults(_command=extension, _command_parser=parser)
+        extension.add_arguments(parser, script_name)
+        return parser
+    add_subparsers_on_demand(parser, script_name, '_command', 'ros2cli.command', required=False)
     return parser
 
 

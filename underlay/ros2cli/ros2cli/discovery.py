@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 import sys
 
 from rtps_graph import graph, names
@@ -12,7 +13,7 @@ from rtps_graph import settings as rtps_settings
 from rtps_graph.observer import Observer
 
 from ros2cli import arguments
-from ros2cli.errors import CommandError, UsageError
+from ros2cli.errors import UsageError
 
 DEFAULT_TIMEOUT_SEC = 3.0
 DEFAULT_SPIN_TIME_SEC = 0.5
@@ -29,8 +30,8 @@ def settings_from_environment() -> rtps_settings.Settings:
         raise UsageError(str(error)) from None
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add upstream's options of a verb that looks at the graph."""
+def add_direct_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add upstream's options of a verb that has a node of its own."""
     parser.add_argument(
         '--spin-time',
         type=float,
@@ -38,12 +39,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='Spin time in seconds to wait for discovery of other hosts; the nodes of this host '
         'are counted, so that nothing has to be waited for',
     )
+    arguments.add_flags(parser, {'-s --use-sim-time': 'Enable ROS simulation time'})
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add upstream's options of a verb that looks at the graph."""
+    add_direct_arguments(parser)
     arguments.add_flags(
         parser,
-        {
-            '-s --use-sim-time': 'Enable ROS simulation time',
-            '--no-daemon': 'Accepted; there is no daemon: graphs are exact',
-        },
+        {'--no-daemon': 'Do not use the daemon, which only verbs of other packages do here'},
     )
 
 
@@ -73,18 +77,23 @@ def read_graph(args: argparse.Namespace | None = None, *, quiet: bool = False) -
     return found
 
 
-def types_of(known: dict[str, list[str]], kind: str, name: str) -> list[str]:
-    """Return the types of a topic or a service (`kind`).
+def by_kind(found: graph.Graph, kind: str, *, hidden: bool = True) -> dict[str, list[str]]:
+    """Map the names of topics, services or actions (`kind`) to their types."""
+    read = {'topic': found.topics, 'service': found.services, 'action': found.actions}[kind]
+    return {name: types for name, types in read().items() if hidden or not names.is_hidden(name)}
 
-    :raises CommandError: there is none of this name.
-    """
-    full_name = names.expand(name)
-    if full_name not in known:
-        from ros2_diagnosis import nearest
 
-        hint = nearest.hint(full_name, known, at_most=0)
-        raise CommandError(f"Unknown {kind} '{name}'{hint}")
-    return known[full_name]
+def near(name: str, known: Iterable[str]) -> str:
+    """Return a clause with the nearest names for a message; nothing where none is near."""
+    from ros2_diagnosis import nearest
+
+    return nearest.hint(names.expand(name), known, at_most=0)
+
+
+def hint_near(message: str, name: str, known: Iterable[str]) -> None:
+    """Print a message as a hint where a name is near to one that is known."""
+    if clause := near(name, known):
+        print(f'hint: {message}{clause}', file=sys.stderr)
 
 
 def _print_hints(settings: rtps_settings.Settings, found: graph.Graph) -> None:

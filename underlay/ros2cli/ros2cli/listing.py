@@ -1,18 +1,29 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The verbs that list topics, services or actions: all of them, or those of one type."""
+"""The verbs that list topics, services or actions, or tell the type of one."""
 
 from __future__ import annotations
 
 import argparse
+from typing import Any, NoReturn
 
+from rtps_graph import names
 from rtps_graph.graph import Graph
-from rtps_graph.names import is_hidden
 
 from ros2cli import arguments, discovery
 from ros2cli.verb import VerbExtension
 
-_IN_GRAPH = {'topic': Graph.topics, 'service': Graph.services, 'action': Graph.actions}
+
+class _NotInJazzy(argparse.Action):
+    """Refuse what later distributions of ROS have."""
+
+    def __init__(self, *, kind: str, **options: Any) -> None:
+        super().__init__(nargs=0, default=argparse.SUPPRESS, help=argparse.SUPPRESS, **options)
+        self._kind = kind
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
+        spellings = '/'.join(self.option_strings)
+        parser.error(f'{spellings} is not in Jazzy; use --include-hidden-{self._kind}s')
 
 
 class ListVerb(VerbExtension):
@@ -39,18 +50,15 @@ class ListVerb(VerbExtension):
         if self.KIND != 'action':
             parser.add_argument(
                 f'--include-hidden-{self.KIND}s',
-                '-a',
-                '--all',
                 action='store_true',
                 default=argparse.SUPPRESS,  # else it would undo that of the command
                 help=f'Consider hidden {self.KIND}s as well',
             )
+            parser.add_argument('-a', '--all', action=_NotInJazzy, kind=self.KIND)
 
     def chosen(self, graph: Graph, args: argparse.Namespace) -> dict[str, list[str]]:
-        """Return what the options ask for; actions are never hidden."""
-        hidden = getattr(args, f'include_hidden_{self.KIND}s', True)
-        found = _IN_GRAPH[self.KIND](graph)
-        return {name: types for name, types in found.items() if hidden or not is_hidden(name)}
+        """Return what the options ask for."""
+        return discovery.by_kind(graph, self.KIND, hidden=asks_for_hidden(args, self.KIND))
 
     def show(self, graph: Graph, args: argparse.Namespace) -> None:
         found = self.chosen(graph, args)
@@ -81,3 +89,39 @@ class FindVerb(ListVerb):
     def chosen(self, graph: Graph, args: argparse.Namespace) -> dict[str, list[str]]:
         found = super().chosen(graph, args)
         return {name: types for name, types in found.items() if args.type in types}
+
+
+class TypeVerb(VerbExtension):
+    """Base of `type`."""
+
+    KIND = ''  # 'topic', 'service' or 'action'
+    NAME_EXAMPLE = ''
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        discovery.add_arguments(parser)
+        add_name = {
+            'topic': arguments.add_topic,
+            'service': arguments.add_service,
+            'action': arguments.add_action,
+        }[self.KIND]
+        add_name(
+            parser, help=f"Name of the ROS {self.KIND} to get type (e.g. '{self.NAME_EXAMPLE}')"
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int:
+        graph = discovery.read_graph(args)
+        name = getattr(args, f'{self.KIND}_name')
+        known = discovery.by_kind(graph, self.KIND)
+        types = known.get(names.expand(name), [])
+        if not types:
+            discovery.hint_near(f"there is no {self.KIND} '{name}'", name, known)
+        elif names.is_hidden(name) and not asks_for_hidden(args, self.KIND):
+            types = []
+        for type_name in types:
+            print(type_name)
+        return 0 if types else 1
+
+
+def asks_for_hidden(args: argparse.Namespace, kind: str) -> bool:
+    """Tell whether hidden topics or services are wanted; actions are never hidden."""
+    return bool(getattr(args, f'include_hidden_{kind}s', kind == 'action'))

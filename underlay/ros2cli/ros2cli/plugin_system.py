@@ -1,12 +1,17 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The version of the interface between `ros2` and the packages that extend it."""
+"""The interface between `ros2` and the packages that extend it."""
 
 from __future__ import annotations
 
 import argparse
+from collections import OrderedDict
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
 
 PLUGIN_SYSTEM_VERSION = '0.1'
+
+_instances: dict[type, Any] = {}
 
 
 class PluginException(Exception):
@@ -41,6 +46,59 @@ class Extension:
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         pass
+
+
+def instantiate_extensions(
+    group_name: str,
+    *,
+    exclude_names: Collection[str] | None = None,
+    unique_instance: bool = False,
+) -> dict[str, Any]:
+    """Map the names of an entry point group to instances; what fails is logged and left out.
+
+    :param unique_instance: make new ones, not those that the process has already.
+    """
+    import logging
+
+    from ros2cli.entry_points import load_entry_points
+
+    instances = {}
+    for name, kind in load_entry_points(group_name, exclude_names=exclude_names).items():
+        try:
+            instance = _instances[kind] if kind in _instances and not unique_instance else kind()
+        except Exception as error:
+            level = logging.WARNING if isinstance(error, PluginException) else logging.ERROR
+            logging.getLogger(__name__).log(
+                level, "Failed to instantiate '%s' extension '%s': %s", group_name, name, error
+            )
+            continue
+        if not unique_instance:
+            _instances[kind] = instance
+        instances[name] = instance
+    return instances
+
+
+def named_extensions(
+    group_name: str, *, exclude_names: Collection[str] | None = None
+) -> dict[str, Any]:
+    """Instantiate as above, and tell each extension its name."""
+    extensions = instantiate_extensions(group_name, exclude_names=exclude_names)
+    for name, extension in extensions.items():
+        extension.NAME = name
+    return extensions
+
+
+def order_extensions(
+    extensions: Mapping[str, Any],
+    key_function: Callable[[tuple[str, Any]], Any],
+    *,
+    reverse: bool = False,
+) -> OrderedDict[str, Any]:
+    return OrderedDict(sorted(extensions.items(), key=key_function, reverse=reverse))
+
+
+def order_extensions_by_name(extensions: Mapping[str, Any]) -> OrderedDict[str, Any]:
+    return order_extensions(extensions, lambda item: item[0])
 
 
 def _numbers(version: str) -> tuple[int, ...]:

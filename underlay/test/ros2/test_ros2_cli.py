@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import os
 from pathlib import Path
 import signal
@@ -14,6 +14,7 @@ import time
 from typing import Any
 
 import pytest
+from ros2cli.node.strategy import NodeStrategy
 
 COMMANDS = {
     'action': {'info', 'list', 'send_goal', 'type'},
@@ -84,6 +85,7 @@ def test_the_help_takes_four_starts_of_python_at_most() -> None:
         (('topc',), "'topc' is no command of ros2; did you mean 'topic'?"),
         (('topic', 'lst'), "'lst' is no verb of ros2 topic; did you mean 'list'?"),
         (('topic', 'list', '--nonsense'), 'unrecognized arguments: --nonsense'),
+        (('topic', 'list', '--all'), 'is not in Jazzy; use --include-hidden-topics'),
         (('lifecycle',), 'is part of a full ROS 2 and left out here'),
         (('bag', 'convert'), 'is part of a full ROS 2 and left out here'),
         (('topic', 'echo'), 'the following arguments are required: topic_name'),
@@ -97,11 +99,32 @@ def test_a_wrong_word_is_refused_with_what_was_meant(
     assert message in answer.err
 
 
-def test_the_daemon_is_said_not_to_exist(ros2: Callable[..., Any]) -> None:
-    for verb in COMMANDS['daemon']:
+@pytest.fixture
+def daemon(domain: int, ros2: Callable[..., Any]) -> Iterator[None]:
+    yield
+    ros2('daemon', 'stop')
+
+
+@pytest.mark.usefixtures('daemon')
+def test_the_daemon_answers_until_it_is_stopped(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('talker', 'talker')
+    for verb, told in (
+        ('stop', 'is not running'),
+        ('start', 'has been started'),
+        ('start', 'is already running'),
+        ('status', 'is running'),
+    ):
         answer = ros2('daemon', verb)
-        assert answer.status == 0
-        assert answer.out.startswith('There is no daemon here, and none is needed')
+        assert (answer.status, answer.out, answer.err) == (0, f'The daemon {told}\n', '')
+    with NodeStrategy(None) as node:
+        (info,) = node.get_publishers_info_by_topic('/chatter')
+        assert (info.node_name, info.qos_profile.reliability.name) == ('talker', 'RELIABLE')
+        assert ['/chatter', ['std_msgs/msg/String']] in node.get_topic_names_and_types()
+        assert node.daemon_node is not None
+        (listed,) = ros2('node', 'list', '--all').out.split()[:1]
+        assert listed == f'/{node.get_name()}'
+    assert ros2('daemon', 'stop').out == 'The daemon has been stopped\n'
+    assert ros2('daemon', 'status').out == 'The daemon is not running\n'
 
 
 def _complete(line: str, folder: Path) -> set[str]:

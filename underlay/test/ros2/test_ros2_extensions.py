@@ -106,7 +106,7 @@ def test_a_command_of_others_runs_its_verb(ros2: Callable[..., Any]) -> None:
 @pytest.mark.usefixtures('greeter')
 def test_a_verb_of_others_gets_a_node(ros2: Callable[..., Any], processes: Any) -> None:
     processes.node('talker', 'talker')
-    answer = ros2('topic', 'praise')
+    answer = ros2('topic', 'praise', '--no-daemon')
     assert answer.status == 0
     assert "good /chatter ['std_msgs/msg/String']" in answer.lines
 

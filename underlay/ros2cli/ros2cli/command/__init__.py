@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 import sys
 from typing import Any
 
 from entry_point_index import docstring, entry_points, load
 
-from ros2cli.plugin_system import Extension
+from ros2cli.plugin_system import Extension, named_extensions
 from ros2cli.verb import VerbExtension
 
 # What a full ROS 2 has besides; each is refused with a line that says so.
@@ -53,6 +53,13 @@ class CommandWithVerbs(CommandExtension):
             parser.print_help()
             return 0
         return verb.main(args=args)
+
+
+def get_command_extensions(
+    group_name: str, *, exclude_names: Collection[str] | None = None
+) -> dict[str, Any]:
+    """Map the names of the commands of an entry point group to instances of them."""
+    return named_extensions(group_name, exclude_names=exclude_names)
 
 
 class CommandLineParser(argparse.ArgumentParser):

@@ -12,6 +12,7 @@ import time
 from typing import Any
 
 import rclpy
+from rclpy.action import graph
 from rclpy.exceptions import InvalidNodeNameException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -19,23 +20,30 @@ from rclpy.parameter import Parameter
 from rtps_graph import names
 
 from ros2cli import discovery
+from ros2cli.discovery import add_direct_arguments as add_arguments
 from ros2cli.errors import CommandError
+from ros2cli.node import NODE_NAME_PREFIX
+
+__all__ = ['DEFAULT_TIMEOUT', 'CommandNode', 'DirectNode', 'add_arguments', 'command_node']
+
+DEFAULT_TIMEOUT = discovery.DEFAULT_SPIN_TIME_SEC
 
 
 class CommandNode:
     """A node with its executor."""
 
-    def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None) -> None:
+    def __init__(self, args: Any, *, node_name: str | None = None, **options: Any) -> None:
         discovery.settings_from_environment()
-        rclpy.init(args=[])
-        use_sim_time = bool(getattr(args, 'use_sim_time', False))
+        rclpy.init(args=getattr(args, 'argv', []))
+        use_sim_time = Parameter('use_sim_time', value=bool(getattr(args, 'use_sim_time', False)))
+        overrides = [use_sim_time, *options.pop('parameter_overrides', ())]
+        options = {'enable_rosout': False, 'start_parameter_services': False, **options}
         try:
             self.node = Node(
                 node_name or f'{names.COMMAND_NODE}{os.getpid()}',
                 use_global_arguments=False,
-                enable_rosout=False,
-                start_parameter_services=False,
-                parameter_overrides=[Parameter('use_sim_time', value=use_sim_time)],
+                parameter_overrides=overrides,
+                **options,
             )
         except InvalidNodeNameException as error:
             rclpy.try_shutdown()
@@ -62,16 +70,26 @@ class CommandNode:
 
 
 class DirectNode(CommandNode):
-    """The node as upstream's verbs use it: a context manager that has what the node has."""
+    """The node as upstream's verbs use it: it has what the node has, and knows the others.
 
-    def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None) -> None:
-        super().__init__(args, node_name=node_name)
-        self._args = args
+    :param args: may hold what upstream's verbs set: `node_name_suffix`, `spin_time`,
+        `start_parameter_services`, `start_type_description_service`, `use_sim_time`, `argv`.
+    """
+
+    def __init__(self, args: Any, *, node_name: str | None = None) -> None:
+        suffix = getattr(args, 'node_name_suffix', f'_{os.getpid()}')
+        described = getattr(args, 'start_type_description_service', True)
+        super().__init__(
+            args,
+            node_name=node_name or f'{NODE_NAME_PREFIX}{suffix}',
+            enable_rosout=True,
+            start_parameter_services=getattr(args, 'start_parameter_services', False),
+            parameter_overrides=[Parameter('start_type_description_service', value=described)],
+        )
+        others = {node.full_name for node in discovery.read_graph(args, quiet=True).nodes}
+        self.spin_until(lambda: others <= self._discovered(), discovery.DEFAULT_TIMEOUT_SEC)
 
     def __enter__(self) -> DirectNode:
-        """Wait until the node has discovered the others."""
-        others = {node.full_name for node in discovery.read_graph(self._args, quiet=True).nodes}
-        self.spin_until(lambda: others <= self._discovered(), discovery.DEFAULT_TIMEOUT_SEC)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -83,6 +101,25 @@ class DirectNode(CommandNode):
     def _discovered(self) -> set[str]:
         found = self.node.get_node_names_and_namespaces()
         return {names.full_node_name(namespace, name) for name, namespace in found}
+
+    # What the node has not, because rclpy keeps actions apart.
+
+    def get_action_names_and_types(self) -> list[tuple[str, list[str]]]:
+        return graph.get_action_names_and_types(self.node)
+
+    def get_action_client_names_and_types_by_node(
+        self, remote_node_name: str, remote_node_namespace: str
+    ) -> list[tuple[str, list[str]]]:
+        return graph.get_action_client_names_and_types_by_node(
+            self.node, remote_node_name, remote_node_namespace
+        )
+
+    def get_action_server_names_and_types_by_node(
+        self, remote_node_name: str, remote_node_namespace: str
+    ) -> list[tuple[str, list[str]]]:
+        return graph.get_action_server_names_and_types_by_node(
+            self.node, remote_node_name, remote_node_namespace
+        )
 
 
 @contextmanager

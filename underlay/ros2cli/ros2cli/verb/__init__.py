@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
-from ros2cli.plugin_system import Extension
+from ros2cli.plugin_system import Extension, named_extensions
 
 
 class VerbExtension(Extension):
@@ -17,3 +18,8 @@ class VerbExtension(Extension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         raise NotImplementedError()
+
+
+def get_verb_extensions(name: str) -> dict[str, Any]:
+    """Map the names of the verbs of an entry point group to instances of them."""
+    return named_extensions(name)

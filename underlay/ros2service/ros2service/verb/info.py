@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli import arguments, discovery
+from ros2cli import arguments, discovery, listing
 from ros2cli.verb import VerbExtension
 from rtps_graph import names
 from rtps_graph.graph import Role
@@ -20,9 +20,14 @@ class InfoVerb(VerbExtension):
             parser, help="Name of the ROS service to get info (e.g. '/add_two_ints')"
         )
 
-    def main(self, *, args: argparse.Namespace) -> None:
+    def main(self, *, args: argparse.Namespace) -> str | None:
         graph, name = discovery.read_graph(args), names.expand(args.service_name)
-        types = discovery.types_of(graph.services(), 'service', args.service_name)
+        hidden = listing.asks_for_hidden(args, 'service')
+        known = discovery.by_kind(graph, 'service', hidden=hidden)
+        if name not in known:
+            return f"Unknown service '{args.service_name}'{discovery.near(name, known)}"
+        types = known[name]
         print(f'Type: {types[0] if len(types) == 1 else types}')
         print(f'Clients count: {len(graph.with_role(Role.CLIENT, name))}')
         print(f'Services count: {len(graph.with_role(Role.SERVER, name))}')
+        return None

@@ -26,10 +26,12 @@ class InfoVerb(VerbExtension):
             },
         )
 
-    def main(self, *, args: argparse.Namespace) -> None:
+    def main(self, *, args: argparse.Namespace) -> str | None:
         graph = discovery.read_graph(args)
-        name = names.expand(args.topic_name)
-        types = discovery.types_of(graph.topics(), 'topic', args.topic_name)
+        name, known = names.expand(args.topic_name), graph.topics()
+        if name not in known:
+            return f"Unknown topic '{args.topic_name}'{discovery.near(name, known)}"
+        types = known[name]
         end = '\n\n' if args.verbose else '\n'
         print(f'Type: {types[0] if len(types) == 1 else types}', end=end)
         for label, role in (('Publisher', Role.PUBLISHER), ('Subscription', Role.SUBSCRIPTION)):
@@ -38,6 +40,7 @@ class InfoVerb(VerbExtension):
             if args.verbose:
                 for endpoint in endpoints:
                     print(_details(graph, endpoint), end=end)
+        return None
 
 
 def _details(graph: Graph, endpoint: Endpoint) -> str:

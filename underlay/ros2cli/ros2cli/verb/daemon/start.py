@@ -3,8 +3,24 @@
 
 from __future__ import annotations
 
-from ros2cli.verb.daemon import DaemonVerb
+import argparse
+
+from ros2cli import arguments
+from ros2cli.node.daemon import spawn_daemon
+from ros2cli.verb.daemon import VerbExtension
+
+_TIMEOUT_SEC = 10.0
 
 
-class StartVerb(DaemonVerb):
-    """Start the daemon if it isn't running."""
+class StartVerb(VerbExtension):
+    """Start the daemon if it isn't running.
+
+    Commands here read the graph themselves, completely; only verbs of other packages may ask it.
+    """
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        arguments.add_flags(parser, {'-d --debug': 'Let the daemon write to this terminal'})
+
+    def main(self, *, args: argparse.Namespace) -> None:
+        started = spawn_daemon(args, timeout=_TIMEOUT_SEC, debug=args.debug)
+        print(f'The daemon {"has been started" if started else "is already running"}')
