@@ -9,9 +9,15 @@ import difflib
 
 
 def hint(name: str, known: Iterable[str], *, at_most: int = 12) -> str:
-    """Return a clause for an error message: near names, or all of them where they are few."""
+    """Return a clause for an error message: near names, or all of them where they are few.
+
+    Near is also what has the same last part: '/robot/cmd_vel' for '/cmd_vel'.
+    """
     candidates = sorted(set(known))
     near = difflib.get_close_matches(name, candidates, n=3)
+    if not near and '/' in name:
+        last = name.rpartition('/')[2]
+        near = [each for each in candidates if last and each.rpartition('/')[2] == last][:3]
     if near:
         return f'; did you mean {" or ".join(repr(n) for n in near)}?'
     if candidates and len(candidates) <= at_most:

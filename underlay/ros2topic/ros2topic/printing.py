@@ -9,6 +9,7 @@ from typing import Any
 
 from ros2cli import arguments
 from rosidl_runtime_py import message_to_csv, message_to_yaml
+import yaml
 
 _TRUNCATE_LENGTH = 128
 
@@ -40,16 +41,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def show(value: Any, args: argparse.Namespace) -> None:
-    """Print a message, a field of one, or raw bytes, as the options ask for it."""
-    length = None if args.full_length else args.truncate_length
-    options = {'truncate_length': length, 'no_arr': args.no_arr, 'no_str': args.no_str}
+def show(value: Any, args: argparse.Namespace, info: dict[str, Any] | None = None) -> None:
+    """Print a message, a field of one, or raw bytes, as the options ask for it.
+
+    :param info: what is known of the message; printed with it where it is given.
+    """
     if not hasattr(value, 'get_fields_and_field_types'):
-        print(_plain(value, length), end='\n' if args.csv else '\n---\n')
+        if info is not None:
+            print(f'---Got new message, message info:---\n{info}\n---Message data:---')
+        print(_plain(value, _length(args)), end='\n' if args.csv else '\n---\n')
     elif args.csv:
-        print(message_to_csv(value, **options))
+        told = [] if info is None else map(str, info.values())
+        print(','.join([*told, message_to_csv(value, **_options(args))]))
     else:
-        print(message_to_yaml(value, flow_style=args.flow_style, **options), end='---\n')
+        if info is not None:
+            print(yaml.dump(info), end='---\n')
+        print(as_yaml(value, args), end='---\n')
+
+
+def as_yaml(msg: Any, args: argparse.Namespace) -> str:
+    return message_to_yaml(msg, flow_style=args.flow_style, **_options(args))
+
+
+def _options(args: argparse.Namespace) -> dict[str, Any]:
+    return {'truncate_length': _length(args), 'no_arr': args.no_arr, 'no_str': args.no_str}
+
+
+def _length(args: argparse.Namespace) -> int | None:
+    return None if args.full_length else args.truncate_length
 
 
 def _plain(value: Any, length: int | None) -> Any:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 import copy
+from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.qos import (
@@ -28,14 +29,20 @@ _POLICIES = {
 }
 
 
-def add_arguments(
-    parser: argparse.ArgumentParser, *, verb: str, default_preset: str = 'default'
+def add_qos_arguments(
+    parser: argparse.ArgumentParser, subscribe_or_publish: str, default_profile_str: str
 ) -> None:
-    """Add upstream's QoS options."""
+    """Add upstream's QoS options.
+
+    :param subscribe_or_publish: what the verb does, for the help.
+    :param default_profile_str: the preset where none is asked for.
+    """
+    verb = subscribe_or_publish
     parser.add_argument(
         '--qos-profile',
         choices=QoSPresetProfiles.short_keys(),
-        help=f'Quality of service preset profile to {verb} with (default: {default_preset})',
+        default=default_profile_str,
+        help=f'Quality of service preset profile to {verb} with (default: %(default)s)',
     )
     parser.add_argument(
         '--qos-depth',
@@ -58,31 +65,70 @@ def add_arguments(
     )
 
 
-def profile(args: argparse.Namespace, *, default_preset: str = 'default') -> QoSProfile:
+def profile_configure_short_keys(
+    profile: QoSProfile,
+    reliability: str | None = None,
+    durability: str | None = None,
+    depth: int | None = None,
+    history: str | None = None,
+    liveliness: str | None = None,
+    liveliness_lease_duration_s: float | None = None,
+) -> None:
+    """Change a profile where a setting is given."""
+    for option, key in (
+        ('history', history),
+        ('reliability', reliability),
+        ('durability', durability),
+        ('liveliness', liveliness),
+    ):
+        if key:
+            setattr(profile, option, _POLICIES[option][0].get_from_short_key(key))
+    if liveliness_lease_duration_s is not None and liveliness_lease_duration_s >= 0:
+        lease_ns = int(liveliness_lease_duration_s * 10**9)
+        profile.liveliness_lease_duration = Duration(nanoseconds=lease_ns)
+    if depth is not None and depth >= 0:
+        profile.depth = depth
+    if profile.durability == DurabilityPolicy.TRANSIENT_LOCAL and profile.depth == 0:
+        profile.depth = 1
+
+
+def qos_profile_from_short_keys(
+    preset_profile: str,
+    reliability: str | None = None,
+    durability: str | None = None,
+    depth: int | None = None,
+    history: str | None = None,
+    liveliness: str | None = None,
+    liveliness_lease_duration_s: float | None = None,
+) -> QoSProfile:
+    """Build a profile from the name of a preset and what differs from it."""
+    # A preset is shared by the process.
+    built = copy.copy(QoSPresetProfiles.get_from_short_key(preset_profile))
+    profile_configure_short_keys(
+        built, reliability, durability, depth, history, liveliness, liveliness_lease_duration_s
+    )
+    return built
+
+
+def profile(args: argparse.Namespace) -> QoSProfile:
     """Build the profile that the options ask for."""
-    preset = QoSPresetProfiles.get_from_short_key(args.qos_profile or default_preset)
-    # A preset is shared by the process; the options change a copy.
-    chosen = copy.copy(preset)
-    if args.qos_depth is not None:
-        chosen.depth = args.qos_depth
-    for option, (policy, _) in _POLICIES.items():
-        if key := getattr(args, f'qos_{option}'):
-            setattr(chosen, option, policy.get_from_short_key(key))
-    if args.qos_durability == 'transient_local' and chosen.depth == 0:
-        chosen.depth = 1
-    if args.qos_liveliness_lease_duration_seconds is not None:
-        lease_ns = int(args.qos_liveliness_lease_duration_seconds * 10**9)
-        chosen.liveliness_lease_duration = Duration(nanoseconds=lease_ns)
-    return chosen
+    return qos_profile_from_short_keys(args.qos_profile, **_overrides(args))
 
 
 def profile_for(args: argparse.Namespace, publishers: Sequence[Endpoint]) -> QoSProfile:
     """Build a subscription's profile that fits what is published, unless options ask otherwise."""
     chosen = profile(args)
-    if args.qos_profile or args.qos_history or args.qos_reliability or args.qos_durability:
+    if not publishers or any(value is not None for value in _overrides(args).values()):
         return chosen
-    if publishers and not all(endpoint.qos.reliable for endpoint in publishers):
-        chosen.reliability = ReliabilityPolicy.BEST_EFFORT
-    if publishers and all(endpoint.qos.transient_local for endpoint in publishers):
-        chosen.durability = DurabilityPolicy.TRANSIENT_LOCAL
+    reliable = all(endpoint.qos.reliable for endpoint in publishers)
+    chosen.reliability = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
+    latched = all(endpoint.qos.transient_local for endpoint in publishers)
+    chosen.durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
     return chosen
+
+
+def _overrides(args: argparse.Namespace) -> dict[str, Any]:
+    return {
+        **{option: getattr(args, f'qos_{option}') for option in (*_POLICIES, 'depth')},
+        'liveliness_lease_duration_s': args.qos_liveliness_lease_duration_seconds,
+    }

@@ -24,9 +24,13 @@ def hint_when_silent(node: CommandNode, topic: str, arrived: Callable[[], bool])
 
 
 def hint_when_not_received(topic: str) -> None:
-    """Print why a subscription that exists does not get what this command publishes."""
-    for finding in connections.check(discovery.read_graph(quiet=True), topic):
+    """Print why a subscription does not get what this command publishes, or what was meant."""
+    graph = discovery.read_graph(quiet=True)
+    for finding in connections.check(graph, topic):
         print(f'hint: {finding}', file=sys.stderr)
+    heard = {endpoint.name for endpoint in graph.endpoints if endpoint.role is Role.SUBSCRIPTION}
+    if topic not in heard:
+        discovery.hint_near(f"nobody subscribes to '{topic}'", topic, heard)
 
 
 def why_silent(graph: Graph, topic: str) -> list[Finding]:

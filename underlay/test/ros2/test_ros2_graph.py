@@ -70,8 +70,11 @@ def test_topics_are_listed_with_their_types(ros2: Callable[..., Any]) -> None:
 def test_hidden_topics_are_shown_only_when_asked(ros2: Callable[..., Any]) -> None:
     hidden = '/flip/_service_event'
     assert hidden not in ros2('topic', 'list').lines
-    assert hidden in ros2('topic', 'list', '-a').lines
+    assert hidden in ros2('topic', 'list', '--include-hidden-topics').lines
     assert hidden in ros2('topic', '--include-hidden-topics', 'list').lines
+    answer = ros2('topic', 'type', hidden)
+    assert (answer.status, answer.out, answer.err) == (1, '', '')
+    assert ros2('topic', '--include-hidden-topics', 'type', hidden).status == 0
 
 
 @pytest.mark.usefixtures('crowd')
@@ -152,6 +155,9 @@ def test_an_unknown_node_is_refused_with_the_nearest_name(ros2: Callable[..., An
 def test_types_and_names_find_each_other(ros2: Callable[..., Any]) -> None:
     assert ros2('topic', 'type', '/chatter').out == 'std_msgs/msg/String\n'
     assert ros2('topic', 'type', '/nothing').status == 1
+    answer = ros2('service', 'type', '/flp')
+    assert (answer.status, answer.out) == (1, '')
+    assert answer.err == "hint: there is no service '/flp'; did you mean '/flip'?\n"
     assert ros2('topic', 'find', 'std_msgs/msg/String').lines == ['/chatter']
     assert ros2('service', 'type', '/flip').out == 'std_srvs/srv/SetBool\n'
     assert ros2('service', 'find', 'std_srvs/srv/SetBool').lines == ['/flip']

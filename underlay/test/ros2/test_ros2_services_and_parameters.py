@@ -50,10 +50,17 @@ def test_a_bad_call_is_refused(
     assert message in answer.err
 
 
+def test_a_call_of_a_name_that_nobody_has_gets_a_hint(world: Any) -> None:
+    hint = "hint: nobody offers '/flp'; did you mean '/flip'?"
+    call = world.ros2('service', 'call', '/flp', 'std_srvs/srv/SetBool', ready=hint)
+    call.terminate()
+
+
 def test_echo_shows_requests_and_responses(world: Any) -> None:
     words = ('/flip', 'std_srvs/srv/SetBool', 'data: true', '-r', '5')
     calls = world.ros2('service', 'call', *words, ready='response')
-    echo = world.ros2('service', 'echo', '/flip', ready='message: flipped')
+    echo = world.ros2('service', 'echo', '/flip', ready='event_type: RESPONSE_SENT')
+    assert any('message: flipped' in line for line in echo.stdout)
     for process in (calls, echo):
         process.terminate()
         rest, _ = process.communicate(timeout=5)

@@ -13,6 +13,8 @@ from ros2cli.verb import VerbExtension
 from rtps_graph import names
 from rtps_graph.graph import Role
 
+from ros2node.api import INFO_NONUNIQUE_WARNING_TEMPLATE
+
 
 class InfoVerb(VerbExtension):
     """Output information about a node."""
@@ -27,17 +29,14 @@ class InfoVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         graph = discovery.read_graph(args)
         name = names.expand(args.node_name)
-        matching = [node for node in graph.nodes if node.full_name == name]
+        known = [node for node in graph.nodes if args.include_hidden or not node.is_hidden]
+        matching = [node for node in known if node.full_name == name]
         if not matching:
-            known = [node.full_name for node in graph.nodes if not node.is_hidden]
-            raise CommandError(
-                f"Unable to find node '{args.node_name}'{nearest.hint(name, known)}"
-            )
+            hint = nearest.hint(name, (node.full_name for node in known))
+            raise CommandError(f"Unable to find node '{args.node_name}'{hint}")
         if len(matching) > 1:
             print(
-                f"There are {len(matching)} nodes in the graph with the exact name '{name}'. You "
-                f'are '
-                'seeing information about only one of them.',
+                INFO_NONUNIQUE_WARNING_TEMPLATE.format(num_nodes=len(matching), node_name=name),
                 file=sys.stderr,
             )
         node = matching[0]

@@ -9,6 +9,8 @@ import sys
 from ros2cli import arguments, discovery
 from ros2cli.verb import VerbExtension
 
+from ros2node.api import has_duplicates
+
 
 class ListVerb(VerbExtension):
     """Output a list of available nodes."""
@@ -29,7 +31,7 @@ class ListVerb(VerbExtension):
         if args.count_nodes:
             print(len(found))
             return
-        if len(set(found)) < len(found):
+        if has_duplicates(found):
             print(
                 'WARNING: Be aware that there are nodes in the graph that share an exact name, '
                 'which can have unintended side effects.',

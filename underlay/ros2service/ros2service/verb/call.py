@@ -7,11 +7,12 @@ import argparse
 import sys
 import time
 
-from ros2cli import arguments, interfaces
+from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 from ros2topic import qos, topics
+from rtps_graph.graph import Role
 
 
 class CallVerb(VerbExtension):
@@ -43,7 +44,7 @@ class CallVerb(VerbExtension):
             type=arguments.positive_float,
             help='Repeat the call at a specific rate in Hz',
         )
-        qos.add_arguments(parser, verb='service client', default_preset='services_default')
+        qos.add_qos_arguments(parser, 'service client', 'services_default')
 
     def main(self, *, args: argparse.Namespace) -> None:
         service_class = interfaces.service(args.service_type)
@@ -54,10 +55,11 @@ class CallVerb(VerbExtension):
             client = node.node.create_client(
                 service_class,
                 topics.checked_name(args.service_name),
-                qos_profile=qos.profile(args, default_preset='services_default'),
+                qos_profile=qos.profile(args),
             )
             if not node.spin_until(client.service_is_ready, 0.2):
                 print('waiting for service to become available...')
+                _hint_when_nobody_offers(client.service_name)
                 node.spin_until(client.service_is_ready)
             while True:
                 print(f'requester: making request: {request!r}\n')
@@ -71,3 +73,10 @@ class CallVerb(VerbExtension):
                     return
                 left = start + 1.0 / args.rate - time.monotonic()
                 node.spin_until(lambda: False, max(left, 0.0))
+
+
+def _hint_when_nobody_offers(name: str) -> None:
+    graph = discovery.read_graph(quiet=True)
+    offered = {endpoint.name for endpoint in graph.endpoints if endpoint.role is Role.SERVER}
+    if name not in offered:
+        discovery.hint_near(f"nobody offers '{name}'", name, offered)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 from collections import deque
-import time
+import sys
 
 from ros2cli import arguments, discovery
 from ros2cli.node.direct import command_node
@@ -27,15 +27,23 @@ class BwVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         topic = topics.find(args, args.topic_name, wait=True)
         samples: deque[tuple[float, int]] = deque(maxlen=args.window)
-
-        def on_message(data: bytes) -> None:
-            samples.append((time.monotonic(), len(data)))
-
-        def report() -> None:
-            if len(samples) >= 2:
-                print(describe(list(samples), time.monotonic()))
-
         with command_node(args) as node:
+            clock = node.node.get_clock()
+
+            def now_sec() -> float:
+                return clock.now().nanoseconds * 1e-9
+
+            def on_message(data: bytes) -> None:
+                samples.append((now_sec(), len(data)))
+
+            def report() -> None:
+                now = now_sec()
+                if samples and now < samples[0][0]:
+                    print('WARNING: time is reset!', file=sys.stderr)
+                    samples.clear()
+                if len(samples) >= 2:
+                    print(describe(list(samples), now))
+
             measuring.subscribe(node, topic, on_message, raw=True)
             print(f'Subscribed to [{topic.name}]')
             measuring.report_repeatedly(node, report, {topic.name: lambda: bool(samples)})

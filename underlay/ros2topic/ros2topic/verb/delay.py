@@ -35,6 +35,8 @@ class DelayVerb(VerbExtension):
 
             def on_message(msg: Any) -> None:
                 nonlocal fresh
+                if clock.now().nanoseconds == 0:
+                    return  # simulated time that has not begun
                 stamp = Time.from_msg(msg.header.stamp).nanoseconds
                 delays_sec.append((clock.now().nanoseconds - stamp) * 1e-9)
                 fresh = True

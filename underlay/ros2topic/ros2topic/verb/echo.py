@@ -30,7 +30,7 @@ class EchoVerb(VerbExtension):
             nargs='?',
             help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
         )
-        qos.add_arguments(parser, verb='subscribe')
+        qos.add_qos_arguments(parser, 'subscribe', 'sensor_data')
         printing.add_arguments(parser)
         parser.add_argument(
             '--field', help='Echo a selected field of a message. Use "." to select sub-fields'
@@ -63,6 +63,7 @@ class EchoVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> None:
         keep = expression.message_filter(args.filter_expr)
+        path = _path(args.field)
         topic = topics.find(args, args.topic_name, type_name=args.message_type)
         shown = 0
         arrived = False
@@ -70,11 +71,10 @@ class EchoVerb(VerbExtension):
         def on_message(msg: Any, info: Any) -> None:
             nonlocal shown, arrived
             arrived = True
-            if (args.once and shown) or not (args.raw or keep(msg)):
+            value = msg if args.raw else _field(msg, path)
+            if (args.once and shown) or not (args.raw or keep(value)):
                 return
-            if args.include_message_info:
-                print(info)
-            printing.show(_field(msg, args.field) if args.field and not args.raw else msg, args)
+            printing.show(value, args, info if args.include_message_info else None)
             shown += 1
 
         with command_node(args) as node:
@@ -88,11 +88,7 @@ class EchoVerb(VerbExtension):
             )
             if args.timeout is None:
                 silence.hint_when_silent(node, topic.name, lambda: arrived)
-            if not node.spin_until(lambda: bool(args.once and shown), args.timeout) and not shown:
-                raise CommandError(
-                    f"No message on '{topic.name}' within {args.timeout:g} s; "
-                    f'`ros2 topic info -v {topic.name}` shows who publishes'
-                )
+            node.spin_until(lambda: bool(args.once and shown), args.timeout)
 
 
 def _on_lost(args: argparse.Namespace) -> Callable[[Any], None] | None:
@@ -109,15 +105,21 @@ def _on_lost(args: argparse.Namespace) -> Callable[[Any], None] | None:
     return report
 
 
-def _field(msg: Any, path: str) -> Any:
+def _path(field: str | None) -> list[str]:
+    path = [name for name in (field or '').split('.') if name]
+    if field is not None and not path:
+        raise CommandError(f"Invalid field value '{field}'")
+    return path
+
+
+def _field(msg: Any, path: list[str]) -> Any:
     value = msg
-    for name in path.split('.'):
+    for name in path:
         try:
             value = getattr(value, name)
-        except AttributeError:
+        except AttributeError as error:
             raise CommandError(
-                f"Invalid field '{path}': {value.__class__.__name__} has no field "
-                f"'{name}'{_fields_of(value)}"
+                f"Invalid field '{'.'.join(path)}': {error}{_fields_of(value)}"
             ) from None
     return value
 

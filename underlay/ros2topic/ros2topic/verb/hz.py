@@ -31,6 +31,8 @@ class Rate:
         if not self.keep(msg):
             return
         now = self.now_ns()
+        if now == 0:
+            return  # simulated time that has not begun
         if self.last_ns is not None and now < self.last_ns:
             print('time has reset, resetting counters')
             self.intervals_ns.clear()

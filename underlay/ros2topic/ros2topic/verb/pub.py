@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+import sys
 import time
 from typing import Any
 
@@ -12,7 +13,7 @@ from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.publisher import Publisher
 from rclpy.qos import qos_policy_name_from_kind
 from ros2cli import arguments, discovery, interfaces
-from ros2cli.errors import UsageError
+from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 
@@ -27,13 +28,15 @@ class PubVerb(VerbExtension):
         arguments.add_type(
             parser, 'message_type', 'msg', help="Type of the ROS message (e.g. 'std_msgs/String')"
         )
+        group = parser.add_mutually_exclusive_group()
         arguments.add_values(
-            parser,
+            group,
             'values',
             'message_type',
             help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
             'otherwise the message will be published with default values',
         )
+        arguments.add_flags(group, {'--stdin': 'Read values from standard input'})
         parser.add_argument(
             '-r',
             '--rate',
@@ -80,7 +83,7 @@ class PubVerb(VerbExtension):
             help='Keep publishing node alive for N seconds after the last msg (default: 0.1)',
         )
         parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
-        qos.add_arguments(parser, verb='publish')
+        qos.add_qos_arguments(parser, 'publish', 'default')
         discovery.add_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> None:
@@ -89,14 +92,15 @@ class PubVerb(VerbExtension):
         if wanted is None:
             wanted = 1 if times else 0
         if args.max_wait_time_secs is not None and wanted == 0:
-            raise UsageError(
-                '--max-wait-time-secs is only allowed with --wait-matching-subscriptions'
+            raise CommandError(
+                '--max-wait-time-secs option is only effective with '
+                '--wait-matching-subscriptions, --once or --times'
             )
         message_class = interfaces.message(args.message_type)
         msg = message_class()
         stamps = interfaces.populate(
             msg,
-            interfaces.yaml_mapping(args.values),
+            interfaces.yaml_mapping(sys.stdin.read() if args.stdin else args.values),
             expand_header_auto=True,
             expand_time_now=True,
         )
@@ -108,25 +112,23 @@ class PubVerb(VerbExtension):
                 event_callbacks=PublisherEventCallbacks(incompatible_qos=_on_incompatible_qos),
             )
             silence.hint_when_not_received(publisher.topic_name)
-            if _wait_for_subscriptions(node, publisher, wanted, args.max_wait_time_secs):
-                _publish(node, publisher, msg, stamps, times, args)
+            _wait_for_subscriptions(node, publisher, wanted, args.max_wait_time_secs)
+            _publish(node, publisher, msg, stamps, times, args)
 
 
 def _wait_for_subscriptions(
     node: CommandNode, publisher: Publisher, wanted: int, timeout_sec: float | None
-) -> bool:
+) -> None:
     end = time.monotonic() + (timeout_sec or float('inf'))
     while publisher.get_subscription_count() < wanted:
-        if time.monotonic() >= end:
-            print(
-                f'Timed out waiting for subscribers: Expected {wanted} subs but only got '
-                f'{publisher.get_subscription_count()} subs'
-            )
-            return False
         print(f'Waiting for at least {wanted} matching subscription(s)...')
+        if time.monotonic() >= end:
+            raise CommandError(
+                f'Timed out waiting for subscribers: Expected {wanted} subcribers but only got '
+                f'{publisher.get_subscription_count()} subscribers'
+            )
         left = min(1.0, end - time.monotonic())
         node.spin_until(lambda: publisher.get_subscription_count() >= wanted, left)
-    return True
 
 
 def _publish(
