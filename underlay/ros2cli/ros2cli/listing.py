@@ -32,7 +32,8 @@ class ListVerb(VerbExtension):
     KIND = ''  # 'topic', 'service' or 'action'
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
+        if self.KIND != 'action':  # as upstream, here and below
+            discovery.add_arguments(parser)
         arguments.add_flags(parser, {'-t --show-types': f'Additionally show the {self.KIND} type'})
         self._add_options(parser)
 
@@ -75,7 +76,8 @@ class FindVerb(ListVerb):
     TYPE = ''  # an example: 'std_msgs/msg/String'
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
+        if self.KIND == 'topic':
+            discovery.add_arguments(parser)
         arguments.add_type(
             parser,
             'type',
@@ -98,7 +100,8 @@ class TypeVerb(VerbExtension):
     NAME_EXAMPLE = ''
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
+        if self.KIND == 'topic':
+            discovery.add_arguments(parser)
         add_name = {
             'topic': arguments.add_topic,
             'service': arguments.add_service,

@@ -15,7 +15,6 @@ class InfoVerb(VerbExtension):
     """Print information about an action."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
         arguments.add_action(parser, help="Name of the ROS action to get info (e.g. '/fibonacci')")
         arguments.add_flags(
             parser,

@@ -31,7 +31,6 @@ class EchoVerb(VerbExtension):
     """
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
         arguments.add_service(
             parser, help="Name of the ROS service to echo (e.g. '/add_two_ints')"
         )

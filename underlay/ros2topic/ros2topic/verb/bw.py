@@ -20,7 +20,7 @@ class BwVerb(VerbExtension):
     """Display bandwidth used by topic."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
+        discovery.add_direct_arguments(parser)
         arguments.add_topic(parser, help='Topic name to monitor for bandwidth utilization')
         measuring.add_window(parser, 100, 'maximum window size')
 

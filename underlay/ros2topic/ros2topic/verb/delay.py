@@ -20,7 +20,7 @@ class DelayVerb(VerbExtension):
     """Display delay of topic from timestamp in header."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
+        discovery.add_direct_arguments(parser)
         arguments.add_topic(parser, help='Topic name to calculate the delay for')
         measuring.add_window(parser, 10000)
 

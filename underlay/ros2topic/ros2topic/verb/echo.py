@@ -38,7 +38,6 @@ class EchoVerb(VerbExtension):
         arguments.add_flags(
             parser,
             {
-                '--lost-messages': 'DEPRECATED: Does nothing',
                 '--no-lost-messages': "Don't report when a message is lost",
                 '--raw': 'Echo the raw binary representation',
             },

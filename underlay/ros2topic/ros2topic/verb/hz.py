@@ -67,7 +67,7 @@ class HzVerb(VerbExtension):
     """
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        discovery.add_arguments(parser)
+        discovery.add_direct_arguments(parser)
         arguments.add_topic(
             parser, nargs='+', help="Names of the ROS topic to listen to (e.g. '/chatter')"
         )

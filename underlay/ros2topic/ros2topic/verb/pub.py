@@ -84,7 +84,7 @@ class PubVerb(VerbExtension):
         )
         parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
         qos.add_qos_arguments(parser, 'publish', 'default')
-        discovery.add_arguments(parser)
+        discovery.add_direct_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> None:
         times = 1 if args.once else args.times
