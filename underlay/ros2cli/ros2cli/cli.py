@@ -134,7 +134,14 @@ def build_parser(
         parser.set_defaults(_command=extension, _command_parser=parser)
         extension.add_arguments(parser, script_name)
         return parser
-    add_subparsers_on_demand(parser, script_name, '_command', 'ros2cli.command', required=False)
+    add_subparsers_on_demand(
+        parser,
+        script_name,
+        '_command',
+        'ros2cli.command',
+        hide_extensions=['extension_points', 'extensions'],
+        required=False,
+    )
     return parser
 
 

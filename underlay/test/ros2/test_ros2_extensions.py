@@ -98,6 +98,14 @@ def test_help_lists_commands_and_verbs_of_others(ros2: Callable[..., Any]) -> No
 
 
 @pytest.mark.usefixtures('greeter')
+def test_extensions_tells_of_those_of_others_and_why_not(ros2: Callable[..., Any]) -> None:
+    answer = ros2('extensions', '--all')
+    assert {'ros2topic.verb', '  praise: Praise every topic'} <= set(answer.lines)
+    assert "\n- broken: \n    reason: No module named 'no_such_module'\n" in answer.out
+    assert '\nros2topic.verb: ' in ros2('extension_points').out
+
+
+@pytest.mark.usefixtures('greeter')
 def test_a_command_of_others_runs_its_verb(ros2: Callable[..., Any]) -> None:
     answer = ros2('greet', 'loudly', 'you')
     assert (answer.status, answer.out, answer.err) == (3, 'HELLO YOU\n', '')
