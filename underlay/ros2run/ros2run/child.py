@@ -4,23 +4,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 import ctypes
 import os
+from pathlib import Path
+import re
 import signal
 import subprocess
 
 from interrupt_while_loading import takes_blocked_interrupt
 
-_PASSED_ON = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT}
+_PASSED_ON = {
+    *(signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT),
+    *(signal.SIGUSR1, signal.SIGUSR2),
+}
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
 
 def run(command: Sequence[str]) -> int:
     """Run a program to its end; return its exit status, or -N where signal N ended it.
 
-    A signal that this process gets goes to the program; one of the terminal has reached it by
-    itself. Where this process is killed, the program is.
+    The program gets each signal once, whether it was sent to this process, to the group of both
+    or by the terminal. Where this process is killed, the program is.
 
     :raises OSError: it cannot be started.
     """
@@ -28,12 +33,18 @@ def run(command: Sequence[str]) -> int:
     before = signal.pthread_sigmask(signal.SIG_BLOCK, awaited)
     try:
         mask = {*before, signal.SIGINT} if takes_blocked_interrupt(command[0]) else before
-        process = _start(command, mask)
+        process = subprocess.Popen(command, preexec_fn=_bound_to_this(mask))
+        witness = Witness()
         while process.poll() is None:
-            told = signal.sigwaitinfo(awaited)
-            # sigaction(2): a code above 0 is the kernel's, as for Ctrl-C in the group of both.
-            if told.si_signo != signal.SIGCHLD and told.si_code <= 0:
-                process.send_signal(told.si_signo)
+            number = signal.sigwait(awaited)
+            if number == signal.SIGCHLD:
+                continue
+            if witness.has(number):
+                witness.end()
+                witness = Witness()
+            else:
+                process.send_signal(number)
+        witness.end()
         return process.returncode
     finally:
         while signal.sigtimedwait(awaited, 0) is not None:
@@ -41,7 +52,36 @@ def run(command: Sequence[str]) -> int:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[bytes]:
+class Witness:
+    """A process that only tells of a signal whether all of the group got it, as for Ctrl-C.
+
+    It has the signals blocked that its maker has, so that each stays with it.
+    """
+
+    def __init__(self) -> None:
+        bind = _bound_to_this(signal.pthread_sigmask(signal.SIG_BLOCK, ()))
+        self._pid = os.fork()
+        if self._pid == 0:
+            try:
+                bind()
+                os.closerange(0, os.sysconf('SC_OPEN_MAX'))
+                while True:
+                    signal.pause()
+            finally:
+                os._exit(1)
+
+    def has(self, number: int) -> bool:
+        status = Path(f'/proc/{self._pid}/status').read_text()
+        (pending,) = re.findall(r'ShdPnd:\s*(\w+)', status)
+        return bool(int(pending, 16) >> (number - 1) & 1)
+
+    def end(self) -> None:
+        os.kill(self._pid, signal.SIGKILL)
+        os.waitpid(self._pid, 0)
+
+
+def _bound_to_this(mask: Collection[int]) -> Callable[[], None]:
+    """Return what a new process does first: die when this one does, and take a signal mask."""
     libc = ctypes.CDLL(None)
     parent = os.getpid()
 
@@ -51,4 +91,4 @@ def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[by
             os._exit(1)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
-    return subprocess.Popen(command, preexec_fn=prepare)
+    return prepare

@@ -43,30 +43,38 @@ def test_a_prefix_goes_before_the_program(
     assert answer.out == f'a b {prefix}/lib/demo/show c\n'
 
 
+_COUNTS = f"""#!{sys.executable}
+import signal, sys, time
+got = []
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, lambda number, _: got.append(number))
+print('ready', flush=True)
+while not got:
+    time.sleep(0.01)
+time.sleep(0.2)  # for a second one
+sys.exit(10 * len(got) + got[0])
+"""
+
+
+@pytest.mark.parametrize('send', [os.kill, os.killpg])
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_a_signal_reaches_the_program_and_nothing_is_left(
-    installed_package: Callable[..., Path], number: signal.Signals
+def test_a_signal_reaches_the_program_once_and_nothing_is_left(
+    installed_package: Callable[..., Path],
+    number: signal.Signals,
+    send: Callable[[int, signal.Signals], None],
 ) -> None:
-    installed_package(
-        'demo',
-        waits=f'#!{sys.executable}\n'
-        'import signal, sys\n'
-        'for n in (signal.SIGINT, signal.SIGTERM):\n'
-        '    signal.signal(n, lambda n, _: sys.exit(n + 20))\n'
-        'print("ready", flush=True)\n'
-        'signal.pause()\n',
-    )
+    installed_package('demo', counts=_COUNTS)
     process = subprocess.Popen(
-        [sys.executable, '-m', 'ros2cli', 'run', 'demo', 'waits'],
+        [sys.executable, '-m', 'ros2cli', 'run', 'demo', 'counts'],
         stdout=subprocess.PIPE,
         text=True,
+        start_new_session=True,
     )
     assert process.stdout is not None
     assert process.stdout.readline() == 'ready\n'
-    process.send_signal(number)
+    send(process.pid, number)
     process.communicate(timeout=5)  # to the end of the output, which the program has too
-    killed = number is signal.SIGKILL
-    assert process.returncode == (-number if killed else number + 20)
+    assert process.returncode == (-number if number is signal.SIGKILL else 10 + number)
 
 
 @pytest.mark.parametrize(
