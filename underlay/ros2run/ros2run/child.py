@@ -64,7 +64,6 @@ class Witness:
         if self._pid == 0:
             try:
                 bind()
-                os.closerange(0, os.sysconf('SC_OPEN_MAX'))
                 while True:
                     signal.pause()
             finally:

@@ -235,7 +235,7 @@ def test_pub_says_why_nobody_hears(processes: Any, ros2: Callable[..., Any]) -> 
     words = ('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
     answer = ros2('topic', 'pub', '-t', '1', '-w', '1', '--max-wait-time-secs', '0.5', *words)
     assert '/husky subscribes to geometry_msgs/msg/Twist' in answer.err
-    assert 'Timed out waiting for subscribers' in answer.out
+    assert 'Timed out waiting for subscribers' in answer.err
 
 
 def test_a_missing_profile_and_an_empty_prefix_are_named(
