@@ -14,7 +14,7 @@ from ros2_diagnosis.finding import Finding
 from ros2cli import interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
-from ros2param import params
+from ros2param import api, params
 from rtps_graph.graph import Graph, Node, Role
 
 _TOPIC_END = 'cmd_vel'
@@ -56,13 +56,16 @@ def _receivers(graph: Graph, topic: str) -> list[Node]:
 def _timeout(node: CommandNode, receiver: Node) -> float | None:
     """Ask a node for its command timeout; None where it has none, or does not depend on it."""
     try:
-        known = params.names_of(node, receiver.full_name)
+        known = api.list_names(node=node, node_name=receiver.full_name)
         wanted = [name for name in known if name.rpartition('.')[2] in _TIMEOUT_PARAMETERS]
         wanted += [name for name in known if name == 'lockstep']
-        values = params.get(node, receiver.full_name, wanted)
+        values = api.call_get_parameters(
+            node=node, node_name=receiver.full_name, parameter_names=wanted
+        ).values
     except CommandError:
         return None
-    found = dict(zip(wanted, map(params.to_python, values), strict=True))
+    plain = (api.get_value(parameter_value=value) for value in values)
+    found = dict(zip(wanted, plain, strict=True))
     if found.pop('lockstep', False):
         return None  # The simulation waits for each command.
     timeouts = [value for value in found.values() if isinstance(value, (int, float)) and value > 0]

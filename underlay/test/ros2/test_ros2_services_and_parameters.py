@@ -9,6 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from ros2param import api
 
 
 @pytest.fixture(scope='module')
@@ -75,7 +78,7 @@ def test_parameters_are_listed_with_types(ros2: Callable[..., Any]) -> None:
     everything = ros2('param', 'list')
     assert '/owner:' in everything.lines
     assert '  wheel.radius' in everything.lines
-    assert ros2('param', 'list', 'owner', '--filter', 'rad').lines == ['  wheel.radius']
+    assert ros2('param', 'list', 'owner', '--filter', 'wh.*').lines == ['  wheel.radius']
 
 
 @pytest.mark.parametrize(
@@ -99,25 +102,25 @@ def test_a_parameter_that_is_set_stays_set(ros2: Callable[..., Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    ('words', 'message'),
+    ('words', 'status', 'message'),
     [
-        (('get', '/owner', 'nothing'), 'Parameter not set'),
-        (('get', '/owne', 'speed'), "Node not found: '/owne'; did you mean '/owner'?"),
-        (('set', '/owner', 'speed', '7.0'), 'Setting parameter failed: Parameter speed out of'),
-        (('set', '/owner', 'speed', 'fast'), 'Setting parameter failed: Wrong parameter type'),
-        (('set', '/owner', 'fixed', 'a'), 'read-only'),
-        (('set', '/owner', 'wheel.radius', '9' * 30), 'an integer parameter has 64 bits'),
-        (('delete', '/owner', 'speed'), 'Deleting parameter failed'),
-        (('load', '/owner', '/nothing.yaml'), "'/nothing.yaml' is no file"),
-        (('list', '--filter', '('), 'is no regular expression'),
+        (('get', '/owner', 'nothing'), 1, 'Parameter not set'),
+        (('get', '/owne', 'speed'), 1, "Node not found: '/owne'; did you mean '/owner'?"),
+        (('set', '/owner', 'speed', '7.0'), 0, 'Setting parameter failed: Parameter speed out'),
+        (('set', '/owner', 'speed', 'fast'), 0, 'Setting parameter failed: Wrong parameter type'),
+        (('set', '/owner', 'fixed', 'a'), 0, 'read-only'),
+        (('set', '/owner', 'wheel.radius', '9' * 30), 1, 'an integer parameter has 64 bits'),
+        (('delete', '/owner', 'speed'), 0, 'Deleting parameter failed'),
+        (('load', '/owner', '/nothing.yaml'), 1, "'/nothing.yaml' cannot be read: No such file"),
+        (('list', '--filter', '('), 1, 'is no regular expression'),
     ],
 )
 @pytest.mark.usefixtures('world')
 def test_what_cannot_be_done_is_said(
-    ros2: Callable[..., Any], words: tuple[str, ...], message: str
+    ros2: Callable[..., Any], words: tuple[str, ...], status: int, message: str
 ) -> None:
     answer = ros2('param', *words)
-    assert answer.status == 1
+    assert answer.status == status
     assert message in answer.err
 
 
@@ -126,13 +129,54 @@ def test_a_dump_can_be_loaded(ros2: Callable[..., Any], tmp_path: Path) -> None:
     dump = ros2('param', 'dump', '/owner').out
     assert '/owner:\n  ros__parameters:\n' in dump
     file = tmp_path / 'owner.yaml'
+    file.write_text(dump)
+    answer = ros2('param', 'load', '/owner', str(file))
+    assert answer.status == 0  # although some can only be read
+    assert 'Set parameter speed successful' in answer.lines
+    assert 'Set parameter start_type_description_service failed: ' in answer.err
+
+
+@pytest.mark.usefixtures('world')
+def test_a_wildcard_is_loaded_unless_refused(ros2: Callable[..., Any], tmp_path: Path) -> None:
+    file = tmp_path / 'any.yaml'
     file.write_text('/**:\n  ros__parameters:\n    speed: 0.25\n    wheel:\n      radius: 9\n')
+    refused = ros2('param', 'load', '/owner', str(file), '--no-use-wildcard')
+    assert refused.status == 1
+    assert 'does not contain selected parameters' in refused.err
     answer = ros2('param', 'load', '/owner', str(file))
     assert answer.lines == [
         'Set parameter speed successful',
         'Set parameter wheel.radius successful',
     ]
     assert ros2('param', 'get', '/owner', 'speed').out == 'Double value is: 0.25\n'
+
+
+@pytest.mark.usefixtures('world')
+def test_any_node_can_ask_for_parameters() -> None:
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    node = rclpy.create_node('asking', context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    try:
+        listed = api.call_list_parameters(node=node, node_name='/owner', prefixes=['wheel'])
+        assert listed is not None
+        assert list(listed.result().result.names) == ['wheel.radius']
+        (value,) = api.call_get_parameters(
+            node=node, node_name='/owner', parameter_names=['names']
+        ).values
+        assert api.get_value(parameter_value=value) == ['x', 'y']
+        assert executor.get_nodes() == [node]
+    finally:
+        node.destroy_node()
+        rclpy.shutdown(context=context)
+
+
+def test_a_node_that_comes_late_is_waited_for(world: Any) -> None:
+    asking = world.ros2('param', 'get', '/late', 'speed', '--timeout', '20')
+    world.node('parameters', 'late')
+    out, _ = asking.communicate(timeout=20)
+    assert out == 'Double value is: 0.5\n'
 
 
 @pytest.mark.usefixtures('world')

@@ -6,10 +6,10 @@ from __future__ import annotations
 import argparse
 
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
 
 from ros2param import params
+from ros2param.api import print_result
 
 
 class DeleteVerb(VerbExtension):
@@ -21,7 +21,5 @@ class DeleteVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> None:
         unset = ParameterValue(type=ParameterType.PARAMETER_NOT_SET)
-        successful, reason = params.set_one(args, unset)
-        if not successful:
-            raise CommandError(f'Deleting parameter failed{reason}')
-        print(f'Deleted parameter successfully{reason}')
+        result = params.set_one(args, unset)
+        print_result(result, 'Deleted parameter successfully', 'Deleting parameter failed')

@@ -9,7 +9,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
-from ros2param import params
+from ros2param import api, params
 
 
 class DescribeVerb(VerbExtension):
@@ -22,13 +22,16 @@ class DescribeVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         node_name = params.find_node(args)
         with command_node(args) as node:
-            for descriptor in params.describe(node, node_name, args.parameter_names):
-                _print(descriptor)
+            response = api.call_describe_parameters(
+                node=node, node_name=node_name, parameter_names=args.parameter_names
+            )
+        for descriptor in response.descriptors:
+            _print(descriptor)
 
 
 def _print(descriptor: ParameterDescriptor) -> None:
     print(f'Parameter name: {descriptor.name}')
-    print(f'  Type: {params.TYPE_NAMES[descriptor.type]}')
+    print(f'  Type: {api.get_parameter_type_string(descriptor.type)}')
     if descriptor.description:
         print(f'  Description: {descriptor.description}')
     print('  Constraints:')

@@ -11,7 +11,7 @@ from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 import yaml
 
-from ros2param import params
+from ros2param import api, params
 
 
 class DumpVerb(VerbExtension):
@@ -23,12 +23,14 @@ class DumpVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         node_name = params.find_node(args)
         with command_node(args) as node:
-            names = params.names_of(node, node_name)
-            values = params.get(node, node_name, names) if names else []
+            names = api.list_names(node=node, node_name=node_name)
+            values = api.call_get_parameters(
+                node=node, node_name=node_name, parameter_names=names
+            ).values
         tree: dict[str, Any] = {}
         for name, value in zip(names, values, strict=True):
             if value.type != ParameterType.PARAMETER_NOT_SET:
-                insert(tree, name, params.to_python(value))
+                insert(tree, name, api.get_value(parameter_value=value))
         print(yaml.dump({node_name: {'ros__parameters': tree}}, default_flow_style=False))
 
 

@@ -10,7 +10,7 @@ from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
-from ros2param import params
+from ros2param import api, params
 
 
 class GetVerb(VerbExtension):
@@ -24,13 +24,15 @@ class GetVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         node_name = params.find_node(args)
         with command_node(args) as node:
-            values = params.get(node, node_name, [args.parameter_name])
+            values = api.call_get_parameters(
+                node=node, node_name=node_name, parameter_names=[args.parameter_name]
+            ).values
         if not values:
             raise CommandError('Parameter not set')
         value = values[0]
         if value.type == ParameterType.PARAMETER_NOT_SET:
             print('Parameter not set.')
             return
-        kind, _, several = params.TYPE_NAMES[value.type].partition(' ')
+        kind, _, several = api.get_parameter_type_string(value.type).partition(' ')
         label = f'{kind.capitalize()} {"values are" if several else "value is"}: '
-        print(f'{"" if args.hide_type else label}{params.to_python(value)}')
+        print(f'{"" if args.hide_type else label}{api.get_value(parameter_value=value)}')

@@ -5,20 +5,27 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 
-from ros2cli import arguments
+from ros2cli import arguments, remote_nodes
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 
-from ros2param import params
+from ros2param import api, params
 
 
 class ListVerb(VerbExtension):
     """Output a list of available parameters."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        params.add_arguments(parser, node_is_optional=True)
+        remote_nodes.add_arguments(parser, is_optional=True)
+        parser.add_argument(
+            '--filter',
+            metavar='REGEX',
+            default='',
+            help='Only list parameters whose names begin as the regular expression says',
+        )
         parser.add_argument(
             '--param-prefixes',
             nargs='+',
@@ -26,24 +33,27 @@ class ListVerb(VerbExtension):
             help='Only list parameters with the provided prefixes',
         )
         arguments.add_flags(parser, {'--param-type': 'Print parameter types with parameter names'})
-        parser.add_argument(
-            '--filter', metavar='REGEX', help='Only list parameters matching the provided regex'
-        )
 
     def main(self, *, args: argparse.Namespace) -> None:
         keep = _pattern(args.filter)
-        found = params.nodes_named(args) if args.node_name else params.nodes(args)
+        if args.node_name:
+            found = [params.find_node(args)]
+        else:
+            listed = remote_nodes.listed(args)
+            found = [node.full_name for node in listed if params.has_parameters(node)]
         with command_node(args) as node:
-            for each in found:
-                if params.has_parameters(each):
-                    if not args.node_name:
-                        print(f'{each.full_name}:')
-                    _print_parameters(node, each.full_name, args, keep)
+            for name in found:
+                try:
+                    _print_parameters(node, name, args, keep)
+                except CommandError as error:
+                    if args.node_name:
+                        raise
+                    print(error, file=sys.stderr)  # The other nodes may answer.
 
 
-def _pattern(text: str | None) -> re.Pattern[str]:
+def _pattern(text: str) -> re.Pattern[str]:
     try:
-        return re.compile(text or '')
+        return re.compile(text)
     except re.error as error:
         raise CommandError(f"--filter '{text}' is no regular expression: {error}") from None
 
@@ -51,12 +61,17 @@ def _pattern(text: str | None) -> re.Pattern[str]:
 def _print_parameters(
     node: CommandNode, node_name: str, args: argparse.Namespace, keep: re.Pattern[str]
 ) -> None:
-    found = [
-        name for name in params.names_of(node, node_name, args.param_prefixes) if keep.search(name)
-    ]
-    if not args.param_type:
-        for name in found:
-            print(f'  {name}')
-        return
-    for descriptor in params.describe(node, node_name, found):
-        print(f'  {descriptor.name} (type: {params.TYPE_NAMES[descriptor.type]})')
+    known = api.list_names(node=node, node_name=node_name, prefixes=args.param_prefixes)
+    found = [name for name in known if keep.match(name)]
+    if found and not args.node_name:
+        print(f'{node_name}:')
+    types = dict.fromkeys(found, '')
+    if found and args.param_type:
+        response = api.call_describe_parameters(
+            node=node, node_name=node_name, parameter_names=found
+        )
+        for descriptor in response.descriptors:
+            kind = api.get_parameter_type_string(descriptor.type)
+            types[descriptor.name] = f' (type: {kind})'
+    for name, kind in types.items():
+        print(f'  {name}{kind}')

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
 
 from ros2param import params
+from ros2param.api import print_result
 
 
 class SetVerb(VerbExtension):
@@ -20,7 +20,5 @@ class SetVerb(VerbExtension):
         parser.add_argument('value', help='Value of the parameter')
 
     def main(self, *, args: argparse.Namespace) -> None:
-        successful, reason = params.set_one(args, params.from_text(args.value))
-        if not successful:
-            raise CommandError(f'Setting parameter failed{reason}')
-        print(f'Set parameter successful{reason}')
+        result = params.set_one(args, params.from_text(args.value))
+        print_result(result, 'Set parameter successful', 'Setting parameter failed')

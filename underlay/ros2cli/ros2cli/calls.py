@@ -1,0 +1,75 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Call services of other nodes from the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+import time
+from typing import Any
+
+import rclpy
+from rclpy.node import Node
+
+from ros2cli.errors import CommandError
+
+_TIMEOUT_SEC = 5.0
+_POLL_SEC = 0.02
+
+
+class ServiceTimeout(CommandError):
+    """Nobody has offered the service in time."""
+
+
+def call(node: Any, service_class: Any, name: str, request: Any) -> Any:
+    """Call a service and return its response.
+
+    :param node: what calls: a node of rclpy, or one of ros2cli, which has such a node.
+    :raises CommandError: the service or its answer took longer than 5 s, or the call failed.
+    """
+    (answer,) = call_all(node, service_class, {name: request}).values()
+    if isinstance(answer, Exception):
+        raise answer
+    return answer
+
+
+def call_all(node: Any, service_class: Any, requests: Mapping[str, Any]) -> dict[str, Any]:
+    """Call services side by side; return for each name its response, or what `call` raises."""
+    node = getattr(node, 'node', node)
+    clients = {name: node.create_client(service_class, name) for name in requests}
+    try:
+        _spin_until(node, lambda: all(each.service_is_ready() for each in clients.values()))
+        futures = {
+            name: client.call_async(requests[name])
+            for name, client in clients.items()
+            if client.service_is_ready()
+        }
+        _spin_until(node, lambda: all(future.done() for future in futures.values()))
+        return {name: _outcome(name, futures.get(name)) for name in requests}
+    finally:
+        for client in clients.values():
+            node.destroy_client(client)
+
+
+def _spin_until(node: Node, done: Callable[[], bool]) -> None:
+    executor = node.executor or rclpy.get_global_executor()
+    added = executor.add_node(node)
+    end = time.monotonic() + _TIMEOUT_SEC
+    try:
+        while not done() and time.monotonic() < end:
+            executor.spin_once(_POLL_SEC)
+    finally:
+        if added:
+            executor.remove_node(node)
+
+
+def _outcome(name: str, future: Any) -> Any:
+    if future is None:
+        return ServiceTimeout(f"Wait for service timed out: '{name}' does not answer")
+    if not future.done():
+        return CommandError(
+            f"'{name}' gave no answer within {_TIMEOUT_SEC:g} s; its node is busy or stopped"
+        )
+    if future.exception() is not None:
+        return CommandError(f"Exception while calling service '{name}': {future.exception()}")
+    return future.result()
