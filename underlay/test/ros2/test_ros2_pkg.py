@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 import pytest
+from ros2pkg import api
 
 
 def test_packages_of_every_prefix_are_listed(
@@ -32,7 +33,26 @@ def test_packages_of_every_prefix_are_listed(
 def test_the_manifest_is_shown(ros2: Callable[..., Any]) -> None:
     assert ros2('pkg', 'xml', 'std_msgs', '--tag', 'name').out == 'std_msgs\n'
     assert '<name>std_msgs</name>' in ros2('pkg', 'xml', 'std_msgs').out
-    assert ros2('pkg', 'xml', 'std_msgs', '-t', 'nothing').status == 1
+    for words, message in (
+        (('xml', 'std_msgs', '-t', 'nothing'), 'XML tag not found'),
+        (('xml', 'std_mgs'), "Package not found: 'std_mgs': no such package is sourced"),
+        (('prefix', 'std_mgs'), "did you mean 'std_msgs'"),
+    ):
+        answer = ros2('pkg', *words)
+        assert answer.status == 1
+        assert message in answer.err
+
+
+def test_programs_of_a_package_are_found_from_python(
+    installed_package: Callable[..., Path],
+) -> None:
+    prefix = installed_package('demo', show='#!/bin/sh\n')
+    assert 'demo' in api.get_package_names()
+    assert api.get_prefix_path('demo') == str(prefix)
+    assert api.get_prefix_path('no.package') is None
+    assert api.get_executable_paths(package_name='demo') == [f'{prefix}/lib/demo/show']
+    with pytest.raises(api.PackageNotFound):
+        api.get_executable_paths(package_name='nothing')
 
 
 def test_a_new_python_package_builds_passes_its_tests_and_runs(
@@ -130,7 +150,12 @@ def test_licenses_are_listed(ros2: Callable[..., Any]) -> None:
     )
 
 
-def test_interfaces_are_listed_by_kind(ros2: Callable[..., Any]) -> None:
+def test_interfaces_are_listed_by_kind(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    index = installed_package('kinds') / 'share/ament_index/resource_index/rosidl_interfaces'
+    index.mkdir()
+    (index / 'kinds').write_text('msg/Num.msg\nsrv/Add.srv\naction/Go.action\n')
     lines = ros2('interface', 'list').lines
     assert lines[0] == 'Messages:'
     assert lines.index('Services:') < lines.index('    std_srvs/srv/Empty')
@@ -140,6 +165,11 @@ def test_interfaces_are_listed_by_kind(ros2: Callable[..., Any]) -> None:
         'std_srvs/srv/SetBool',
         'std_srvs/srv/Trigger',
     ]
+    for option, found in (('-m', 'msg/Num'), ('-s', 'srv/Add'), ('--only-actions', 'action/Go')):
+        assert ros2('interface', 'package', 'kinds', option).lines == [f'kinds/{found}']
+    missing = ros2('interface', 'package', 'std_svs')
+    assert missing.status == 1
+    assert missing.err.startswith("Unknown package 'std_svs': ")
     assert 'std_srvs' in ros2('interface', 'packages', '-s').lines
     assert 'std_srvs' not in ros2('interface', 'packages', '-m').lines
 

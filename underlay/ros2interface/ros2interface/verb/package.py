@@ -7,18 +7,28 @@ import argparse
 
 from ros2_diagnosis import packages
 from ros2cli import arguments
+from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
 from rosidl_runtime_py import get_interfaces
+
+from ros2interface import kinds
 
 
 class PackageVerb(VerbExtension):
     """Output a list of available interface types within one package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        kinds.add_arguments(parser, 'Print out only the {} types')
         arguments.add_package(parser, help="Name of the ROS package (e.g. 'std_msgs')")
 
     def main(self, *, args: argparse.Namespace) -> None:
-        packages.prefix_of(args.package_name)
-        for package, names in get_interfaces([args.package_name]).items():
-            for name in names:
-                print(f'{package}/{name}')
+        chosen = [kind.interfaces for kind in kinds.chosen(args)] or [get_interfaces]
+        for interfaces in chosen:
+            try:
+                found = interfaces([args.package_name])
+            except LookupError as error:
+                why = packages.why_missing(args.package_name)
+                raise CommandError(f'{error.args[0]}: {why}') from None
+            for package, names in found.items():
+                for name in names:
+                    print(f'{package}/{name}')

@@ -6,34 +6,19 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.verb import VerbExtension
-from rosidl_runtime_py import (
-    get_action_interfaces,
-    get_interface_packages,
-    get_message_interfaces,
-    get_service_interfaces,
-)
+from rosidl_runtime_py import get_interface_packages
+
+from ros2interface import kinds
 
 
 class PackagesVerb(VerbExtension):
     """Output a list of packages that provide interfaces."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        group = parser.add_mutually_exclusive_group()
-        for kind, text, interfaces in (
-            ('msgs', 'messages', get_message_interfaces),
-            ('srvs', 'services', get_service_interfaces),
-            ('actions', 'actions', get_action_interfaces),
-        ):
-            group.add_argument(
-                f'-{kind[0]}',
-                f'--only-{kind}',
-                dest='interfaces',
-                action='store_const',
-                const=interfaces,
-                default=get_interface_packages,
-                help=f'Only list packages that generate {text}',
-            )
+        kinds.add_arguments(parser, 'Only list packages that generate {}s')
 
     def main(self, *, args: argparse.Namespace) -> None:
-        for package in sorted(args.interfaces()):
+        chosen = kinds.chosen(args)
+        found = chosen[0].interfaces() if chosen else get_interface_packages()
+        for package in sorted(found):
             print(package)

@@ -8,8 +8,8 @@ import argparse
 from ros2cli import arguments, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.verb import VerbExtension
-from rosidl_runtime_py import message_to_yaml
-from rosidl_runtime_py.utilities import get_interface
+
+from ros2interface.api import interface_to_yaml
 
 
 class ProtoVerb(VerbExtension):
@@ -24,10 +24,9 @@ class ProtoVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         interfaces.check_full_name(args.type)
         try:
-            interface = get_interface(args.type)
+            text = interface_to_yaml(args.type)
         except (ValueError, ImportError, AttributeError):
             raise CommandError(
                 f"Unknown interface '{args.type}'; `ros2 interface list` shows them all"
             ) from None
-        text = message_to_yaml(interfaces.filled_in(interface)())
         print(text if args.no_quotes else f'"{text}"')

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import getpass
+import os
 from pathlib import Path
 import re
 import shutil
@@ -45,8 +46,7 @@ class CreateVerb(VerbExtension):
         )
         parser.add_argument(
             '--destination-directory',
-            default=Path.cwd(),
-            type=Path,
+            default=os.curdir,
             help='Directory where to create the package directory',
         )
         parser.add_argument(
@@ -71,21 +71,21 @@ class CreateVerb(VerbExtension):
             raise CommandError('ros2 pkg create: the name of the package is missing')
         package = _package(args)
         package.check()
-        folder = args.destination_directory / package.name
-        if folder.exists():
+        # Not as a Path, which drops the './' that upstream shows.
+        root = f'{args.destination_directory}/{package.name}'
+        if Path(root).exists():
             raise CommandError(
-                f'Aborted!\nThe directory already exists: {folder}\nEither remove the directory '
-                f'or '
-                'choose a different destination directory or package name'
+                f'Aborted!\nThe directory already exists: {root}\nEither remove the directory '
+                'or choose a different destination directory or package name'
             )
-        _announce(package, args.destination_directory)
         text = licenses.text(package.license)
-        python = package.build_type == 'ament_python'
-        files = {'package.xml': manifest(package)}
-        files |= python_package.files(package) if python else cmake_package.files(package)
-        if text is not None:
-            files['LICENSE'] = text
-        _write(folder, files, [] if python else ['src', f'include/{package.name}'])
+        _announce(package, args.destination_directory)
+        try:
+            _write(package, root)
+            if text is not None:
+                Path(root, 'LICENSE').write_text(text, encoding='utf-8')
+        except OSError as error:
+            raise CommandError(f"'{error.filename}' cannot be written: {error.strerror}") from None
         if text is None:
             print(
                 f"\n[WARNING]: Unknown license '{package.license}'.  This has been set in the "
@@ -132,11 +132,11 @@ def _email(name: str) -> str:
     return f'{re.sub(r"[^A-Za-z0-9._-]", "", name) or "user"}@todo.todo'
 
 
-def _announce(package: NewPackage, destination: Path) -> None:
+def _announce(package: NewPackage, destination: str) -> None:
     print('going to create a new package')
     for label, value in (
         ('package name', package.name),
-        ('destination directory', destination.absolute()),
+        ('destination directory', Path(destination).resolve()),
         ('package format', package.package_format),
         ('version', package.version),
         ('description', package.description),
@@ -151,17 +151,30 @@ def _announce(package: NewPackage, destination: Path) -> None:
             print(f'{label}: {value}')
 
 
-def _write(folder: Path, files: dict[str, str], folders: list[str]) -> None:
-    try:
-        for name in ('', *folders):
-            print(f'creating folder {folder / name}')
-            (folder / name).mkdir(parents=True)
-        for name, text in files.items():
-            path = folder / name
-            if not path.parent.exists():
-                print(f'creating folder {path.parent}')
-                path.parent.mkdir(parents=True)
-            print(f'creating {path}')
-            path.write_text(text, encoding='utf-8')
-    except OSError as error:
-        raise CommandError(f"'{error.filename}' cannot be written: {error.strerror}") from None
+def _write(package: NewPackage, root: str) -> None:
+    """Write the package below a folder, which is new, in the order in which upstream tells it."""
+    _make_folder(root)
+    _write_file(f'{root}/package.xml', manifest(package))
+    if package.build_type == 'ament_python':
+        print('creating source folder')
+        folders, files = [package.name], python_package.files(package)
+    else:
+        print('creating source and include folder')
+        folders, files = ['src', f'include/{package.name}'], cmake_package.files(package)
+    for folder in folders:
+        _make_folder(f'{root}/{folder}')
+    for name, text in files.items():
+        path = f'{root}/{name}'
+        if not Path(path).parent.exists():
+            _make_folder(path.rpartition('/')[0])
+        _write_file(path, text)
+
+
+def _make_folder(path: str) -> None:
+    print(f'creating folder {path}')
+    Path(path).mkdir(parents=True)
+
+
+def _write_file(path: str, text: str) -> None:
+    print(f'creating {path}')
+    Path(path).write_text(text, encoding='utf-8')

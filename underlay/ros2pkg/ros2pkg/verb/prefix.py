@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import argparse
 
-from ros2_diagnosis import packages
 from ros2cli import arguments
-from ros2cli.verb import VerbExtension
+
+from ros2pkg import verb
 
 
-class PrefixVerb(VerbExtension):
+class PrefixVerb(verb.VerbExtension):
     """Output the prefix path of a package."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
@@ -20,5 +20,4 @@ class PrefixVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> None:
-        share = packages.share_of(args.package_name)
-        print(share if args.share else packages.prefix_of(args.package_name))
+        print((verb.share_of if args.share else verb.prefix_of)(args.package_name))
