@@ -12,6 +12,7 @@ from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
 from rclpy.executors import ExternalShutdownException
+from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.service_introspection import ServiceIntrospectionState
@@ -105,10 +106,13 @@ def plain(node: Node) -> None:
     del node
 
 
+managed = plain  # what is special of it is its class
+
+
 def main() -> None:
     kind, name, *_ = sys.argv[1:]
     rclpy.init(args=sys.argv)
-    node = Node(name)
+    node = (LifecycleNode if kind == 'managed' else Node)(name)
     globals()[kind](node)
     print('ready', flush=True)
     try:
