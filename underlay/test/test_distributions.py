@@ -25,6 +25,7 @@ KEYS = {
     'argcomplete': 'python3-argcomplete',
     'mcap': 'python3-mcap-pip',
     'numpy': 'python3-numpy',
+    'psutil': 'python3-psutil',
     'pygraphviz': 'python3-pygraphviz',
     'yaml': 'python3-yaml',
 }

@@ -1,13 +1,22 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a check of `ros2 doctor` is; packages register theirs in the group 'ros2doctor.checks'."""
+"""What checks and reports of `ros2 doctor` are.
+
+Packages register theirs in the entry point groups 'ros2doctor.checks' and 'ros2doctor.report'.
+"""
 
 from __future__ import annotations
 
-import argparse
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache, partial
+from typing import Any
 
 from entry_point_index import entry_points, load
+from ros2cli import discovery
+from rtps_graph.graph import Graph
+
+from ros2doctor.api.format import doctor_warn
 
 
 @dataclass
@@ -24,11 +33,19 @@ class Result:
         self.warning += 1
 
 
+class Report:
+    """A list of what is so, under a title."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.items: list[tuple[str, Any]] = []
+
+    def add_to_report(self, item_name: str, item_info: Any) -> None:
+        self.items.append((item_name, item_info))
+
+
 class DoctorCheck:
     """Base of a check."""
-
-    # The options of the command line; upstream's checks are not told them.
-    args: argparse.Namespace | None = None
 
     def category(self) -> str:
         raise NotImplementedError()
@@ -37,11 +54,77 @@ class DoctorCheck:
         raise NotImplementedError()
 
 
-def checks(args: argparse.Namespace) -> list[DoctorCheck]:
-    """Make every registered check, in the order of the names of their entry points."""
-    made: list[DoctorCheck] = [
-        load(target)() for _, target in sorted(entry_points('ros2doctor.checks').items())
+class DoctorReport:
+    """Base of a report; it is shown where checks of its category have failed."""
+
+    def category(self) -> str:
+        raise NotImplementedError()
+
+    def report(self) -> Report:
+        raise NotImplementedError()
+
+
+def run_checks(
+    *, include_warnings: bool = False, exclude_packages: bool = False
+) -> tuple[set[str], int, int]:
+    """Run the checks in the order of the names of their entry points.
+
+    :param exclude_packages: leave out what looks at packages.
+    :return: the categories of what failed, how many failed, how many there are.
+    """
+    graph.cache_clear()
+    categories: set[str] = set()
+    failed = total = 0
+    for name, check in _made('ros2doctor.checks', exclude_packages=exclude_packages):
+        for result in _answer(name, check.check):
+            total += 1
+            if result.error or (include_warnings and result.warning):
+                failed += 1
+                categories.add(check.category())
+    return categories, failed, total
+
+
+def generate_reports(
+    *, categories: Collection[str] | None = None, exclude_packages: bool = False
+) -> list[Report]:
+    """Make the reports of some categories; None and an empty collection mean all."""
+    graph.cache_clear()
+    return [
+        report
+        for name, each in _made('ros2doctor.report', exclude_packages=exclude_packages)
+        if not categories or each.category() in categories
+        for report in _answer(name, each.report)
     ]
-    for check in made:
-        check.args = args
-    return made
+
+
+@cache
+def graph() -> Graph:
+    """Read the graph once for all checks, or all reports."""
+    return discovery.read_graph(quiet=True)
+
+
+def get_topic_names(skip_topics: Iterable[str] = ()) -> list[str]:
+    skipped = set(skip_topics)
+    return [name for name in graph().topics() if name not in skipped]
+
+
+def _made(group: str, *, exclude_packages: bool) -> Iterator[tuple[str, Any]]:
+    """Yield what packages have registered; a warning is printed for what cannot be made."""
+    for name, target in sorted(entry_points(group).items()):
+        for each in _answer(name, partial(_make, target)):
+            if not (exclude_packages and each.category() == 'package'):
+                yield name, each
+
+
+def _make(target: str) -> Any:
+    return load(target)()
+
+
+def _answer(name: str, function: Callable[[], Any]) -> Iterator[Any]:
+    """Yield what a plugin returns; where it fails, only a warning: the others may do."""
+    try:
+        answer = function()
+    except Exception as error:
+        doctor_warn(f"'{name}' of ros2 doctor fails: {type(error).__name__}: {error}")
+    else:
+        yield answer
