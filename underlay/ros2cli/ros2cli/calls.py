@@ -11,14 +11,10 @@ from typing import Any
 import rclpy
 from rclpy.node import Node
 
-from ros2cli.errors import CommandError
+from ros2cli.errors import CommandError, ServiceTimeout
 
 _TIMEOUT_SEC = 5.0
 _POLL_SEC = 0.02
-
-
-class ServiceTimeout(CommandError):
-    """Nobody has offered the service in time."""
 
 
 def call(node: Any, service_class: Any, name: str, request: Any) -> Any:

@@ -3,6 +3,7 @@
 """What a verb raises instead of answering; the command line shows it as one line.
 
 CommandError        the command ends with this line, exit status 1
+├── ServiceTimeout  nobody has offered a service in time
 └── UsageError      the call itself is wrong: exit status 2, as for an unknown option
 """
 
@@ -13,6 +14,10 @@ class CommandError(RuntimeError):
     """Say what was refused or missing, and what to do."""
 
     exit_status = 1
+
+
+class ServiceTimeout(CommandError):
+    """Name the service."""
 
 
 class UsageError(CommandError):

@@ -14,6 +14,7 @@ from typing import Any
 
 from husky_runtime.domains import OwnDomain
 import pytest
+from ros2doctor import api
 
 
 def _line(answer: Any, check: str) -> str:
@@ -269,6 +270,17 @@ def test_the_report_names_the_essentials(processes: Any, ros2: Callable[..., Any
     assert [name for name, *_ in shown if name == 'rclpy']
     assert '\nrclpy ' not in ros2('doctor', '--report', '--exclude-packages').out
     assert 'note: Publisher without subscriber detected on /chatter' in ros2('doctor').err
+
+
+def test_a_check_that_fails_to_load_takes_no_other_away(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    known = {'broken': 'ros2doctor.nothing:Check', 'range': 'ros2_doctor_checks.checks:Workspace'}
+    monkeypatch.setattr(api, 'entry_points', lambda _: known)
+    assert api.run_checks(include_warnings=False, exclude_packages=True) == (set(), 0, 0)
+    monkeypatch.chdir('/')
+    assert api.run_checks() == (set(), 0, 1)
+    assert capsys.readouterr().err.count("note: 'broken' of ros2 doctor fails: ModuleNot") == 2
 
 
 def test_hello_counts_what_was_said(domain: int, ros2: Callable[..., Any]) -> None:

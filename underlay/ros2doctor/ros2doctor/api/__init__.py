@@ -14,6 +14,7 @@ from typing import Any
 
 from entry_point_index import entry_points, load
 from ros2cli import discovery
+from ros2cli.errors import UsageError
 from rtps_graph.graph import Graph
 
 from ros2doctor.api.format import doctor_warn
@@ -124,6 +125,8 @@ def _answer(name: str, function: Callable[[], Any]) -> Iterator[Any]:
     """Yield what a plugin returns; where it fails, only a warning: the others may do."""
     try:
         answer = function()
+    except UsageError:
+        raise  # The environment is wrong, for all of them.
     except Exception as error:
         doctor_warn(f"'{name}' of ros2 doctor fails: {type(error).__name__}: {error}")
     else:

@@ -18,6 +18,8 @@ from ros2node.api import get_node_names as get_all_node_names
 from ros2node.api import NodeName
 from ros2service.api import get_service_names_and_types
 
+from ros2lifecycle.managed import has_lifecycle
+
 
 def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
     """List the nodes that have a lifecycle."""
@@ -29,11 +31,6 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
         for each in get_all_node_names(node=node, include_hidden_nodes=include_hidden_nodes)
         if has_lifecycle(each.full_name, services)
     ]
-
-
-def has_lifecycle(node_name: str, services: Mapping[str, list[str]]) -> bool:
-    """Tell whether one of the services, their types by their names, is a lifecycle node's."""
-    return 'lifecycle_msgs/srv/GetState' in services.get(f'{node_name}/get_state', [])
 
 
 def call_get_states(*, node: Any, node_names: Iterable[str]) -> dict[str, State | Exception]:

@@ -8,16 +8,10 @@ import argparse
 
 from ros2cli import remote_nodes
 from ros2cli.verb import VerbExtension
-from rtps_graph.graph import Node, Role
 
-from ros2lifecycle.api import has_lifecycle
+from ros2lifecycle.managed import is_managed
 
 __all__ = ['VerbExtension']
-
-
-def is_managed(node: Node) -> bool:
-    """Tell whether a node has a lifecycle."""
-    return has_lifecycle(node.full_name, node.having(Role.SERVER))
 
 
 def find_node(args: argparse.Namespace) -> str:

@@ -11,6 +11,7 @@ from ros2cli.node.direct import command_node
 
 from ros2lifecycle import verb
 from ros2lifecycle.api import call_get_states
+from ros2lifecycle.managed import is_managed
 
 
 class GetVerb(verb.VerbExtension):
@@ -24,7 +25,7 @@ class GetVerb(verb.VerbExtension):
             asked = [verb.find_node(args)]
         else:
             listed = remote_nodes.listed(args)
-            asked = sorted({node.full_name for node in listed if verb.is_managed(node)})
+            asked = sorted({node.full_name for node in listed if is_managed(node)})
         with command_node(args) as node:
             states = call_get_states(node=node, node_names=asked)
         for name, state in states.items():

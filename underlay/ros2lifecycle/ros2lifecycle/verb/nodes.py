@@ -8,6 +8,7 @@ import argparse
 from ros2cli import arguments, discovery
 
 from ros2lifecycle import verb
+from ros2lifecycle.managed import is_managed
 
 
 class NodesVerb(verb.VerbExtension):
@@ -27,7 +28,7 @@ class NodesVerb(verb.VerbExtension):
         found = [
             node.full_name
             for node in discovery.read_graph(args).nodes
-            if verb.is_managed(node) and (args.all or not node.is_hidden)
+            if is_managed(node) and (args.all or not node.is_hidden)
         ]
         if args.count_nodes:
             print(len(found))

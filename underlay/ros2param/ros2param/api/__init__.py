@@ -17,7 +17,7 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
 from rclpy.task import Future
 from ros2cli import calls, remote_nodes
-from ros2cli.errors import CommandError
+from ros2cli.errors import CommandError, ServiceTimeout
 from ros2cli.node.direct import command_node
 import yaml
 
@@ -60,7 +60,7 @@ def call_list_parameters(
         future.set_result(
             _call(node, node_name, ListParameters, 'list_parameters', prefixes=prefixes or [])
         )
-    except calls.ServiceTimeout:
+    except ServiceTimeout:
         return None
     except CommandError as error:
         future.set_exception(error)
