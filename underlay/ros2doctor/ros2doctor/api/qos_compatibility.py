@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from rclpy.qos import qos_check_compatible, QoSCompatibility
-from ros2cli.node.strategy import NodeStrategy
+from ros2cli.node.direct import DirectNode
 
 from ros2doctor.api import DoctorReport, get_topic_names, Report
 
@@ -18,7 +18,7 @@ class QoSCompatibilityReport(DoctorReport):
 
     def report(self) -> Report:
         report = Report('QOS COMPATIBILITY LIST')
-        with NodeStrategy(None) as node:
+        with DirectNode(None) as node:
             for topic in get_topic_names():
                 for publisher in node.get_publishers_info_by_topic(topic):
                     for subscription in node.get_subscriptions_info_by_topic(topic):
