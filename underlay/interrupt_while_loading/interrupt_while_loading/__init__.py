@@ -96,8 +96,9 @@ def _loads(frame: FrameType | None) -> bool:
             return True
         if code.co_name != '<module>' and not code.co_filename.endswith(_RUNPY):
             return False
-    # Nothing but the main script itself: one that a package manager wrote has no suffix.
-    return not (frames and frames[-1].f_code.co_filename.endswith('.py'))
+    # Nothing but the main script itself, or the text of `python -c`: what a package manager wrote
+    # has no suffix.
+    return not (frames and frames[-1].f_code.co_filename.endswith(('.py', '<string>')))
 
 
 def _outermost_first(frame: FrameType | None) -> Iterator[FrameType]:
