@@ -27,6 +27,7 @@ KEYS = {
     'numpy': 'python3-numpy',
     'psutil': 'python3-psutil',
     'pygraphviz': 'python3-pygraphviz',
+    'pytest': 'python3-pytest',
     'yaml': 'python3-yaml',
 }
 

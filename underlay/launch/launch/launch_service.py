@@ -181,7 +181,7 @@ class LaunchService:
             while not self.context._event_queue.empty():
                 self.__process_event(self.context._event_queue.get_nowait())
                 await asyncio.sleep(0)
-            if self.__is_idle():
+            if self._is_idle():
                 if self.__shutting_down:
                     return
                 if self.__shutdown_when_idle:
@@ -189,7 +189,7 @@ class LaunchService:
                     continue
             await self.__wakeup.wait()
 
-    def __is_idle(self) -> bool:
+    def _is_idle(self) -> bool:
         """Return whether nothing is under way; raise what went wrong in what is done."""
         self.__watch(self.context._completion_futures)
         self.context._completion_futures.clear()
