@@ -96,11 +96,44 @@ _LAUNCH_PYTEST = """
     def test_never_run():
         assert False
 """
+_ROSTEST = """
+    import sys, unittest
+    from launch import LaunchDescription
+    from launch.actions import ExecuteProcess
+    import launch_testing
+    from launch_testing_ros import WaitForTopics
+    import pytest
+    from std_msgs.msg import String
+
+    PROGRAM = '''
+    import rclpy
+    from std_msgs.msg import String
+    rclpy.init()
+    node = rclpy.create_node("talker")
+    publisher = node.create_publisher(String, "chatter", 10)
+    node.create_timer(0.1, lambda: publisher.publish(String(data="hello")))
+    rclpy.spin(node)
+    '''.replace('\\n    ', '\\n')
+
+    @pytest.mark.rostest
+    def generate_test_description():
+        talker = ExecuteProcess(cmd=[sys.executable, '-c', PROGRAM])
+        return LaunchDescription([talker, launch_testing.actions.ReadyToTest()])
+
+    class TestTalker(unittest.TestCase):
+        def test_it_talks_on_chatter_alone(self):
+            with WaitForTopics([('chatter', String)], timeout=20.0) as heard:
+                assert heard.received_messages('chatter')[0].data == 'hello'
+            silent = WaitForTopics([('chatter', String), ('other', String)], timeout=0.5)
+            assert not silent.wait()
+            assert 'other' in silent.topics_not_received()
+            silent.shutdown()
+"""
 _PLAIN = """
     import sys
 
     def test_generate_test_description_is_only_a_word_here():
-        assert not {'asyncio', 'launch', 'launch_testing.loader'} & set(sys.modules)
+        assert not {'asyncio', 'launch', 'rclpy'} & set(sys.modules)
 """
 
 
@@ -166,6 +199,12 @@ def test_launch_pytest_runs_tests_beside_a_launch_and_after_it(
     _, output = run_pytest(test_sleeper=_LAUNCH_PYTEST)
     assert '11 passed, 1 error in' in output, output
     assert "fixture 'never_ready': the launch ended before it came to ReadyToTest" in output
+
+
+def test_a_launch_test_waits_for_topics(run_pytest: Callable[..., tuple[int, str]]) -> None:
+    # that of lark, see pyproject.toml
+    status, output = run_pytest('-W', 'ignore::DeprecationWarning', test_talker=_ROSTEST)
+    assert status == 0, output
 
 
 def test_the_examples_pass(run_pytest: Callable[..., tuple[int, str]]) -> None:

@@ -70,7 +70,7 @@ class LaunchTestItem(pytest.Item):
         from unittest import TestCase
 
         return '\n\n'.join(
-            _title(f'FAIL: {case.id()}', text)
+            f'FAIL: {case.id()}\n{"-" * 70}\n{text}'
             for result in excinfo.value.results.values()
             for case, text in [*result.errors, *result.failures]
             if isinstance(case, TestCase)
@@ -78,11 +78,6 @@ class LaunchTestItem(pytest.Item):
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, 0, f'launch tests: {self.name}'
-
-
-def _title(title: str, text: str) -> str:
-    width = max(map(len, text.splitlines()), default=3)
-    return '\n'.join(['=' * width, title, '-' * width, text])
 
 
 class LaunchTestModule(pytest.File):
@@ -146,11 +141,14 @@ def pytest_pycollect_makemodule(
 def pytest_launch_collect_makemodule(
     path: Path, parent: pytest.Collector, entrypoint: Callable[..., Any]
 ) -> pytest.Collector | None:
-    marks = getattr(entrypoint, 'pytestmark', [])
-    if not any(mark.name == 'launch_test' for mark in marks):
+    if not any(mark.name == 'launch_test' for mark in getattr(entrypoint, 'pytestmark', [])):
         return None
-    module: pytest.Collector = LaunchTestModule.from_parent(parent, path=path)
-    for mark in marks:
+    return with_marks_of(entrypoint, LaunchTestModule.from_parent(parent, path=path))
+
+
+def with_marks_of(entrypoint: Callable[..., Any], module: LaunchTestModule) -> LaunchTestModule:
+    """Return a file with the marks of its test description."""
+    for mark in getattr(entrypoint, 'pytestmark', []):
         module.add_marker(getattr(pytest.mark, mark.name).with_args(*mark.args, **mark.kwargs))
     return module
 
