@@ -196,7 +196,7 @@ class LaunchTestRunner:
                         'Could not find an argument in generate_test_description matching '
                         f"parametrized argument '{name}'"
                     )
-            for name in taken - set(run.param_args):
+            for name in sorted(taken - set(run.param_args)):
                 raise TypeError(
                     f"generate_test_description has unexpected extra argument '{name}'"
                 )

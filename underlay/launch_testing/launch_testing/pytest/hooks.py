@@ -69,12 +69,14 @@ class LaunchTestItem(pytest.Item):
             return super().repr_failure(excinfo, style)
         from unittest import TestCase
 
-        return '\n\n'.join(
+        failed = [
             f'FAIL: {case.id()}\n{"-" * 70}\n{text}'
             for result in excinfo.value.results.values()
             for case, text in [*result.errors, *result.failures]
             if isinstance(case, TestCase)
-        )
+        ]
+        # None has failed where the launch of a file without tests has.
+        return '\n\n'.join(failed) or str(excinfo.value)
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, 0, f'launch tests: {self.name}'
@@ -98,26 +100,26 @@ class LaunchTestModule(pytest.File):
         from ..loader import LoadTestsFromPythonModule
 
         assert self.parent is not None
-        module = _import(pytest.Module.from_parent(self.parent, path=self.path))
+        module = _import(self.path, self.parent)
         name = module.__name__
         yield self.makeitem(
             name=name, parent=self, test_runs=LoadTestsFromPythonModule(module, name=name)
         )
 
 
-def _import(file: pytest.Module) -> ModuleType:
+def _import(path: Path, parent: pytest.Collector) -> ModuleType:
     """Import a file in the way that pytest is set to."""
-    module = file.obj
+    module = pytest.Module.from_parent(parent, path=path).obj
     assert isinstance(module, ModuleType)
     return module
 
 
-def find_launch_test_entrypoint(file: pytest.Module) -> Callable[..., Any] | None:
+def find_launch_test_entrypoint(path: Path, parent: pytest.Collector) -> Callable[..., Any] | None:
     """Return generate_test_description of a file; None where there is none."""
     try:
-        if _ENTRYPOINT.encode() not in file.path.read_bytes():
+        if _ENTRYPOINT.encode() not in path.read_bytes():
             return None
-        return getattr(_import(file), _ENTRYPOINT, None)
+        return getattr(_import(path, parent), _ENTRYPOINT, None)
     except (Exception, pytest.skip.Exception):
         # pytest will come upon it again, and say so.
         return None
@@ -126,8 +128,7 @@ def find_launch_test_entrypoint(file: pytest.Module) -> Callable[..., Any] | Non
 def pytest_pycollect_makemodule(
     module_path: Path, parent: pytest.Collector
 ) -> pytest.Collector | None:
-    file = pytest.Module.from_parent(parent, path=module_path)
-    entrypoint = find_launch_test_entrypoint(file)
+    entrypoint = find_launch_test_entrypoint(module_path, parent)
     if entrypoint is None:
         return None
     hook = parent.session.gethookproxy(module_path)
