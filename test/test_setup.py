@@ -10,6 +10,7 @@ import subprocess
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
+NOBODY = 'http://127.0.0.1:9/simple'  # an index of packages that does not answer
 
 
 @pytest.fixture
@@ -78,6 +79,46 @@ def test_an_old_python_is_refused(clone: Path, tmp_path: Path) -> None:
     refused(done, 'Python 3.8.18', '3.10', 'PYTHON=')
 
 
+@pytest.mark.parametrize('has_rclpy', [True, False])
+def test_a_sourced_ros_gets_the_python_that_has_rclpy(
+    clone: Path, tmp_path: Path, *, has_rclpy: bool
+) -> None:
+    path = program(tmp_path / 'bin', 'python3', 'exit 1')  # of another version, say
+    (tmp_path / 'rclpy.py').write_text('' if has_rclpy else 'raise ImportError')
+    done = lab(
+        *(clone, 'exec', 'true'),
+        **{'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': '/opt/ros/jazzy', 'PATH': path},
+        **{'PYTHONPATH': str(tmp_path), 'PIP_INDEX_URL': NOBODY, 'PIP_CONFIG_FILE': os.devnull},
+    )
+    if has_rclpy:
+        refused(done, 'no network')
+    else:
+        refused(done, 'no Python on PATH can import rclpy', 'PYTHON=')
+
+
+@pytest.mark.parametrize(
+    ('ros', 'range_before', 'range_now'),
+    [
+        ('pip', '', 'LOCALHOST'),
+        ('pip', 'SUBNET', 'SUBNET'),
+        ('sourced', 'SUBNET', 'LOCALHOST'),
+        ('sourced', 'SYSTEM_DEFAULT', 'SYSTEM_DEFAULT'),
+    ],
+)
+def test_only_a_range_of_the_users_own_goes_beyond_this_machine(
+    ros: str, range_before: str, range_now: str
+) -> None:
+    told = {'HUSKY_LAB_ROS': ros, 'ROS_AUTOMATIC_DISCOVERY_RANGE': range_before}
+    script = 'source "$0" help >/dev/null; choose_range; echo "$ROS_AUTOMATIC_DISCOVERY_RANGE"'
+    done = subprocess.run(
+        ['bash', '-c', script, ROOT / 'lab'],
+        env={**plain_environment(), **told},
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout.strip() == range_now, done.stderr
+
+
 def test_a_platform_without_wheels_is_told_what_to_do(clone: Path, tmp_path: Path) -> None:
     path = program(tmp_path / 'bin', 'uname', '[ "$1" = -s ] && echo Darwin || echo arm64')
     refused(lab(clone, 'exec', 'true', PATH=path), 'Darwin arm64', 'RoboStack', 'source')
@@ -96,8 +137,7 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(
     if interrupted:
         (clone / '.venv' / 'bin').mkdir(parents=True)
         (clone / '.venv' / 'bin' / 'python').symlink_to('/nonexistent/python')
-    nobody = 'http://127.0.0.1:9/simple'
-    done = lab(clone, 'exec', 'true', PIP_INDEX_URL=nobody, PIP_CONFIG_FILE=os.devnull)
+    done = lab(clone, 'exec', 'true', PIP_INDEX_URL=NOBODY, PIP_CONFIG_FILE=os.devnull)
     refused(done, 'no network', 'call ./lab again')
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pty
 import select
 import subprocess
+import sys
 import time
 import xml.etree.ElementTree as ElementTree
 
@@ -41,6 +42,8 @@ def test_a_build_puts_every_package_on_the_ament_path(built_packages: Path, inst
     for package in PACKAGES:
         marker = Path('share') / 'ament_index' / 'resource_index' / 'packages' / package
         assert [prefix.name for prefix in prefixes if (prefix / marker).is_file()] == [package]
+    program = folder / 'husky_sim/lib/husky_sim/husky_sim'
+    assert program.read_text().startswith(f'#!{sys.executable}\n'), 'a Python without mujoco'
     world = folder / 'husky_sim/share/husky_sim/worlds/playpen.xml'
     course = folder / 'husky_driver/share/husky_driver/config/waypoints/central_barrier.yaml'
     assert world.read_text() == (ROOT / 'worlds/playpen.xml').read_text()
