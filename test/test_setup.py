@@ -85,11 +85,9 @@ def test_a_sourced_ros_gets_the_python_that_has_rclpy(
 ) -> None:
     path = program(tmp_path / 'bin', 'python3', 'exit 1')  # of another version, say
     (tmp_path / 'rclpy.py').write_text('' if has_rclpy else 'raise ImportError')
-    done = lab(
-        *(clone, 'exec', 'true'),
-        **{'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': '/opt/ros/jazzy', 'PATH': path},
-        **{'PYTHONPATH': str(tmp_path), 'PIP_INDEX_URL': NOBODY, 'PIP_CONFIG_FILE': os.devnull},
-    )
+    sourced = {'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': '/opt/ros/jazzy', 'PATH': path}
+    offline = {'PIP_INDEX_URL': NOBODY, 'PIP_CONFIG_FILE': os.devnull}
+    done = lab(clone, 'exec', 'true', PYTHONPATH=str(tmp_path), **sourced, **offline)
     if has_rclpy:
         refused(done, 'no network')
     else:

@@ -16,8 +16,11 @@ import os
 from pathlib import Path
 import signal
 import subprocess
+import time
 from typing import IO
 from uuid import uuid4
+
+import psutil
 
 from husky_runtime.descendants import (
     descendants,
@@ -122,9 +125,26 @@ class ChildProcess:
             (signal.SIGKILL, firm_sec),
         ):
             if self.exit_code is None:
-                self.send(number)
-                self.wait(wait_sec)
+                self._end_group(number, wait_sec)
         end_processes(descendants(mark=self._mark), firm_sec=firm_sec)
+
+    def _end_group(self, number: int, wait_sec: float) -> None:
+        """
+        Send a signal to all of its session, and wait for their end, at most so long.
+
+        A launch of Jazzy's ends at once on SIGTERM; the nodes it has started may need longer.
+        """
+        deadline_sec = time.monotonic() + wait_sec
+        others = [each for each in descendants(mark=self._mark) if self._has_in_group(each.pid)]
+        self.send(number)
+        if self.wait(wait_sec):
+            psutil.wait_procs(others, timeout=max(deadline_sec - time.monotonic(), 0.0))
+
+    def _has_in_group(self, pid: int) -> bool:
+        try:
+            return pid != self.pid == os.getpgid(pid)
+        except ProcessLookupError:
+            return False
 
 
 def tail_of(path: Path, lines: int) -> str:

@@ -38,6 +38,21 @@ for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
 print('ready', flush=True)
 time.sleep(600)
 """
+CLOSING = """
+import signal, sys, time
+def close(*_):
+    time.sleep(0.3)
+    print('closed', flush=True)
+    sys.exit()
+signal.signal(signal.SIGTERM, close)
+print('ready', flush=True)
+time.sleep(600)
+"""
+# Ends at once on SIGTERM, as a launch of Jazzy's; what it has started needs a moment.
+HASTY = f"""
+import subprocess, sys
+subprocess.run([sys.executable, '-c', {CLOSING!r}])
+"""
 PARENT = """
 import os, sys
 from husky_runtime.children import ChildProcess
@@ -96,6 +111,13 @@ def test_a_child_that_ignores_signals_ends_in_2_s(tmp_path: Path) -> None:
     process.end()
     assert process.exit_code == -signal.SIGKILL
     assert time.monotonic() - begun < 2.2
+
+
+def test_what_a_hasty_child_has_started_may_close(tmp_path: Path) -> None:
+    process = start(HASTY, tmp_path / 'log')
+    process.end(signal.SIGTERM)
+    assert process.exit_code == -signal.SIGTERM
+    assert (tmp_path / 'log').read_text() == 'ready\nclosed\n'
 
 
 def test_a_child_ends_with_its_killed_parent() -> None:
