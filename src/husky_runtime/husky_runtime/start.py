@@ -76,10 +76,23 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
         return int(main())
     except KeyboardInterrupt:
         return interrupted
+    except ModuleNotFoundError as error:
+        if (error.name or 'husky').startswith('husky'):
+            raise
+        print(_how_to_install(error.name), file=sys.stderr)
+        return _BAD_INPUT
     finally:
         # An interrupt while the interpreter shuts down would kill it.
         for number in (*_SIGNALS, signal.SIGHUP, signal.SIGALRM):
             signal.signal(number, signal.SIG_IGN)
+
+
+def _how_to_install(module: str | None) -> str:
+    return (
+        f'{Path(sys.argv[0]).name}: {sys.executable} has no module {module!r}; in the folder of '
+        'the lab, `rosdep install --from-paths src --ignore-src` and `pip install '
+        '--break-system-packages -r requirements/without_rosdep.in` install what is missing'
+    )
 
 
 def _is_importing(frame: FrameType | None) -> bool:

@@ -29,6 +29,17 @@ def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     assert said.startswith("husky_sim: world='nowhere.xml': no such file")
 
 
+def test_without_mujoco_it_says_how_to_install_it() -> None:
+    program = "import sys; sys.modules['mujoco'] = None; sys.argv = ['/a/husky_sim']\n"
+    program += 'from husky_sim.programs import main; sys.exit(main())'
+    done = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"husky_sim: {sys.executable} has no module 'mujoco'; ")
+    assert done.stderr.count('\n') == 1
+    listed = Path(done.stderr.split(' -r ')[1].split('`')[0])
+    assert 'mujoco' in (Path(__file__).parents[3] / listed).read_text()
+
+
 def test_a_signal_while_it_still_loads_ends_it_without_a_word(domain_id: int) -> None:
     del domain_id
     process = run_process(module='husky_sim.programs')
