@@ -127,6 +127,7 @@ def serve(
         node_name_suffix=f'_daemon_{get_ros_domain_id()}_{uuid.uuid4().hex}',
         start_type_description_service=False,
     )
+    on_ready()  # a question waits from now on until the node knows the others
     with DirectNode(settings) as node:
         server.register_introspection_functions()
         for name in _QUESTIONS:
@@ -134,7 +135,6 @@ def serve(
         server.register_function(stop, 'system.shutdown')
         server.timeout = _POLL_SEC
         print(f'Serving XML-RPC on {get_xmlrpc_server_url()}', flush=True)
-        on_ready()
         while rclpy.ok() and not stopped and time.monotonic() < asked + timeout:
             server.handle_request()
 

@@ -90,7 +90,7 @@ def spawn_daemon(
 
     The socket is bound here and handed over, so that of two who start it only one does.
 
-    :param timeout: how many seconds to wait until it answers; None: not at all.
+    :param timeout: how many seconds to wait until it takes questions; None: not at all.
     :param debug: let it write to this terminal.
     :raises RuntimeError: it ended, or was not ready in time.
     """
