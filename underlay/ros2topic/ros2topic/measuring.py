@@ -49,14 +49,18 @@ def subscribe(
 
 
 def report_repeatedly(
-    node: CommandNode, report: Callable[[], None], begun: dict[str, Callable[[], bool]]
+    node: CommandNode,
+    report: Callable[[], None],
+    begun: dict[str, Callable[[], bool]],
+    *,
+    clock: Clock | None = None,
 ) -> None:
-    """Report every second of wall time until Ctrl-C.
+    """Report every second of a clock, the node's where none is given, until Ctrl-C.
 
     :param begun: tells whether something has come, by topic; where that takes long, why not is
         printed.
     """
-    node.node.create_timer(_REPORT_SEC, report, clock=Clock())
+    node.node.create_timer(_REPORT_SEC, report, clock=clock)
     for name, has_begun in begun.items():
         silence.hint_when_silent(node, name, has_begun)
     node.spin_until(lambda: False)

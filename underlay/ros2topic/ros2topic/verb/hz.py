@@ -105,4 +105,4 @@ class HzVerb(VerbExtension):
                         print(text if len(rates) == 1 else f'{name}\n{text}')
 
             begun = {name: rate.has_begun for name, rate in rates.items()}
-            measuring.report_repeatedly(node, report, begun)
+            measuring.report_repeatedly(node, report, begun, clock=clock)
