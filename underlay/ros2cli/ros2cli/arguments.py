@@ -105,13 +105,18 @@ def add_values(parser: Parser, name: str, type_key: str, **options: Any) -> None
     """Add a value in YAML; offered is the default one of the type, on one line, to be changed."""
 
     def prototype(args: argparse.Namespace) -> list[str]:
+        import math
+
         from rosidl_runtime_py import message_to_yaml
         from rosidl_runtime_py.utilities import get_interface
+        import yaml
 
         from ros2cli import interfaces
 
         filled_in = interfaces.filled_in(get_interface(getattr(args, type_key, None) or ''))
-        return [message_to_yaml(filled_in(), flow_style=True).strip()]
+        values = yaml.safe_load(message_to_yaml(filled_in()))
+        line = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=math.inf)
+        return [line.strip()]
 
     add_completed(parser, name, prototype, nargs='?', default='{}', **options)
 

@@ -25,7 +25,9 @@ class _Dumper(yaml.SafeDumper):
 
 _Dumper.add_representer(
     OrderedDict,
-    lambda dumper, data: dumper.represent_mapping('tag:yaml.org,2002:map', data.items()),
+    lambda dumper, data: dumper.represent_mapping(
+        'tag:yaml.org,2002:map', data.items(), flow_style=False
+    ),
 )
 _Dumper.add_representer(
     tuple, lambda dumper, data: dumper.represent_sequence('tag:yaml.org,2002:seq', data)
@@ -45,7 +47,7 @@ def message_to_yaml(
     :param truncate_length: longer arrays, bytes and strings are cut here and end with '...'.
     :param no_arr: tell of arrays only type and length.
     :param no_str: tell of strings only the length.
-    :param flow_style: one line instead of one a field.
+    :param flow_style: arrays are written in one line, in brackets.
     """
     values = message_to_ordereddict(
         msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str

@@ -11,7 +11,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from geometry_msgs.msg import Point, Polygon, Twist
+from geometry_msgs.msg import Point, Point32, Polygon, Twist
 import pytest
 from rosidl_parser.definition import UnboundedSequence
 import rosidl_runtime_py
@@ -66,12 +66,16 @@ def test_long_values_are_cut_or_abbreviated() -> None:
     assert message_to_yaml(String(data='abc'), no_str=True) == "data: '<string length: <3>>'\n"
 
 
-def test_csv_and_flow_style_are_one_line() -> None:
+def test_csv_is_one_line_and_flow_style_has_arrays_in_one() -> None:
     msg = Header(stamp=Time(sec=1, nanosec=2), frame_id='map')
     assert message_to_csv(msg) == '1,2,map'
-    assert message_to_yaml(msg, flow_style=True) == (
-        '{stamp: {sec: 1, nanosec: 2}, frame_id: map}\n'
+    joints = JointState(header=msg, name=['a', 'b'])
+    assert message_to_yaml(joints, flow_style=True) == (
+        'header:\n  stamp:\n    sec: 1\n    nanosec: 2\n  frame_id: map\n'
+        'name: [a, b]\nposition: []\nvelocity: []\neffort: []\n'
     )
+    polygon = Polygon(points=[Point32(x=1.0)])
+    assert message_to_yaml(polygon, flow_style=True) == 'points: [{x: 1.0, y: 0.0, z: 0.0}]\n'
 
 
 def test_dictionaries_keep_the_order_of_the_definition() -> None:
