@@ -12,7 +12,10 @@ import functools
 import inspect
 from typing import Any, TYPE_CHECKING
 
+from launch_testing.pytest.hooks import forget_removed_modules
 import pytest
+
+import launch_pytest
 
 from .fixture import (
     finalize_launch_service,
@@ -40,6 +43,7 @@ class LaunchTestWarning(pytest.PytestWarning):
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    forget_removed_modules(launch_pytest)
     config.addinivalue_line(
         'markers',
         'launch(fixture, shutdown=False): run the test beside the launch of a fixture, or with '

@@ -10,10 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 import copy
 from pathlib import Path
+import sys
 from types import ModuleType
 from typing import Any
 
 import pytest
+
+import launch_testing
 
 _ENTRYPOINT = 'generate_test_description'
 
@@ -171,6 +174,19 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    forget_removed_modules(launch_testing)
     config.addinivalue_line(
         'markers', 'launch_test: the function generate_test_description of a file of launch tests'
     )
+
+
+def forget_removed_modules(package: ModuleType) -> None:
+    """Take from a package its modules that sys.modules has no more, to be imported again.
+
+    A run of pytest within this one, by its plugin pytester, removes at its end what it has
+    imported: launch too, of which the modules that are left would know another copy.
+    """
+    for name, value in list(vars(package).items()):
+        is_own = getattr(value, '__name__', '') == f'{package.__name__}.{name}'
+        if is_own and value.__name__ not in sys.modules:
+            delattr(package, name)
