@@ -98,8 +98,9 @@ def test_two_simulators_of_one_name_are_told_to_part(
 def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('slow_driver', 'driver')
     processes.node('slow_driver', 'other')
-    line = _line(ros2('doctor'), 'publishers')
-    assert '/cmd_vel: 2 nodes publish this: /driver, /other' in line
+    answer = ros2('doctor')
+    assert '/cmd_vel: 2 nodes publish this: /driver, /other' in _line(answer, 'publishers')
+    assert 'note: Publisher without subscriber detected on /cmd_vel' in answer.err
 
 
 def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -268,8 +269,6 @@ def test_the_report_names_the_essentials(processes: Any, ros2: Callable[..., Any
     ):
         assert pair in shown
     assert [name for name, *_ in shown if name == 'rclpy']
-    assert '\nrclpy ' not in ros2('doctor', '--report', '--exclude-packages').out
-    assert 'note: Publisher without subscriber detected on /chatter' in ros2('doctor').err
 
 
 def test_a_check_that_fails_to_load_takes_no_other_away(

@@ -28,12 +28,7 @@ def test_nodes_with_a_lifecycle_are_listed(ros2: Callable[..., Any]) -> None:
 
 
 def test_a_node_goes_where_it_is_sent(ros2: Callable[..., Any]) -> None:
-    for transition, state in (
-        ('configure', 'inactive [2]'),
-        ('3', 'active [3]'),
-        ('deactivate', 'inactive [2]'),
-        ('cleanup', 'unconfigured [1]'),
-    ):
+    for transition, state in (('configure', 'inactive [2]'), ('2', 'unconfigured [1]')):
         assert ros2('lifecycle', 'set', 'motor', transition).out == 'Transitioning successful\n'
         assert ros2('lifecycle', 'get', '/motor').out == f'{state}\n'
 
