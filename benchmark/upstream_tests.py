@@ -35,6 +35,12 @@ _LINTERS = (
     'test_xmllint.py',
 )
 _FILE_SEC = 600.0
+_LAUNCH_TEST = ('-m', 'launch_testing.launch_test')
+# Settings of none, and what some tests take for imported, as upstream's launch does.
+_PYTEST = (
+    *('-m', 'pytest', '-p', 'no:cacheprovider', '-c', os.devnull, '--rootdir=.'),
+    *('-p', 'osrf_pycommon.process_utils'),
+)
 _TESTS = {
     'launch': 'launch/launch/test',
     'launch_xml': 'launch/launch_xml/test',
@@ -93,32 +99,22 @@ def _run_package(tests: Path, scratch: Path) -> dict[str, bool]:
     copy = scratch / 'test'
     shutil.copytree(tests, copy, ignore=shutil.ignore_patterns(*_LINTERS))
     files = sorted({*copy.rglob('test_*.py'), *copy.rglob('*_test.py')})
+    report = scratch / 'report.xml'
     outcomes: dict[str, bool] = {}
     for file in files:
         # One process a file: the names that launch gives to processes are counted in a process.
-        if '\ndef generate_test_description' in file.read_text():
-            command = ['-m', 'launch_testing.launch_test']
-        else:
-            command = [
-                '-m',
-                'pytest',
-                '-p',
-                'no:cacheprovider',
-                '-c',
-                os.devnull,
-                f'--rootdir={scratch}',
-            ]
+        launched = '\ndef generate_test_description' in file.read_text()
         outcomes |= _run(
-            [*command, str(file), '--junit-xml', str(scratch / 'report.xml')],
-            scratch,
+            [*(_LAUNCH_TEST if launched else _PYTEST), str(file), '--junit-xml', str(report)],
+            report,
             str(file.relative_to(copy)),
         )
     return outcomes
 
 
-def _run(command: list[str], scratch: Path, file: str) -> dict[str, bool]:
-    """Run one file of tests, which writes report.xml; return for each test whether it passed."""
-    report = scratch / 'report.xml'
+def _run(command: list[str], report: Path, file: str) -> dict[str, bool]:
+    """Run one file of tests, which writes the report; return for each test whether it passed."""
+    scratch = report.parent
     report.unlink(missing_ok=True)
     log = scratch / 'log.txt'
     with log.open('w') as stream:

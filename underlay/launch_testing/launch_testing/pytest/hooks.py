@@ -102,7 +102,7 @@ class LaunchTestModule(pytest.File):
     def collect(self) -> Iterator[LaunchTestItem]:
         from ..loader import LoadTestsFromPythonModule
 
-        assert self.parent is not None
+        assert isinstance(self.parent, pytest.Collector)
         module = _import(self.path, self.parent)
         name = module.__name__
         yield self.makeitem(
