@@ -23,6 +23,7 @@ from ros2cli.helpers import get_ros_domain_id
 _BASE_PORT = 11511
 _IDLE_TIMEOUT_SEC = 2 * 60 * 60
 _POLL_SEC = 0.2
+_LONGEST_QUESTION = 100_000  # bytes
 _QUESTIONS = (
     'get_name',
     'get_namespace',
@@ -47,7 +48,20 @@ _QUESTIONS = (
 
 
 class RequestHandler(SimpleXMLRPCRequestHandler):
+    """Answers the programs of this computer; a page of a browser may send, but is refused."""
+
     rpc_paths = ('/ros2cli/',)
+    timeout = 1.0  # seconds; who says nothing must not keep the others waiting
+
+    def do_POST(self) -> None:  # noqa: N802 -- the name is http.server's
+        host = self.headers.get('Host', '').rpartition(':')[0]
+        length = self.headers.get('Content-Length', '')
+        if 'Origin' in self.headers or host not in ('127.0.0.1', 'localhost'):
+            self.send_error(403, 'not for web pages')
+        elif not length.isdecimal() or int(length) > _LONGEST_QUESTION:
+            self.send_error(413, f'a question has at most {_LONGEST_QUESTION} bytes')
+        else:
+            super().do_POST()
 
 
 class Server(SimpleXMLRPCServer):

@@ -5,15 +5,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+import http.client
 import os
 from pathlib import Path
 import signal
+import socket
 import subprocess
 import sys
 import time
 from typing import Any
 
 import pytest
+from ros2cli.daemon import get_address
 from ros2cli.node.strategy import NodeStrategy
 
 COMMANDS = {
@@ -119,6 +122,7 @@ def test_the_daemon_answers_until_it_is_stopped(processes: Any, ros2: Callable[.
     ):
         answer = ros2('daemon', verb)
         assert (answer.status, answer.out, answer.err) == (0, f'The daemon {told}\n', '')
+    _attack(get_address())
     with NodeStrategy(None) as node:
         (info,) = node.get_publishers_info_by_topic('/chatter')
         assert (info.node_name, info.qos_profile.reliability.name) == ('talker', 'RELIABLE')
@@ -128,6 +132,25 @@ def test_the_daemon_answers_until_it_is_stopped(processes: Any, ros2: Callable[.
         assert listed == f'/{node.get_name()}'
     assert ros2('daemon', 'stop').out == 'The daemon has been stopped\n'
     assert ros2('daemon', 'status').out == 'The daemon is not running\n'
+
+
+def _attack(address: tuple[str, int]) -> None:
+    """Say nothing, too little and too much, and speak as a page of a browser would."""
+    stop = b'<methodCall><methodName>system.shutdown</methodName></methodCall>'
+    silent, broken = socket.create_connection(address), socket.create_connection(address)
+    broken.sendall(b'POST /ros2cli/ HTTP/1.0\r\nHost: localhost:1\r\nContent-Length: 50\r\n\r\n<')
+    for headers, status in (
+        ({'Origin': 'http://a.page'}, 403),
+        ({'Host': 'a.page:11511'}, 403),
+        ({'Content-Length': '999999999'}, 413),
+        ({'Content-Length': 'many'}, 413),
+    ):
+        connection = http.client.HTTPConnection(*address, timeout=20.0)
+        connection.request('POST', '/ros2cli/', stop, headers)
+        assert connection.getresponse().status == status, headers
+        connection.close()
+    silent.close()
+    broken.close()
 
 
 def _complete(line: str, folder: Path) -> set[str]:
