@@ -102,7 +102,7 @@ def test_a_host_that_is_not_ours_is_refused_in_one_line(processes: Processes) ->
 @pytest.mark.timeout(60)
 def test_a_view_without_a_simulator_says_what_it_waits_for(processes: Processes) -> None:
     view = processes.start(*VIEW, 'viewer_port:=18480')
-    view.wait_for_text('husky_sim does not answer yet: is the simulator running?')
+    view.wait_for_text('husky_sim does not answer yet: is the simulator running, with RMW_')
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     view.wait_for_text('look at http://localhost:')
 

@@ -20,6 +20,9 @@ _SINGLE_PUBLISHER_ENDS = (
     'husky_velocity_controller/odom',
     'cmd_vel',
 )
+# The first two bytes of a GUID (dds-foundation.org, "DDS-RTPS vendor and product IDs").
+_VENDORS = {b'\x01\x01': 'Connext DDS', b'\x01\x0f': 'Fast DDS', b'\x01\x10': 'Cyclone DDS'}
+_OWN_VENDOR = 'Fast DDS'  # of the wheels
 _END_ONE = 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID'
 
 
@@ -79,6 +82,23 @@ def check_clock(graph: Graph) -> Iterator[Finding]:
             f'use_sim_time is true, but nobody publishes {_CLOCK}, so that its time stands still '
             'at 0 and its timers never fire',
             f'start the simulator, or run `ros2 param set {waiting[0]} use_sim_time false`',
+        )
+
+
+def check_vendors(graph: Graph, service: str | None = None) -> Iterator[Finding]:
+    """Find nodes on another DDS than this one; where a service is given, those that offer it."""
+    others: dict[str, set[str]] = {}
+    for endpoint in graph.endpoints:
+        vendor = _VENDORS.get(endpoint.guid[:2], 'another DDS')
+        offers = service is None or (endpoint.role, endpoint.name) == (Role.SERVER, service)
+        if vendor != _OWN_VENDOR and offers:
+            others.setdefault(vendor, set()).add(graph.node_of(endpoint).full_name)
+    for vendor, found in others.items():
+        yield Finding(
+            ', '.join(sorted(found)),
+            f'on {vendor}, and this terminal on {_OWN_VENDOR}: their topics meet, but services, '
+            'parameters and actions never answer',
+            'start all with the same RMW_IMPLEMENTATION (here rmw_fastrtps_cpp)',
         )
 
 

@@ -72,4 +72,5 @@ Publishers = partial(_Check, 'publishers', lambda: nodes.check_publishers(graph(
 Types = partial(_Check, 'types', lambda: connections.check_types(graph()))
 QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')
 Clock = partial(_Check, 'clock', lambda: nodes.check_clock(graph()))
+Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))
 Commands = partial(_Check, 'commands', _commands)

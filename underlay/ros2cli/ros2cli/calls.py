@@ -11,6 +11,7 @@ from typing import Any
 import rclpy
 from rclpy.node import Node
 
+from ros2cli.discovery import SOON_SEC, why_unanswered
 from ros2cli.errors import CommandError, ServiceTimeout
 
 _TIMEOUT_SEC = 5.0
@@ -34,23 +35,30 @@ def call_all(node: Any, service_class: Any, requests: Mapping[str, Any]) -> dict
     node = getattr(node, 'node', node)
     clients = {name: node.create_client(service_class, name) for name in requests}
     try:
-        _spin_until(node, lambda: all(each.service_is_ready() for each in clients.values()))
+        _spin_until(
+            node, lambda: all(each.service_is_ready() for each in clients.values()), _TIMEOUT_SEC
+        )
         futures = {
             name: client.call_async(requests[name])
             for name, client in clients.items()
             if client.service_is_ready()
         }
-        _spin_until(node, lambda: all(future.done() for future in futures.values()))
-        return {name: _outcome(name, futures.get(name)) for name in requests}
+        _spin_until(node, lambda: all(future.done() for future in futures.values()), SOON_SEC)
+        waiting = [name for name, future in futures.items() if not future.done()]
+        in_vain = why_unanswered(waiting) if waiting else {}
+        awaited = [futures[name] for name in waiting if name not in in_vain]
+        left_sec = _TIMEOUT_SEC - SOON_SEC
+        _spin_until(node, lambda: all(future.done() for future in awaited), left_sec)
+        return {name: _outcome(name, futures.get(name), in_vain.get(name)) for name in requests}
     finally:
         for client in clients.values():
             node.destroy_client(client)
 
 
-def _spin_until(node: Node, done: Callable[[], bool]) -> None:
+def _spin_until(node: Node, done: Callable[[], bool], timeout_sec: float) -> None:
     executor = node.executor or rclpy.get_global_executor()
     added = executor.add_node(node)
-    end = time.monotonic() + _TIMEOUT_SEC
+    end = time.monotonic() + timeout_sec
     try:
         while not done() and time.monotonic() < end:
             executor.spin_once(_POLL_SEC)
@@ -59,12 +67,13 @@ def _spin_until(node: Node, done: Callable[[], bool]) -> None:
             executor.remove_node(node)
 
 
-def _outcome(name: str, future: Any) -> Any:
+def _outcome(name: str, future: Any, in_vain: str | None) -> Any:
     if future is None:
         return ServiceTimeout(f"Wait for service timed out: '{name}' does not answer")
     if not future.done():
         return CommandError(
-            f"'{name}' gave no answer within {_TIMEOUT_SEC:g} s; its node is busy or stopped"
+            in_vain
+            or f"'{name}' gave no answer within {_TIMEOUT_SEC:g} s; its node is busy or stopped"
         )
     if future.exception() is not None:
         return CommandError(f"Exception while calling service '{name}': {future.exception()}")

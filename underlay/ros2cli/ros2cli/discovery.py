@@ -17,6 +17,7 @@ from ros2cli.errors import UsageError
 
 DEFAULT_TIMEOUT_SEC = 3.0
 DEFAULT_SPIN_TIME_SEC = 0.5
+SOON_SEC = 1.0  # a service that answers at all mostly answers sooner
 
 
 def settings_from_environment() -> rtps_settings.Settings:
@@ -94,6 +95,15 @@ def hint_near(message: str, name: str, known: Iterable[str]) -> None:
     """Print a message as a hint where a name is near to one that is known."""
     if clause := near(name, known):
         print(f'hint: {message}{clause}', file=sys.stderr)
+
+
+def why_unanswered(services: Iterable[str]) -> dict[str, str]:
+    """Return for each service that is there and will never answer, why."""
+    from ros2_diagnosis import nodes
+
+    graph = read_graph(quiet=True)
+    found = {service: nodes.check_vendors(graph, service) for service in services}
+    return {service: str(each) for service, findings in found.items() for each in findings}
 
 
 def _print_hints(settings: rtps_settings.Settings, found: graph.Graph) -> None:

@@ -97,7 +97,10 @@ class ViewNode(Node):
                 answered.set_result(answer)
             elif time.monotonic() > hint_due_sec:
                 hint_due_sec = float('inf')
-                self.get_logger().warning(f'{name} does not answer yet: is the simulator running?')
+                self.get_logger().warning(
+                    f'{name} does not answer yet: is the simulator running, with '
+                    f'RMW_IMPLEMENTATION={rclpy.get_rmw_implementation_identifier()} as here?'
+                )
 
         timer = self.create_timer(_ASK_SEC, on_ask, clock=Clock(clock_type=ClockType.STEADY_TIME))
         answer = self._result_of(answered, interrupted)

@@ -73,7 +73,8 @@ def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Nam
         raise CommandError(f"No action server for '{args.action_name}' within {args.timeout:g} s")
     print(f'Sending goal:\n     {message_to_yaml(goal)}')
     future = client.send_goal_async(goal, _print_feedback if args.feedback else None)
-    node.spin_until(future.done)
+    action = topics.checked_name(args.action_name)
+    node.spin_until_answered(future, f'{action}/_action/send_goal')
     handle = future.result()
     if not handle.accepted:
         print('Goal was rejected.')

@@ -8,6 +8,7 @@ import argparse
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import os
+import sys
 import time
 from typing import Any
 
@@ -62,6 +63,13 @@ class CommandNode:
                 return False
             self._executor.spin_once(0.02 if end is None else min(0.02, end - time.monotonic()))
         return True
+
+    def spin_until_answered(self, future: Any, service: str) -> None:
+        """Spin until a service has answered; where it never will, say so on stderr."""
+        if not self.spin_until(future.done, discovery.SOON_SEC):
+            for why in discovery.why_unanswered([service]).values():
+                print(f'hint: {why}', file=sys.stderr)
+            self.spin_until(future.done)
 
     def destroy(self) -> None:
         self._executor.shutdown()
