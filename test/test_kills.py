@@ -38,13 +38,18 @@ def family(run: Process) -> list[psutil.Process]:
 
 
 def part(run: Process, mark: str) -> psutil.Process | None:
+    """Return a part of a run; a node once it has loaded, and with that set its handlers."""
     for each in family(run):
         try:
-            if mark in ' '.join(each.cmdline()):
+            if mark in ' '.join(each.cmdline()) and (mark[0] != '/' or has_loaded(each)):
                 return each
         except psutil.Error:  # it is just starting or ending
             continue
     return None
+
+
+def has_loaded(node: psutil.Process) -> bool:
+    return any('librcl.so' in library.path for library in node.memory_maps())
 
 
 def running(processes: list[psutil.Process]) -> list[str]:

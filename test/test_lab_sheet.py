@@ -11,6 +11,7 @@ from playpen_testing.lab_sheet import Block, matches, read_blocks, write_file
 from playpen_testing.processes import Processes
 from playpen_testing.terminal import Terminal
 from playpen_testing.waiting import wait_until
+from playpen_testing.which_ros import SOURCED
 import pytest
 
 DOCS = Path(__file__).resolve().parent.parent / 'docs'
@@ -58,6 +59,8 @@ class Terminals:
 @pytest.mark.timeout(300)
 def test_every_step_of_the_sheet_comes_out_as_it_says(home: Path, terminals: Terminals) -> None:
     blocks = read_blocks(SHEET.read_text())
+    if SOURCED:  # rqt_graph is a window there, if it is installed
+        blocks = [block for block in blocks if 'rqt_graph' not in block.text]
     for number, block in enumerate(blocks):
         if block.language == 'bash':
             following = next(

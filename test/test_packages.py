@@ -18,8 +18,10 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+from ament_index_python.packages import get_package_share_directory
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from playpen_testing.which_ros import SOURCED
 import pytest
 
 pytestmark = pytest.mark.timeout(180)  # one of them builds every package
@@ -192,7 +194,20 @@ def closure(package: str) -> set[str]:
             left |= declared(name) - found
         else:
             found |= modules_with(name)
+            left |= needed_by(name) - found if SOURCED else set()
     return found
+
+
+def needed_by(name: str) -> set[str]:
+    """Return what a package of a sourced ROS needs; that of a wheel stands in its metadata."""
+    try:
+        share = Path(get_package_share_directory(name))
+    except (LookupError, ValueError):  # ValueError: this cannot be the name of a package
+        return set()
+    root = ElementTree.parse(share / 'package.xml').getroot()
+    kinds = ('depend', 'exec_depend', 'build_export_depend')
+    keys = {str(entry.text) for kind in kinds for entry in root.iter(kind)}
+    return {MODULES.get(key, key.removeprefix('python3-')) for key in keys}
 
 
 @cache

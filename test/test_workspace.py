@@ -43,7 +43,7 @@ def test_a_build_puts_every_package_on_the_ament_path(built_packages: Path, inst
         marker = Path('share') / 'ament_index' / 'resource_index' / 'packages' / package
         assert [prefix.name for prefix in prefixes if (prefix / marker).is_file()] == [package]
     program = folder / 'husky_sim/lib/husky_sim/husky_sim'
-    assert program.read_text().startswith(f'#!{sys.executable}\n'), 'a Python without mujoco'
+    assert program.read_text().startswith(f'#!{Path(sys.executable).parent}/'), 'another Python'
     world = folder / 'husky_sim/share/husky_sim/worlds/playpen.xml'
     course = folder / 'husky_driver/share/husky_driver/config/waypoints/central_barrier.yaml'
     assert world.read_text() == (ROOT / 'worlds/playpen.xml').read_text()

@@ -16,6 +16,8 @@ from husky_runtime.domains import OwnDomain
 from husky_runtime.shared_memory import clean_shared_memory, unused_files
 from playpen_testing.shared_memory import mapped_by
 import psutil
+import pytest
+import rclpy
 
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 
@@ -161,6 +163,10 @@ def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
     assert not is_running(daemon)
 
 
+@pytest.mark.skipif(
+    rclpy.get_rmw_implementation_identifier() != 'rmw_fastrtps_cpp',
+    reason='only Fast DDS puts messages into shared memory',
+)
 def test_the_shared_memory_of_the_dead_goes() -> None:
     with OwnDomain() as one, OwnDomain() as another:
         dead, alive = participant(one.number), participant(another.number)
