@@ -82,7 +82,7 @@ def test_what_is_clicked_and_dragged_is_saved_and_valid(
 
 @pytest.mark.timeout(180)
 def test_what_is_saved_is_what_is_driven(lab: Lab, page: Page) -> None:
-    button(page, '5×').click()
+    button(page, '2×').click()  # 5 is too fast for the executor of an early rclpy
     button(page, 'Save and drive it').click()
     goal = saved(lab)[-1]
 
