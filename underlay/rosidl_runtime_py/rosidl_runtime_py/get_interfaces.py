@@ -69,7 +69,7 @@ def get_interface_path(interface_name: str) -> str:
     for candidate in candidates:
         if candidate.is_file():
             return str(candidate)
-    raise LookupError(f"Could not find the interface '{interface_name}'")
+    raise LookupError(f"Could not find the interface '{candidates[-1]}'")
 
 
 def _interfaces(package: str) -> list[str]:

@@ -162,7 +162,7 @@ def test_definitions_are_found_by_name() -> None:
     }
     with pytest.raises(LookupError, match="Unknown package 'nothing'"):
         get_interfaces(['nothing'])
-    with pytest.raises(LookupError, match='Could not find the interface'):
+    with pytest.raises(LookupError, match=r"Could not find the interface '.*\.idl'"):
         get_interface_path('std_msgs/msg/Nothing')
     with pytest.raises(ValueError, match='Invalid name'):
         get_interface_path('std_msgs')
