@@ -8,13 +8,14 @@ from collections.abc import Sequence
 import struct
 
 from rtps_graph import wire
-from rtps_graph.participant import GRAPH_TOPIC, GRAPH_TYPE
+from rtps_graph.participant import GRAPH_TOPIC, GRAPH_TYPE, GRAPH_TYPE_HASH
 
 GRAPH_READER = bytes.fromhex('00000104')  # a reader without key, 9.3.1.2
 # Built-in endpoints (9.3.2): participant announcer and detector, detectors of publications and
 # subscriptions, announcer of subscriptions.
 _OWN_ENDPOINTS = 0b111011
 _LEASE_SEC = 10
+_TYPE_HASH = f'typehash={GRAPH_TYPE_HASH};'.encode()  # as rmw has it in the user data
 _RELIABLE, _TRANSIENT_LOCAL = 2, 1
 
 
@@ -54,6 +55,7 @@ def graph_reader(prefix: bytes, destination: bytes, count: int) -> bytes:
             wire.parameter(wire.PID_ENDPOINT_GUID, prefix + GRAPH_READER),
             wire.parameter(wire.PID_TOPIC_NAME, wire.string(GRAPH_TOPIC)),
             wire.parameter(wire.PID_TYPE_NAME, wire.string(GRAPH_TYPE)),
+            wire.parameter(wire.PID_USER_DATA, struct.pack('<I', len(_TYPE_HASH)) + _TYPE_HASH),
             wire.parameter(wire.PID_RELIABILITY, struct.pack('<IiI', _RELIABLE, 0, 0)),
             wire.parameter(wire.PID_DURABILITY, struct.pack('<I', _TRANSIENT_LOCAL)),
             wire.sentinel(),

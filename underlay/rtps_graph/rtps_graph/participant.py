@@ -11,6 +11,8 @@ from rtps_graph import wire
 # The topic in which every ROS process tells the nodes that it holds.
 GRAPH_TOPIC = 'ros_discovery_info'
 GRAPH_TYPE = 'rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_'
+# As Jazzy's rmw_dds_common/msg/ParticipantEntitiesInfo.json has it; Cyclone DDS warns without it.
+GRAPH_TYPE_HASH = 'RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e'
 
 
 @dataclass

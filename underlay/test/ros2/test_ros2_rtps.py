@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 import contextlib
+import json
+from pathlib import Path
 
+from ament_index_python.packages import get_package_share_directory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
-from rtps_graph import graph, host, names, wire
+from rtps_graph import announcements, graph, host, names, wire
 
 PREFIX = bytes(range(12))
 READER, WRITER = wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER
@@ -96,3 +99,10 @@ def test_an_action_is_known_by_its_feedback() -> None:
     node = graph.Node('server', '/', [feedback])
     assert node.action_servers() == {'/f': ['a/action/F']}
     assert graph.Graph([node], [feedback]).actions() == {'/f': ['a/action/F']}
+
+
+def test_the_graph_topic_is_announced_with_the_hash_of_its_type() -> None:
+    types = Path(get_package_share_directory('rmw_dds_common')) / 'msg'
+    described = json.loads((types / 'ParticipantEntitiesInfo.json').read_text())
+    (own, *_) = (e['hash_string'] for e in described['type_hashes'])
+    assert f'typehash={own};'.encode() in announcements.graph_reader(PREFIX, PREFIX, 1)
