@@ -7,6 +7,7 @@ from contextlib import suppress
 import math
 import subprocess
 import sys
+import time
 
 from husky_sim.scene_topic import QOS as SCENE_QOS
 from playpen_testing.browser import button, errors, number, wait_for
@@ -50,6 +51,14 @@ def test_the_page_shows_passing_time_and_a_legend(page: Page) -> None:
 def test_pause_step_reset_and_speed_act_on_the_simulation(lab: Lab, page: Page) -> None:
     button(page, 'Pause').click()
     button(page, 'Resume').wait_for()
+    stands_since = [lab.time_sec, time.monotonic()]
+
+    def stands() -> bool:
+        if lab.time_sec != stands_since[0]:  # messages of before may still be on their way
+            stands_since[:] = [lab.time_sec, time.monotonic()]
+        return time.monotonic() > stands_since[1] + 0.5
+
+    wait_until(stands, timeout_sec=15.0, what='half a second in which time stands')
     paused_sec = lab.time_sec
     button(page, 'Step').click()
     wait_until(
