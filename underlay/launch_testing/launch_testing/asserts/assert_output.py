@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from launch.actions import ExecuteLocal
@@ -65,50 +66,8 @@ def assertInStream(
     )
 
 
-def assertInStdout(
-    proc_output: Any,
-    expected_output: Expected,
-    process: ExecuteLocal | str | None,
-    cmd_args: object = None,
-    *,
-    output_filter: _Filter | None = None,
-    strict_proc_matching: bool = True,
-    strip_ansi_escape_sequences: bool = True,
-) -> None:
-    """Assert that a process has written something to its standard output; see assertInStream."""
-    assertInStream(
-        proc_output,
-        expected_output,
-        process,
-        cmd_args,
-        output_filter=output_filter,
-        strict_proc_matching=strict_proc_matching,
-        strip_ansi_escape_sequences=strip_ansi_escape_sequences,
-        stream='stdout',
-    )
-
-
-def assertInStderr(
-    proc_output: Any,
-    expected_output: Expected,
-    process: ExecuteLocal | str | None,
-    cmd_args: object = None,
-    *,
-    output_filter: _Filter | None = None,
-    strict_proc_matching: bool = True,
-    strip_ansi_escape_sequences: bool = True,
-) -> None:
-    """Assert that a process has written something to its standard error; see assertInStream."""
-    assertInStream(
-        proc_output,
-        expected_output,
-        process,
-        cmd_args,
-        output_filter=output_filter,
-        strict_proc_matching=strict_proc_matching,
-        strip_ansi_escape_sequences=strip_ansi_escape_sequences,
-        stream='stderr',
-    )
+assertInStdout = partial(assertInStream, stream='stdout')
+assertInStderr = partial(assertInStream, stream='stderr')
 
 
 def assertDefaultStream() -> str:
