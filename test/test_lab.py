@@ -139,3 +139,7 @@ def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_pat
     assert listed.wait(timeout_sec=30.0) == 0
     assert {'husky_driver', 'husky_sim', 'topic_demo', 'rclpy'} <= set(listed.lines)
     wait_until(lambda: listed.returncode == 0, timeout_sec=1.0, what='exit status 0')
+    asked = ('python3', '-c', 'import site; print(site.ENABLE_USER_SITE)')
+    python = processes.start(LAB, 'exec', *asked, cwd=tmp_path)
+    assert python.wait(timeout_sec=30.0) == 0
+    assert python.lines == ['False'], 'what stands in ~/.local is imported too'
