@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_sim.ros import node as simulator_node
+from husky_sim.ros import pace
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 import pytest
@@ -77,7 +77,7 @@ def test_without_a_limit_it_goes_on(domain_id: int) -> None:
 def test_a_driver_that_hangs_in_lockstep_ends_the_run(
     domain_id: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(simulator_node, 'HANGING_SEC', 0.5)
+    monkeypatch.setattr(pace, 'HANGING_SEC', 0.5)
     simulator = run_until(
         domain_id, is_over, AnswersOnce, lockstep=True, real_time_factor=0.0, limit_sec=100.0
     )

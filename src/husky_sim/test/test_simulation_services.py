@@ -126,7 +126,7 @@ def test_the_features_are_those_that_there_are(call: Call) -> None:
 def test_playing_pausing_and_stopping(simulator: SimulatorNode, call: Call) -> None:
     assert state(call) == PLAYING
     assert set_state(call, PLAYING) == 101, 'already in the target state'
-    simulator.step()
+    simulator.advance()
     assert set_state(call, PAUSED) == OK
     assert (state(call), simulator.paused) == (PAUSED, True)
     assert simulator.simulation.periods == 1, 'a pause resets nothing'
@@ -166,6 +166,6 @@ def test_steps_are_control_periods_of_a_paused_run(simulator: SimulatorNode, cal
 def test_a_reset_puts_back_time_and_state_together(
     simulator: SimulatorNode, call: Call, scope: int, result: int
 ) -> None:
-    simulator.step()
+    simulator.advance()
     assert call('reset_simulation', scope=scope).result.result == result
     assert simulator.simulation.periods == (0 if result == OK else 1)

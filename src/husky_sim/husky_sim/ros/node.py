@@ -1,17 +1,11 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-The simulator as a ROS 2 node.
+"""The simulator as a ROS 2 node."""
 
-Time passes in one of three ways: at real_time_factor times the wall's pace, as fast as possible
-(factor 0), or in lockstep, where each control period waits for the command that answers the
-odometry of the one before.
-"""
-
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass
 import gc
 import sys
-import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -27,44 +21,36 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.timer import Timer
 
-from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.messages.messages import time_message
 from husky_sim.recording.recorder import open_recorder
 from husky_sim.ros.diagnostics import PaceWatch
 from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.ros.interference import Interference, InterferenceWatch
-from husky_sim.ros.pacing import Pacer
+from husky_sim.ros.pace import FreePace, Lockstep, Pace, Periods
 from husky_sim.ros.parameters import FACTOR, read_factor, read_run, read_simulation
 from husky_sim.ros.simulation_services import add_simulation_services, ControlServices
 from husky_sim.ros.simulation_topics import SimulationTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
 
-REPEAT_SEC = 0.5
-"""How often lockstep repeats its first odometry message, until the first command comes."""
 
-HANGING_SEC = 60.0
-"""
-Without an answer to one message for so long, a run with a limit ends: the driver hangs.
+@dataclass(frozen=True)
+class Trial:
+    """
+    A run that is graded: the controller meets what a real robot offers, and nothing else.
 
-Counted in polls of this node, which come later on a busy machine, as the answer does.
-"""
+    No true pose, no collisions, no services, no parameters.
+    """
 
-_LOCKSTEP_POLL_SEC = 0.01
-_SHORTEST_TICK_SEC = 0.001
-
-# How long to simulate before the executor handles commands and services. As fast as possible: a
-# return to the executor costs as much as half a control period. Behind the wall clock: long enough
-# to catch up where a control period takes most of its time.
-_TURN_SEC = 0.002
-_CATCH_UP_TURN_SEC = 0.02
+    new_pace: Callable[[Periods], Pace]  # how its time passes
+    on_period: Callable[[], object]  # called after each control period
 
 
 class SimulatorNode(Node):
     """Simulates the robots of a world and publishes their topics."""
 
-    def __init__(self, **arguments: Any) -> None:
+    def __init__(self, trial: Trial | None = None, **arguments: Any) -> None:
         """
         Read the parameters and load the world.
 
@@ -75,24 +61,20 @@ class SimulatorNode(Node):
         context = arguments.get('context') or rclpy.get_default_context()
         self._lock = lock_simulator(context.get_domain_id())
         arguments.setdefault('automatically_declare_parameters_from_overrides', True)
+        arguments.setdefault('start_parameter_services', trial is None)
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)
         self.simulation = Simulation(config)
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
-        factor = self._run.real_time_factor
-        self._pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
         self.over: Future[None] = Future()
         self.paused = False  # time stands still
-        self._driven = False  # lockstep: the first odometry message is out
-        self._answered = False  # lockstep: and was answered
-        self._polls = 0  # lockstep: since the last message, without an answer
-        self._sent_at_sec = 0.0
         self._topics = SimulationTopics(
             self,
             self.simulation,
             on_command=self._on_command,
             on_commander=lambda *event: self._interference.check_commands(*event),
+            as_real=trial is not None,
         )
         self._interference = InterferenceWatch(
             self,
@@ -100,10 +82,13 @@ class SimulatorNode(Node):
             commands=self._topics.command_topics,
             on_found=self._on_interference,
         )
-        self._scene = SceneTopic(self, self.simulation, is_paused=lambda: self.paused)
-        ControlServices(self, self)
-        add_simulation_services(self, self)
+        self._on_period = trial.on_period if trial else self._show
+        if trial is None:
+            self._scene = SceneTopic(self, self.simulation, is_paused=lambda: self.paused)
+            ControlServices(self, self)
+            add_simulation_services(self, self)
         self._steady = RosClock(clock_type=ClockType.STEADY_TIME)
+        self._pace = trial.new_pace(self) if trial else self._asked_pace()
         self._timer = self._new_timer()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._watch = PaceWatch(self.simulation)
@@ -112,18 +97,8 @@ class SimulatorNode(Node):
         self.get_logger().info(
             f'{self._run.world}: {len(self.simulation.world.obstacles)} obstacles, '
             f'{", ".join(robot.name for robot in config.robots)}; '
-            f'{self._describe_pace()}'
+            f'{self._pace}'
         )
-
-    def _tick_sec(self) -> float:
-        if self._run.real_time_factor > 0.0:
-            return max(CONTROL_PERIOD_SEC / self._run.real_time_factor, _SHORTEST_TICK_SEC)
-        return _LOCKSTEP_POLL_SEC if self._run.lockstep else 0.0
-
-    def _describe_pace(self) -> str:
-        factor = self._run.real_time_factor
-        pace = f'{factor:g} x real time' if factor > 0.0 else 'as fast as possible'
-        return f'lockstep, {pace}' if self._run.lockstep else pace
 
     def _on_set_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         for parameter in parameters:
@@ -134,72 +109,69 @@ class SimulatorNode(Node):
                     return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
+    def _asked_pace(self) -> Pace:
+        run = self._run
+        if run.lockstep:
+            return Lockstep(self, run.real_time_factor, limited=run.limit_sec > 0.0)
+        return FreePace(self, run.real_time_factor)
+
     def _change_pace(self, factor: float) -> None:
-        self._run = replace(self._run, real_time_factor=factor)
         self.destroy_timer(self._timer)
+        self._pace.change(factor)
         self._timer = self._new_timer()
-        self.get_logger().info(self._describe_pace())
+        self.get_logger().info(str(self._pace))
 
     def _new_timer(self) -> Timer:
-        self._pacer.change(self._run.real_time_factor or 1e9, begin_sec=time.monotonic())
-        return self.create_timer(self._tick_sec(), self._on_tick, clock=self._steady)
+        return self.create_timer(self._pace.tick_sec, self._on_tick, clock=self._steady)
 
     def _on_tick(self) -> None:
-        if self.paused:
-            return
-        if self._run.lockstep:
-            self._continue_lockstep()
-            return
-        free = self._run.real_time_factor == 0.0
-        now_sec = time.monotonic()
-        end_sec = now_sec + (_TURN_SEC if free else _CATCH_UP_TURN_SEC)
-        while now_sec < end_sec and (free or self._pacer.due(now_sec, most=1)):
-            self._advance()
-            now_sec = time.monotonic()
+        if not self.paused:
+            self._pace.tick()
 
     def _on_command(self) -> None:
-        if self._run.lockstep and not self.paused:
-            self._answered = True
-            self._advance_if_answered()
+        if not self.paused:
+            self._pace.on_command()
 
-    def _continue_lockstep(self) -> None:
-        """Begin, repeat the first message, or use a command that came too early."""
-        if self._answered:
-            self._advance_if_answered()
-            self._polls += 1
-            if self._run.limit_sec and self._polls * self._tick_sec() > HANGING_SEC:
-                self._end(f'no command for {HANGING_SEC:g} s: the driver hangs')
-            return
-        now = time.monotonic()
-        if not self._driven:
-            if self._topics.has_drivers:
-                self._driven = True
-                self._topics.publish()
-                self._sent_at_sec = now
-        elif now - self._sent_at_sec >= REPEAT_SEC:
-            self._topics.publish()
-            self._sent_at_sec = now
+    @property
+    def has_drivers(self) -> bool:
+        """Whether every robot's odometry has a subscription, and its commands a publisher."""
+        return self._topics.has_drivers
 
-    def _advance_if_answered(self) -> None:
-        if not self._topics.commanded:
-            return
-        if self._run.real_time_factor > 0.0 and not self._pacer.due(time.monotonic(), most=1):
-            return
-        self._advance()
+    @property
+    def has_followers(self) -> bool:
+        """Whether any odometry of every robot has a subscription."""
+        return self._topics.has_followers
 
-    def _advance(self) -> None:
+    @property
+    def has_commanders(self) -> bool:
+        """Whether the commands of every robot have a publisher."""
+        return self._topics.has_commanders
+
+    @property
+    def commanded(self) -> bool:
+        """Whether every robot was commanded since the last control period."""
+        return self._topics.commanded
+
+    def publish(self) -> None:
+        """Publish the last control period."""
+        self._topics.publish()
+
+    def advance(self) -> None:
+        """Advance by one control period and publish it."""
         self._topics.forget_commands()
         self.simulation.advance()
         if self._record is not None:
             self._record.append()
         self._topics.publish()
-        self._polls = 0
         if 0.0 < self._run.limit_sec <= self.simulation.time_sec:
-            self._end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
-        self._scene.append()
+            self.end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._topics.warn_of_timeouts()
+        self._on_period()
 
-    def _end(self, why: str) -> None:
+    def _show(self) -> None:
+        self._scene.append()
+
+    def end(self, why: str) -> None:
         """End the run, which its driver should have ended before."""
         if not self.over.done():
             self.get_logger().error(f'the run ends: {why}')
@@ -212,7 +184,7 @@ class SimulatorNode(Node):
 
     def _on_diagnose(self) -> None:
         waits = self.paused or self._run.lockstep
-        status = self._watch.status(self._pacer, self._run.real_time_factor, waits=waits)
+        status = self._watch.status(self._pace.pacer, self._pace.factor, waits=waits)
         message = DiagnosticArray(status=[status])
         message.header.stamp = time_message(self.simulation.stamp)
         self._diagnostics.publish(message)
@@ -231,19 +203,14 @@ class SimulatorNode(Node):
     def pause(self, paused: bool) -> None:
         """Stop time, or continue."""
         self.paused = paused
-        self._pacer.restart()
-
-    def step(self) -> None:
-        """Advance by one control period."""
-        self._advance()
+        self._pace.pacer.restart()
 
     def reset(self) -> None:
         """Put everything back as it was at the start."""
         self.simulation.reset()
         if self._record is not None:
             self._record.restart()
-        self._pacer.restart()
-        self._driven = self._answered = False
+        self._pace.begin_again()
         self._topics.forget_commands()
         if not self._run.lockstep:
             self._topics.publish()

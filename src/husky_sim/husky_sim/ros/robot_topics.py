@@ -43,6 +43,7 @@ class RobotTopics:
     :param on_commander: called with the topic of the commands when a publisher of it comes or
         goes, and with how many there were at the same time.
     :param form: in which packed messages are published.
+    :param as_real: publish only what a real robot measures: no true pose, no collisions.
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class RobotTopics:
         form: Form,
         *,
         on_commander: Callable[[str, int], None],
+        as_real: bool,
     ) -> None:
         self.robot = robot
         self.commanded = False
@@ -69,26 +71,30 @@ class RobotTopics:
             self.filtered_publisher = node.create_publisher(
                 Odometry, f'{namespace}odometry/filtered', QOS
             )
-        self._rest: list[tuple[Any, Publisher]] = [
-            (message, node.create_publisher(kind, topic, QOS))
-            for message, kind, topic in (
-                (messages.WheelOdometryMessage(), Odometry, f'{controller}/odom'),
-                (messages.CommandMessage(), Twist, f'{controller}/cmd_vel_out'),
-                (messages.ImuMessage(), Imu, f'{namespace}imu/data'),
-                (messages.JointStateMessage(), JointState, f'{namespace}joint_states'),
-                (messages.GroundTruthMessage(), Odometry, f'{namespace}ground_truth/odom'),
-            )
+        rest: list[tuple[Any, Any, str]] = [
+            (messages.WheelOdometryMessage(), Odometry, f'{controller}/odom'),
+            (messages.CommandMessage(), Twist, f'{controller}/cmd_vel_out'),
+            (messages.ImuMessage(), Imu, f'{namespace}imu/data'),
+            (messages.JointStateMessage(), JointState, f'{namespace}joint_states'),
         ]
-        self.odometry_topics = [
-            publisher.topic_name
+        self._collision_publisher: Publisher | None = None
+        if not as_real:
+            truth = messages.GroundTruthMessage()
+            rest.append((truth, Odometry, f'{namespace}ground_truth/odom'))
+            self._collision_publisher = node.create_publisher(
+                DiagnosticStatus, f'{namespace}collisions', QOS
+            )
+        self._rest: list[tuple[Any, Publisher]] = [
+            (message, node.create_publisher(kind, topic, QOS)) for message, kind, topic in rest
+        ]
+        self._odometry: list[Publisher] = [
+            publisher
             for message, publisher in ((self._filtered, self.filtered_publisher), *self._rest)
             if publisher is not None and isinstance(message, messages.OdometryMessage)
         ]
+        self.odometry_topics = [publisher.topic_name for publisher in self._odometry]
         self._read = self._rest  # those of them that have subscriptions
         self._count_again_sec = 0.0
-        self._collision_publisher = node.create_publisher(
-            DiagnosticStatus, f'{namespace}collisions', QOS
-        )
         self._sensors = SensorTopics(node, simulation, robot, namespace, QOS, form)
         self._transforms = TransformTopics(
             node, namespace, localization=self.filtered_publisher is not None
@@ -167,14 +173,20 @@ class RobotTopics:
 
     def publish_collision(self, touch: Collision) -> None:
         """Publish one collision."""
-        self._collision_publisher.publish(messages.new_collision(touch))
+        if self._collision_publisher is not None:
+            self._collision_publisher.publish(messages.new_collision(touch))
 
     def has_driver(self) -> bool:
         """Return whether the odometry has a subscription and the commands have a publisher."""
-        return (
-            self.filtered_publisher.get_subscription_count() > 0
-            and self.command_subscription.get_publisher_count() > 0
-        )
+        return self.is_commanded() and self.filtered_publisher.get_subscription_count() > 0
+
+    def is_followed(self) -> bool:
+        """Return whether any odometry has a subscription."""
+        return any(publisher.get_subscription_count() for publisher in self._odometry)
+
+    def is_commanded(self) -> bool:
+        """Return whether the commands have a publisher."""
+        return self.command_subscription.get_publisher_count() > 0
 
     def close(self) -> None:
         """Release what the node does not own; may be called twice."""

@@ -43,7 +43,7 @@ class Run(Protocol):
 
     def pause(self, paused: bool) -> None: ...
 
-    def step(self) -> None: ...
+    def advance(self) -> None: ...
 
     def reset(self) -> None: ...
 
@@ -70,7 +70,7 @@ class ControlServices:
     def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success = self._run.paused
         if self._run.paused:
-            self._run.step()
+            self._run.advance()
             response.message = f'stepped to {self._now()}'
         else:
             response.message = 'a step needs a paused simulation; call ~/pause with true first'
@@ -181,5 +181,5 @@ class SimulationServices:
                 f'steps={request.steps}: 1 to {MOST_STEPS} are allowed; call again for more',
             )
         for _ in range(request.steps):
-            self._run.step()
+            self._run.advance()
         return self._answer(response, self._result.RESULT_OK)

@@ -20,6 +20,7 @@ class SimulationTopics:
     :param on_command: called after every command was taken.
     :param on_commander: called with a topic of commands when a publisher of it comes or goes, and
         with how many there were at the same time.
+    :param as_real: publish only what a real robot measures: no true pose, no collisions.
     """
 
     def __init__(
@@ -29,6 +30,7 @@ class SimulationTopics:
         *,
         on_command: Callable[[], None],
         on_commander: Callable[[str, int], None],
+        as_real: bool = False,
     ) -> None:
         self._node = node
         self._simulation = simulation
@@ -43,6 +45,7 @@ class SimulationTopics:
                 on_command,
                 self._form,
                 on_commander=on_commander,
+                as_real=as_real,
             )
             for robot in simulation.robots
         ]
@@ -65,6 +68,16 @@ class SimulationTopics:
     def has_drivers(self) -> bool:
         """Whether every robot's odometry has a subscription, and its commands a publisher."""
         return all(topics.has_driver() for topics in self._robots)
+
+    @property
+    def has_followers(self) -> bool:
+        """Whether any odometry of every robot has a subscription."""
+        return all(topics.is_followed() for topics in self._robots)
+
+    @property
+    def has_commanders(self) -> bool:
+        """Whether the commands of every robot have a publisher."""
+        return all(topics.is_commanded() for topics in self._robots)
 
     @property
     def commanded(self) -> bool:
