@@ -52,7 +52,7 @@ def test_what_is_no_number_is_not_shown(bar: bool) -> None:
 
 def test_a_tally_counts_to_the_last_file() -> None:
     stream = StringIO()
-    tally = Tally(30, stream, bar=False)
+    tally = Tally(30, stream, '', bar=False)
     for number in range(30):
         tally.add(f's{number} 100.0')
     assert stream.getvalue().splitlines()[-1] == '30 of 30  s29 100.0'

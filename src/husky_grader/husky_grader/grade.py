@@ -20,6 +20,7 @@ from husky_grader.batch.tables import table, write_csv
 from husky_grader.grading import Grade, grade_file
 from husky_grader.playpen import default_course
 from husky_grader.report.files import as_json, summary, write_report
+from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
 
 PASSED, NOT_PASSED, INTERRUPTED = 0, 1, 130
@@ -50,7 +51,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar='F',
         type=float,
         default=1.0,
-        help='how fast the time of a controller passes (1.0)',
+        help='how fast time passes for a controller with a clock of its own (1.0)',
     )
     parser.add_argument('--robot', metavar='NAME', help='which robot of the record')
     parser.add_argument(
@@ -74,6 +75,8 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER')
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
+    if not options.real_time_factor > 0.0:
+        parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
     if options.jobs < 0:
         parser.error(f'--jobs {options.jobs}: give a number above 0')
     try:
@@ -119,20 +122,42 @@ def _grade_controller(options: argparse.Namespace) -> int:
     from husky_grader.run.live import drive_live  # rclpy and the simulator take their time
 
     begun, folder = time.monotonic(), Path(options.report)
-    route = plan_route(load_course(options.waypoints or default_course()))
-    live = drive_live(
-        options.controller,
-        route,
-        folder,
-        world=options.world,
-        answers=_answer_lines(options.answers),
-        real_time_factor=options.real_time_factor,
-    )
+    waypoints = options.waypoints or str(default_course())
+    route = plan_route(load_course(waypoints))
+    with WaypointTally(len(route.course.stops) - 1) as tally:
+        live = drive_live(
+            options.controller,
+            waypoints,
+            folder,
+            world=options.world,
+            answers=_answer_lines(options.answers),
+            real_time_factor=options.real_time_factor,
+            on_progress=tally.show,
+        )
     run = read_run(live.record)
     report = live.with_notes(judge(run, route, wall_time_sec=time.monotonic() - begun))
-    text = f'{summary(report)}\n  the run ended: {live.ending}'
-    grade = Grade(options.controller, as_json(report), text)
+    grade = Grade(options.controller, as_json(report), summary(report))
     return _show_one(grade, options, _write(folder, report, run, route))
+
+
+class WaypointTally:
+    """Counts the waypoints of a live run on the terminal."""
+
+    def __init__(self, waypoints: int) -> None:
+        self._left = waypoints
+        self._tally = Tally(waypoints, sys.stderr, 'the simulator starts', bar=sys.stderr.isatty())
+
+    def __enter__(self) -> 'WaypointTally':
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._tally.close()
+
+    def show(self, told: Told) -> None:
+        """Show how far the run has come."""
+        for _ in range(self._left - told.waypoints_left):
+            self._tally.add(f'waypoints, {told.time_sec:.0f} s of simulated time')
+        self._left = told.waypoints_left
 
 
 def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
@@ -194,7 +219,7 @@ def _grade_many(options: argparse.Namespace) -> int:
 
     folder = Path(options.report)
     folder.mkdir(parents=True, exist_ok=True)
-    tally = Tally(len(options.files), sys.stderr, bar=sys.stderr.isatty())
+    tally = Tally(len(options.files), sys.stderr, 'the workers start', bar=sys.stderr.isatty())
     batch = BatchGrader(
         options.files,
         folder,

@@ -12,8 +12,6 @@ import subprocess
 import sys
 import time
 
-from husky_course.route import plan_route
-from husky_course.waypoints import parse_course
 from husky_grader.grade import main as grade
 from husky_grader.lab.file_steps import (
     build_step,
@@ -231,6 +229,7 @@ def test_a_hook_that_breaks_the_shell_is_told(
 def test_a_daemon_of_a_controller_ends_with_the_run(tmp_path: Path) -> None:
     pids, program = tmp_path / 'pids', tmp_path / 'controller.py'
     program.write_text(daemon(pids))
-    route = plan_route(parse_course('waypoints: [[0, 0], [-2, 0]]'))
-    drive_live(f'{sys.executable} {program}', route, tmp_path / 'run')
+    course = tmp_path / 'course.yaml'
+    course.write_text('waypoints: [[0, 0], [-2, 0]]')
+    drive_live(f'{sys.executable} {program}', str(course), tmp_path / 'run')
     assert running([int(pid) for pid in pids.read_text().split()]) == []

@@ -258,30 +258,6 @@ def test_a_node_that_drives_to_the_end_and_stops_passes(tmp_path: Path) -> None:
     assert grade(arguments) == 0
 
 
-NOWHERE = """
-from nav_msgs.msg import Odometry
-pose = Odometry()
-pose.pose.pose.orientation.w = 1.0
-pose.pose.pose.position.x = float('nan')
-drive(node.create_publisher(Odometry, '/ground_truth/odom', 10), pose, 20)
-"""
-
-
-@pytest.mark.usefixtures('graph')
-def test_a_run_that_spoils_the_true_pose_ends_and_says_so(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    course, student = tmp_path / 'course.yaml', tmp_path / 'student.py'
-    course.write_text('waypoints: [[0, 0], [1, 0]]\n')
-    student.write_text(PREAMBLE + NOWHERE)
-    arguments = ['--controller', f'{sys.executable} {student}', '--waypoints', str(course)]
-    assert grade([*arguments, '--report', str(tmp_path / 'report')]) == 1
-    assert (
-        'the run ended: /ground_truth/odom cannot be true: its x is nan m; 2 nodes publish it'
-        in capfd.readouterr().out
-    )
-
-
 @pytest.mark.usefixtures('graph')
 def test_the_sheet_s_questions_can_be_answered_for_a_controller(tmp_path: Path) -> None:
     course = tmp_path / 'course.yaml'

@@ -60,13 +60,13 @@ def make_progress(mode: str, line: Callable[[str], None]) -> Progress:
 class Tally:
     """Counts files: one bar on a terminal, else a line every 10 %."""
 
-    def __init__(self, total: int, stream: TextIO, *, bar: bool) -> None:
+    def __init__(self, total: int, stream: TextIO, begun: str, *, bar: bool) -> None:
         self._total = total
         self._stream = stream
         self._bar = bar
         self._count = 0
         if bar:
-            self._show('the workers start')
+            self._show(begun)
 
     def add(self, note: str) -> None:
         """Count one more, and show the note about it."""

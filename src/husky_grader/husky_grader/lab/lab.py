@@ -63,7 +63,7 @@ def grade_lab(
         program = find_executable(folder, driver_package(workspace), 'follow_path')
         live = drive_live(
             str(program),
-            route,
+            route.course.file,
             folder / 'drive',
             answers=answers,
             environment=environment,

@@ -8,7 +8,7 @@ from husky_course.route import Point, Route
 from husky_course.waypoints import Course
 from husky_driver.drive import NEARER_M, TimeLimit
 
-START_WITHIN_SEC = 20.0  # from when its process started
+START_WITHIN_SEC = 10.0  # from when time began to pass: before, it was waited for
 REST_SEC = 8.0  # a robot that stands so long is not going on (beside a dwell of the course), ...
 REST_AT_END_SEC = 2.0  # ... or so long at the end of the course, ...
 REST_ALONE_SEC = 1.0  # ... or when the controller has ended
@@ -65,6 +65,11 @@ class Referee:
         )
 
     @property
+    def waypoints_left(self) -> int:
+        """How many waypoints the robot has not been at, in whatever order, beside the first."""
+        return self._progress.left
+
+    @property
     def _rest_sec(self) -> float:
         return self._now_sec - self._resting_since_sec
 
@@ -114,6 +119,11 @@ class _Progress:
         self._visited = set[int]()  # those the robot has not been away from since a visit
         self._least_m = [math.inf] * len(self._places)
         self._begun = False
+
+    @property
+    def left(self) -> int:
+        """How many waypoints are left, beside the first, where the robot starts."""
+        return len(self._left - {0})
 
     def is_nearer(self, place: Point) -> bool:
         """Take the robot's place; give it every one, in order."""

@@ -58,6 +58,8 @@ class Report(Measurement):
     score: float
     parts: tuple[Part, ...]
     reasons: tuple[str, ...]  # what went wrong; empty for a good run
+    ending: str = ''  # of a controller's run: why it was over
+    pace: str = ''  # and how its time passed
 
     @property
     def passed(self) -> bool:

@@ -1,0 +1,128 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Graded runs of controllers of every kind, as real processes over real DDS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import json
+from pathlib import Path
+import subprocess
+import sys
+
+from husky_grader.run.live import drive_live, LiveRun
+from husky_grader.run.told import Told
+import pytest
+
+COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n'
+FOLLOW_PATH = f'{sys.executable} -m husky_driver.follow_path --waypoints'
+NODE = """
+import json, sys, rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+rclpy.init()
+node = Node('student')
+publisher = node.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+message = Twist()
+message.linear.x = 0.5
+"""
+BY_TIMER = (
+    NODE
+    + """
+def on_timer():
+    if node.get_clock().now().nanoseconds > 2e9:
+        sys.exit()
+    publisher.publish(message)
+node.create_subscription(Odometry, 'odometry/filtered', lambda _: None, 10)
+node.create_timer(0.1, on_timer)
+rclpy.spin(node)
+"""
+)
+BY_SLEEPING = (
+    NODE
+    + """
+import time
+for _ in range(20):
+    publisher.publish(message)
+    time.sleep(0.1)
+"""
+)
+LOOKS_ROUND = (
+    NODE
+    + """
+def on_odometry(_):
+    topics = dict(node.get_topic_names_and_types())
+    services = [name for name, _ in node.get_service_names_and_types()]
+    print('seen', json.dumps([list(topics), services]), flush=True)
+    sys.exit()
+node.create_subscription(Odometry, 'odometry/filtered', on_odometry, 10)
+rclpy.spin(node)
+"""
+)
+OF_A_ROBOT = {
+    *('/clock', '/imu/data', '/joint_states', '/navsat/fix', '/odometry/filtered', '/e_stop'),
+    *('/husky_velocity_controller/odom', '/husky_velocity_controller/cmd_vel'),
+    *('/husky_velocity_controller/cmd_vel_out', '/diagnostics', '/tf', '/tf_static'),
+    *('/rosout', '/parameter_events'),
+}
+
+
+@pytest.fixture
+def course(tmp_path: Path, courses: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Return a course; let the processes of a test find each other, and what they import."""
+    monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(courses.parent / 'fastdds.xml'))
+    file = tmp_path / 'course.yaml'
+    file.write_text(COURSE)
+    return str(file)
+
+
+@contextmanager
+def busy_machine() -> Iterator[None]:
+    spinning = [subprocess.Popen([sys.executable, '-c', 'while True: pass']) for _ in range(4)]
+    try:
+        yield
+    finally:
+        for process in spinning:
+            process.kill()
+            process.wait()
+
+
+def driven(program: str, course: str, folder: Path) -> LiveRun:
+    folder.mkdir()
+    student = folder / 'student.py'
+    student.write_text(program)
+    return drive_live(f'{sys.executable} {student}', course, folder)
+
+
+def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_path: Path) -> None:
+    told: list[Told] = []
+    quiet = drive_live(f'{FOLLOW_PATH} {course}', course, tmp_path / 'a', on_progress=told.append)
+    with busy_machine():
+        busy = drive_live(f'{FOLLOW_PATH} {course}', course, tmp_path / 'b')
+    assert quiet.pace == busy.pace == 'in lockstep: each odometry message waited for its command'
+    assert quiet.record.rows.tobytes() == busy.record.rows.tobytes()
+    assert quiet.ending == busy.ending
+    assert told[-1].waypoints_left == 0, 'its progress should be told'
+
+
+@pytest.mark.parametrize('program', [BY_TIMER, BY_SLEEPING], ids=['timer', 'sleeping'])
+def test_one_with_a_clock_of_its_own_drives_in_simulated_time(
+    course: str, tmp_path: Path, program: str
+) -> None:
+    run = driven(program, course, tmp_path / 'run')
+    assert run.pace == 'by its own clock, at 1 x real time at most'
+    x = run.record.column(0, 'x')
+    assert 0.8 < abs(x[-1] - x[0]) < 1.3, 'it should be half a metre a second for two seconds'
+
+
+def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Path) -> None:
+    driven(LOOKS_ROUND, course, tmp_path / 'run')
+    log = (tmp_path / 'run' / 'controller.log').read_text()
+    assert 'seen ' in log, log
+    topics, services = json.loads(log.partition('seen ')[2].splitlines()[0])
+    assert set(topics) <= OF_A_ROBOT
+    assert [name for name in services if not name.startswith('/student/')] == []
