@@ -62,9 +62,12 @@ def is_over(simulator: SimulatorNode) -> bool:
     return bool(simulator.over.done())
 
 
-def test_simulated_time_is_limited(domain_id: int) -> None:
+def test_simulated_time_is_limited_to_the_period(
+    domain_id: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pace, '_TURN_SEC', 0.5)  # to be over in the middle of a turn
     simulator = run_until(domain_id, is_over, real_time_factor=0.0, limit_sec=2.0)
-    assert simulator.simulation.time_sec == pytest.approx(2.0, abs=1.0)
+    assert simulator.simulation.time_sec == pytest.approx(2.0, abs=1e-6)
 
 
 def test_without_a_limit_it_goes_on(domain_id: int) -> None:

@@ -157,7 +157,9 @@ class SimulatorNode(Node):
         self._topics.publish()
 
     def advance(self) -> None:
-        """Advance by one control period and publish it."""
+        """Advance by one control period and publish it, unless the run is over."""
+        if self.over.done():
+            return
         self._topics.forget_commands()
         self.simulation.advance()
         if self._record is not None:
