@@ -4,18 +4,16 @@
 
 from collections.abc import Sequence
 import csv
-from itertools import count
 from pathlib import Path
-import re
 
 from husky_course.files import replacing
 from husky_course.printable import printable
 
 from husky_grader.grading import Grade
 from husky_grader.report.files import REPORT_FILES
+from husky_grader.submission.names import folder_names
 
 _OUR_FILES = ('grades.csv', '.grades.part.csv', *REPORT_FILES)
-_LONGEST_NAME = 100  # bytes
 
 COLUMNS = (
     *('file', 'score', 'passed', 'completed', 'waypoints_reached', 'waypoints_total'),
@@ -26,29 +24,8 @@ COLUMNS = (
 
 def names_of(files: Sequence[str]) -> list[str]:
     """Return for each file the name of a folder of its own: short, and harmless everywhere."""
-    stems = [Path(file).stem for file in files]
-    if len(set(stems)) < len(stems):
-        paths = [Path(file).absolute() for file in files]
-        parts = [(*path.parent.parts[1:], path.stem) for path in paths]
-        depth = 1
-        while depth < max(map(len, parts)) and len({p[-depth:] for p in parts}) < len(parts):
-            depth += 1
-        stems = ['_'.join(p[-depth:]) for p in parts]
-    taken = {name.casefold() for name in _OUR_FILES}
-    return [_unique(_harmless(stem), taken) for stem in stems]
-
-
-def _harmless(stem: str) -> str:
-    name = re.sub(r'[^\w .+()=,@-]', '_', stem, flags=re.UNICODE).strip(' .')
-    return name.encode()[:_LONGEST_NAME].decode(errors='ignore') or 'unnamed'
-
-
-def _unique(name: str, taken: set[str]) -> str:
-    """Add a number where another file, or one of ours, has the name; case does not count."""
-    numbered = (name if number == 1 else f'{name}_{number}' for number in count(1))
-    free = next(candidate for candidate in numbered if candidate.casefold() not in taken)
-    taken.add(free.casefold())
-    return free
+    places = [path.parent / path.stem for path in map(Path, files)]
+    return folder_names(places, taken=_OUR_FILES)
 
 
 def table(names: Sequence[str], grades: Sequence[Grade]) -> str:

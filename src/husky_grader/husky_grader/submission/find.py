@@ -1,0 +1,128 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Find the submissions in what a teaching assistant has: files, folders and exports of an LMS."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+import re
+
+from husky_grader.submission.canvas import canvas_submissions
+from husky_grader.submission.git import is_bare
+from husky_grader.submission.gradescope import gradescope_submissions
+from husky_grader.submission.limits import FOLDERS_OF_COLCON, Refused
+from husky_grader.submission.listing import (
+    FolderListing,
+    listed_zip,
+    Listing,
+    submission_at,
+    visible,
+)
+from husky_grader.submission.moodle import moodle_submissions
+from husky_grader.submission.names import folder_names, without_ending
+from husky_grader.submission.submission import Submission
+
+# Also what ssh takes: user@host:path.
+_URL = re.compile(r'[a-z][a-z0-9+.-]*://.*|[\w.-]+@[\w.-]+:.*', re.IGNORECASE)
+
+
+def find_submissions(given: Sequence[str]) -> list[Submission]:
+    """
+    Return the submissions in files, folders and exports, in the order given, then of their names.
+
+    What cannot be taken is among them, with the reason in `refused`. Of several of one student of
+    an LMS the newest is returned, and says which it replaces.
+
+    :param given: paths: one submission, a folder of submissions, or an export of Moodle, Canvas or
+        Gradescope, as a zip or unpacked.
+    """
+    found = _newest([each for one in given for each in _found_in(one)])
+    names = folder_names([each.source.parent / each.id for each in found])
+    return [replace(each, id=name) for each, name in zip(found, names, strict=True)]
+
+
+def _found_in(given: str) -> list[Submission]:
+    path = Path(given)
+    refused = ''
+    try:
+        if path.is_dir():
+            return _in_folder(path if path.name not in ('', '..') else path.resolve())
+        if path.is_file():
+            return _in_file(path)
+        if _URL.fullmatch(given):
+            refused = 'a URL; clone it with git first, and give the clone'
+        else:
+            refused = 'no file and no folder' if path.exists() else 'no such file or folder'
+    except (OSError, ValueError) as error:  # ValueError: a NUL byte in the path
+        refused = getattr(error, 'strerror', None) or str(error)
+    return [Submission(without_ending(path.name) or given, path, 'unknown', refused=refused)]
+
+
+def _in_file(path: Path) -> list[Submission]:
+    one = submission_at(path.resolve() if path.is_symlink() else path, without_ending(path.name))
+    if one.kind == 'zip':
+        try:
+            with listed_zip(path) as listing:
+                return _in_export(listing) or [one]
+        except Refused:  # unpacking it says why
+            pass
+    return [one]
+
+
+def _in_folder(folder: Path) -> list[Submission]:
+    names = visible(folder)
+    children = [folder / name for name in names]
+    if found := _in_export(FolderListing(folder)):
+        return found
+    if (folder / '.git').exists() or is_bare(folder) or _is_workspace(children):
+        return [submission_at(folder)]
+    if len(children) == 1 and children[0].is_dir() and not children[0].is_symlink():
+        inside = _in_export(FolderListing(children[0]))
+        if inside:
+            return inside
+    if not children:
+        return [Submission(folder.name, folder, 'folder', refused='an empty folder')]
+    return [submission_at(child) for child in children]
+
+
+def _is_workspace(children: Sequence[Path]) -> bool:
+    """Tell a workspace, a package or a folder of packages from a folder of submissions."""
+    if any(child.name in ('src', 'package.xml') for child in children):
+        return True
+    folders = [
+        child for child in children if child.is_dir() and child.name not in FOLDERS_OF_COLCON
+    ]
+    return bool(folders) and all((folder / 'package.xml').exists() for folder in folders)
+
+
+def _in_export(listing: Listing) -> list[Submission]:
+    """Return the submissions in an export; none where it is no export."""
+    tops: dict[str, list[str]] = {}
+    for name in listing.names:
+        tops.setdefault(name.partition('/')[0], []).append(name)
+    return (
+        gradescope_submissions(listing, tops)
+        or moodle_submissions(listing, tops)
+        or canvas_submissions(listing, tops)
+    )
+
+
+def _newest(found: Sequence[Submission]) -> list[Submission]:
+    """Drop what a newer submission of the same student replaces; of equal ones the later is."""
+    newest: dict[tuple[str, str], int] = {}
+    dropped: set[int] = set()
+    notes: dict[int, list[str]] = {}
+    for number, each in enumerate(found):
+        if each.user:
+            other = newest.setdefault((each.lms, each.user), number)
+            old, new = sorted((other, number), key=lambda n: (found[n].attempt, n))
+            if old != new:
+                newest[each.lms, each.user] = new
+                dropped.add(old)
+                text = f'replaces an older one: {found[old].id} in {found[old].source.name}'
+                notes.setdefault(new, []).extend([*notes.pop(old, []), text])
+    return [
+        replace(each, notes=(*each.notes, *notes.get(number, ())))
+        for number, each in enumerate(found)
+        if number not in dropped
+    ]

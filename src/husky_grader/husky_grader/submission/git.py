@@ -1,0 +1,81 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A bare git repository as the tar of its last commit; no hook or setting of it is obeyed."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import subprocess
+from tempfile import TemporaryDirectory
+from threading import Timer
+from typing import IO
+
+from husky_grader.submission.limits import Refused
+
+_GIT_WITHIN_SEC = 60.0  # wall time of each call
+
+
+def is_bare(folder: Path) -> bool:
+    """Tell whether a folder is a bare repository."""
+    return (folder / 'HEAD').is_file() and all(
+        (folder / name).is_dir() for name in ('objects', 'refs')
+    )
+
+
+@contextmanager
+def tar_of(repository: Path) -> Iterator[IO[bytes]]:
+    """
+    Give the tar of the commit that HEAD names.
+
+    Git runs in a clone, which has neither settings nor hooks of the repository: see
+    `git clone --no-local` in gitsecurityboundary(7), and SECURITY in git(1).
+
+    :raises Refused: when git cannot read it, or takes too long.
+    """
+    with TemporaryDirectory() as folder:
+        clone = Path(folder, 'clone')
+        place = str(repository.absolute())
+        _run('clone', '--quiet', '--bare', '--no-local', '--depth=1', '--', place, str(clone))
+        _run('-C', str(clone), 'rev-parse', '--quiet', '--verify', 'HEAD^{commit}')
+        with subprocess.Popen(
+            ['git', '-C', str(clone), 'archive', '--format=tar', 'HEAD'],
+            env=_environment(),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+        ) as git:
+            watch = Timer(_GIT_WITHIN_SEC, git.kill)
+            watch.start()
+            try:
+                if git.stdout is not None:
+                    yield git.stdout
+            finally:
+                watch.cancel()
+                git.kill()  # what is left is not read
+
+
+def _run(*arguments: str) -> None:
+    try:
+        done = subprocess.run(
+            ['git', *arguments],
+            env=_environment(),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors='replace',
+            timeout=_GIT_WITHIN_SEC,
+        )
+    except FileNotFoundError:
+        raise Refused('a bare repository, and git is not installed here; install git') from None
+    except subprocess.TimeoutExpired:
+        raise Refused(f'git takes more than {_GIT_WITHIN_SEC:g} s; hand in a zip') from None
+    if done.returncode != 0:
+        said = done.stderr.strip().splitlines() or ['there is no commit']
+        raise Refused(f'git cannot read it ({said[-1]}); push a commit, or hand in a zip')
+
+
+def _environment() -> dict[str, str]:
+    """Return an environment in which git takes no other repository, and asks nobody."""
+    plain = {name: value for name, value in os.environ.items() if not name.startswith('GIT_')}
+    return {**plain, 'GIT_TERMINAL_PROMPT': '0', 'GIT_NO_LAZY_FETCH': '1', 'LC_ALL': 'C'}

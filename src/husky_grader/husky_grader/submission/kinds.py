@@ -1,0 +1,43 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a file is, by its content and not by its name."""
+
+from typing import Literal
+
+Kind = Literal['folder', 'git', 'zip', 'tar', 'yaml', 'unknown']
+
+HEAD_BYTES = 512
+TAKEN = 'zip, tar (also .gz, .bz2, .xz), a folder, a git clone or a waypoint file (.yaml)'
+
+# An empty zip has only the record of its end (APPNOTE.TXT 6.3.10, section 4.3.16).
+_ZIP = (b'PK\x03\x04', b'PK\x05\x06')
+GZIP, BZIP2, XZ = b'\x1f\x8b', b'BZh', b'\xfd7zXZ\x00'
+_USTAR_AT = 257  # POSIX.1-2001, pax: the field magic of a header
+_NOT_TAKEN = {
+    b'Rar!\x1a\x07': 'a RAR archive',
+    b"7z\xbc\xaf'\x1c": 'a 7z archive',
+    b'\x28\xb5\x2f\xfd': 'compressed with Zstandard',
+    b'%PDF': 'a PDF',
+}
+
+
+def kind_of(head: bytes, name: str) -> Kind:
+    """
+    Return what a file is.
+
+    :param head: its first HEAD_BYTES bytes, fewer of a shorter file.
+    """
+    if head.startswith(_ZIP):
+        return 'zip'
+    if head.startswith((GZIP, BZIP2, XZ)) or head[_USTAR_AT:].startswith(b'ustar'):
+        return 'tar'
+    if name.lower().endswith(('.yaml', '.yml')):
+        return 'yaml'
+    return 'unknown'
+
+
+def why_not(head: bytes) -> str:
+    """Return in one line why a file of kind unknown cannot be taken."""
+    known = (text for start, text in _NOT_TAKEN.items() if head.startswith(start))
+    what = 'empty' if not head else next(known, 'no archive that is known here')
+    return f'{what}; hand in {TAKEN}'

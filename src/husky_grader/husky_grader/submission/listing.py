@@ -1,0 +1,153 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What lies in an export of an LMS: a folder that was unpacked, or the zip itself."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Protocol
+import zipfile
+
+from husky_grader.submission.archives import opened_zip
+from husky_grader.submission.entries import is_left_out, refusing_what_is_broken
+from husky_grader.submission.git import is_bare
+from husky_grader.submission.kinds import HEAD_BYTES, Kind, kind_of, why_not
+from husky_grader.submission.limits import Refused
+from husky_grader.submission.names import without_ending
+from husky_grader.submission.submission import Submission
+
+
+class Listing(Protocol):
+    """The names in an export, and submissions made of them."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Its paths: of a folder what is directly in it, of a zip all files."""
+
+    def read(self, name: str, most: int) -> bytes:
+        """
+        Return the first bytes of a file.
+
+        :raises Refused: when it cannot be read.
+        """
+
+    def submission(self, files: Sequence[tuple[str, str]], name: str) -> Submission:
+        """
+        Return the submission that some of the files are.
+
+        :param files: names here, and the paths that they had where they were handed in.
+        :param name: what its id is made of.
+        """
+
+
+class FolderListing:
+    """An export that was unpacked."""
+
+    def __init__(self, folder: Path) -> None:
+        """
+        List it.
+
+        :raises Refused: when it cannot be read.
+        """
+        self._folder = folder
+        self.names = visible(folder)
+
+    def read(self, name: str, most: int) -> bytes:
+        return _head(self._folder / name, most)
+
+    def submission(self, files: Sequence[tuple[str, str]], name: str) -> Submission:
+        if len(files) > 1:
+            return Submission(name, self._folder, 'folder', files=tuple(files))
+        one = submission_at(self._folder / files[0][0], name)
+        if one.kind in ('folder', 'git'):
+            return one
+        return replace(one, source=self._folder, files=tuple(files))
+
+
+class ZipListing:
+    """An export as it was downloaded; a folder around all of it is left out."""
+
+    def __init__(self, path: Path, archive: zipfile.ZipFile) -> None:
+        self._path = path
+        self._archive = archive
+        names = [
+            name
+            for name in archive.namelist()
+            if not name.endswith('/') and not any(map(is_left_out, name.split('/')))
+        ]
+        around = {name.partition('/')[0] for name in names}
+        nested = all('/' in name for name in names)
+        self._around = f'{around.pop()}/' if len(around) == 1 and nested else ''
+        self.names = sorted(name.removeprefix(self._around) for name in names)
+
+    def read(self, name: str, most: int) -> bytes:
+        with refusing_what_is_broken(), self._archive.open(self._around + name) as file:
+            return file.read(most)
+
+    def submission(self, files: Sequence[tuple[str, str]], name: str) -> Submission:
+        placed = tuple((self._around + given, path) for given, path in files)
+        if len(files) > 1:
+            return Submission(name, self._path, 'folder', files=placed)
+        given, path = files[0]
+        try:
+            head = self.read(given, HEAD_BYTES)
+        except Refused as error:
+            return Submission(name, self._path, 'unknown', files=placed, refused=str(error))
+        kind = kind_of(head, path)
+        if kind == 'unknown' and '/' in path:
+            kind = 'folder'
+        refused = why_not(head) if kind == 'unknown' else ''
+        return Submission(name, self._path, kind, files=placed, refused=refused)
+
+
+@contextmanager
+def listed_zip(path: Path) -> Iterator[ZipListing]:
+    """
+    Open the listing of a zip.
+
+    :raises Refused: when it is broken.
+    """
+    with refusing_what_is_broken():
+        file = path.open('rb', buffering=0)
+    with file, opened_zip(file) as archive:
+        yield ZipListing(path, archive)
+
+
+def visible(folder: Path) -> list[str]:
+    """
+    Return the names in a folder that people see, in order.
+
+    :raises Refused: when it cannot be read.
+    """
+    with refusing_what_is_broken():
+        names = [path.name for path in folder.iterdir()]
+    return sorted(n for n in names if not (is_left_out(n) or n.startswith('.')))
+
+
+def submission_at(path: Path, name: str = '') -> Submission:
+    """Return the submission that a file or a folder is; without a name it has its own."""
+    kind: Kind = 'unknown'
+    refused = ''
+    try:
+        if path.is_symlink():
+            refused = 'a link; give what it leads to'
+        elif path.is_dir():
+            kind = 'git' if (path / '.git').exists() or is_bare(path) else 'folder'
+            name = name or path.name
+        elif path.is_file():
+            head = _head(path, HEAD_BYTES)
+            kind = kind_of(head, path.name)
+            refused = why_not(head) if kind == 'unknown' else ''
+        else:
+            refused = 'no file and no folder'
+    except OSError as error:
+        refused = f'it cannot be read: {error.strerror}'
+    except Refused as error:
+        refused = str(error)
+    return Submission(name or without_ending(path.name), path, kind, refused=refused)
+
+
+def _head(path: Path, most: int) -> bytes:
+    with refusing_what_is_broken(), path.open('rb') as file:
+        return file.read(most)

@@ -1,0 +1,54 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Names of folders for what others have named: unique, short, and harmless everywhere."""
+
+from collections.abc import Iterable, Sequence
+from itertools import count
+from pathlib import Path
+import re
+
+_LONGEST_NAME = 100  # bytes
+_ENDINGS = re.compile(r'(?<=.)(\.tar)?\.(zip|tar|t[gbx]z|tbz2|gz|bz2|xz|ya?ml)$', re.IGNORECASE)
+
+
+def folder_names(places: Sequence[Path], *, taken: Iterable[str] = ()) -> list[str]:
+    """
+    Return for each place the name of a folder of its own.
+
+    It is the last part of the place; where several places have the same, also the parts above it.
+
+    :param taken: names that are given already; upper and lower case are the same.
+    """
+    names = [place.name for place in places]
+    if len(set(names)) < len(names):
+        parts = [place.absolute().parts[1:] for place in places]
+        depth = 1
+        while depth < max(map(len, parts)) and len({p[-depth:] for p in parts}) < len(parts):
+            depth += 1
+        names = ['_'.join(p[-depth:]) for p in parts]
+    folded = {name.casefold() for name in taken}
+    return [_unique(harmless(name), folded) for name in names]
+
+
+def harmless(name: str) -> str:
+    """Return a name that every file system takes, and that hides no file."""
+    name = re.sub(r'[^\w .+()=,@-]', '_', name, flags=re.UNICODE).strip(' .')
+    return name.encode()[:_LONGEST_NAME].decode(errors='ignore') or 'unnamed'
+
+
+def without_ending(name: str) -> str:
+    """
+    Return the name of a file without the ending of an archive or of a waypoint file.
+
+    >>> without_ending('CSE461_07_03.tar.gz')
+    'CSE461_07_03'
+    """
+    return _ENDINGS.sub('', name)
+
+
+def _unique(name: str, taken: set[str]) -> str:
+    """Add a number where another one has the name; case does not count."""
+    numbered = (name if number == 1 else f'{name}_{number}' for number in count(1))
+    free = next(candidate for candidate in numbered if candidate.casefold() not in taken)
+    taken.add(free.casefold())
+    return free

@@ -1,0 +1,136 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Find the workspace, or the waypoint file, in what was unpacked, and give it its place."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+import shutil
+from typing import Literal
+
+from husky_grader.submission.kinds import HEAD_BYTES, kind_of
+from husky_grader.submission.limits import FOLDERS_OF_COLCON, Refused
+from husky_grader.submission.names import harmless
+from husky_grader.submission.tree import common_start, Parts, shown, TreeWriter
+
+_MANIFEST = 'package.xml'
+_HAND_IN = 'hand in the workspace, with your packages in src'
+_MOST_SHOWN = 5
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """What was handed in, unpacked: plain files and folders only."""
+
+    path: Path  # the workspace, with src in it; or the waypoint file
+    kind: Literal['workspace', 'waypoints']
+    handed: Literal['workspace', 'packages', 'package', 'file']  # how much of it they gave
+    notes: tuple[str, ...] = ()  # what was left out, a line each
+
+
+@dataclass(frozen=True)
+class _Root:
+    """The folder in a tree that is taken, and what it becomes."""
+
+    parts: Parts
+    handed: Literal['workspace', 'packages', 'package']
+
+
+def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspace:
+    """
+    Move the workspace out of what was written; an older one of its name is replaced.
+
+    :param staging: where the tree was written.
+    :param folder: where the workspace gets its place.
+    :param name: of the workspace, where the tree has no folder of its own around it.
+    :raises Refused: when there is none, more than one, or what is neither file nor folder in it.
+    """
+    if len(tree.files) == 1 and not tree.others and tree.files[0][-1] != _MANIFEST:
+        return _settle_file(tree.files[0], staging, folder)
+    root = _find_root(tree)
+    for parts, what in tree.others.items():
+        if _is_kept(parts, root):
+            raise _not_plain(parts, what)
+    left = sorted({_outermost(parts, root) for parts in tree.files if not _is_kept(parts, root)})
+    for each in left:
+        if each[: len(root.parts)] == root.parts:
+            shutil.rmtree(staging.joinpath(*each))
+    place = _cleared(folder / harmless(root.parts[-1] if root.parts else name))
+    if root.handed == 'workspace':
+        target = place
+    else:
+        target = place / 'src' / (place.name if root.handed == 'package' else '')
+        target.parent.mkdir(parents=True)
+    staging.joinpath(*root.parts).rename(target)
+    notes = (f'left out: {_listed(left)}',) if left else ()
+    return Workspace(place, 'workspace', root.handed, notes)
+
+
+def _settle_file(parts: Parts, staging: Path, folder: Path) -> Workspace:
+    path = staging.joinpath(*parts)
+    with path.open('rb') as file:
+        kind = kind_of(file.read(HEAD_BYTES), path.name)
+    if kind in ('zip', 'tar'):
+        raise Refused(f'only another archive is in it, {shown(parts)}; hand in that one')
+    if kind != 'yaml':
+        raise Refused(f'only {shown(parts)} is in it; {_HAND_IN}')
+    place = _cleared(folder / harmless(path.name))
+    path.rename(place)
+    return Workspace(place, 'waypoints', 'file')
+
+
+def _find_root(tree: TreeWriter) -> _Root:
+    """Return where the packages lie: beside each other in src, or without it."""
+    packages = [
+        parts[:-1] for parts in tree.files if parts[-1] == _MANIFEST and not _is_built(parts)
+    ]
+    if not packages:
+        for parts, what in tree.others.items():
+            raise _not_plain(parts, what)
+        found = _listed(sorted({parts[:1] for parts in tree.files}))
+        raise Refused(f'no package in it (no {_MANIFEST}), but: {found}; {_HAND_IN}')
+    roots = sorted({parts[: parts.index('src')] for parts in packages if 'src' in parts})
+    if len(roots) > 1:
+        raise Refused(f'{len(roots)} workspaces in it: {_listed(roots)}; hand in one')
+    if roots:
+        return _Root(roots[0], 'workspace')
+    if () in packages:
+        return _Root((), 'package')
+    return _Root(common_start([parts[:-1] for parts in packages]), 'packages')
+
+
+def _is_built(parts: Parts) -> bool:
+    """Tell whether something lies in what colcon has made beside src."""
+    outside = parts[: parts.index('src')] if 'src' in parts else parts
+    return any(part in FOLDERS_OF_COLCON for part in outside)
+
+
+def _is_kept(parts: Parts, root: _Root) -> bool:
+    """Tell whether something is in the root, and in no folder that colcon has made there."""
+    below = parts[len(root.parts) :]
+    made_by_colcon = len(below) > 1 and below[0] in FOLDERS_OF_COLCON
+    return parts[: len(root.parts)] == root.parts and not made_by_colcon
+
+
+def _outermost(parts: Parts, root: _Root) -> Parts:
+    """Return the folder nearest to the root's that has only what is left out."""
+    common = len(common_start([parts, root.parts]))
+    return parts[: common + 1]
+
+
+def _not_plain(parts: Parts, what: str) -> Refused:
+    return Refused(f'{shown(parts)} is {shown((what,))}; hand in files and folders only')
+
+
+def _listed(paths: Sequence[Parts]) -> str:
+    names = [shown(parts) or '.' for parts in paths[:_MOST_SHOWN]]
+    more = [f'{len(paths) - _MOST_SHOWN} more'] if len(paths) > _MOST_SHOWN else []
+    return ', '.join([*names, *more]) or 'nothing'
+
+
+def _cleared(place: Path) -> Path:
+    """Return the place, after what an earlier call has left there is gone."""
+    if place.is_dir():
+        shutil.rmtree(place)
+    place.unlink(missing_ok=True)
+    return place

@@ -1,0 +1,260 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What Moodle, Canvas and Gradescope give, and folders of many, become a list with names."""
+
+import io
+from pathlib import Path
+import zipfile
+
+from husky_grader.submission import find_submissions, Refused, Submission, unpack
+import pytest
+
+MANIFEST = 'src/topic_demo/package.xml'
+
+
+def packed(name: str = '') -> bytes:
+    """Return a zip with a workspace; a name makes it another one."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, 'w') as archive:
+        archive.writestr(MANIFEST, f'<package><name>{name}</name></package>')
+    return file.getvalue()
+
+
+def export(place: Path, files: dict[str, bytes], *, as_zip: bool) -> Path:
+    """Write an export as it is downloaded, or as a person has unpacked it."""
+    if as_zip:
+        with zipfile.ZipFile(place, 'w') as archive:
+            for path, content in files.items():
+                archive.writestr(path, content)
+        return place
+    for path, content in files.items():
+        (place / path).parent.mkdir(parents=True, exist_ok=True)
+        (place / path).write_bytes(content)
+    return place
+
+
+def whose(one: Submission, folder: Path) -> str:
+    """Unpack it, and return the name in its package."""
+    workspace = unpack(one, folder / one.id)
+    return (workspace.path / MANIFEST).read_text().partition('name>')[2].partition('<')[0]
+
+
+def facts(found: list[Submission]) -> list[tuple[str, str, str]]:
+    return [(one.id, one.name, one.user) for one in found]
+
+
+AS_ZIP = pytest.mark.parametrize('as_zip', [True, False], ids=['zip', 'unpacked'])
+
+
+@AS_ZIP
+@pytest.mark.parametrize('between', ['_file_/', '_file/', '_file_'], ids=['4.0', '4.1', 'flat'])
+def test_an_export_of_moodle_keeps_names_and_numbers(
+    tmp_path: Path, as_zip: bool, between: str
+) -> None:
+    text = between.replace('file', 'onlinetext')
+    files = {
+        f'Ann de Groot_101_assignsubmission{between}CSE461_07_03.zip': packed('ann'),
+        f'Ann de Groot_101_assignsubmission{text}onlinetext.html': b'<p>hello</p>',
+        f'Çem Öz_102_assignsubmission{between}ws.zip': packed('cem'),
+        f'Dan_103_assignsubmission{text}onlinetext.html': b'<p>I had no time</p>',
+        f'Default group_assignsubmission{between}ws.zip': packed('none'),
+    }
+    found = find_submissions([str(export(tmp_path / 'down', files, as_zip=as_zip))])
+    assert facts(found) == [
+        ('Ann de Groot_101', 'Ann de Groot', '101'),
+        ('Dan_103', 'Dan', '103'),
+        ('Default group', 'Default group', ''),
+        ('Çem Öz_102', 'Çem Öz', '102'),
+    ]
+    ann, dan, group, cem = found
+    assert [whose(one, tmp_path / 'out') for one in (ann, group, cem)] == ['ann', 'none', 'cem']
+    assert ann.notes == ('left out: a text typed into Moodle',)
+    assert (tmp_path / 'out' / ann.id / 'CSE461_07_03' / MANIFEST).is_file()
+    with pytest.raises(Refused, match='a text typed into Moodle, and no file; hand in a zip'):
+        unpack(dan, tmp_path / 'out')
+
+
+@AS_ZIP
+def test_files_that_moodle_keeps_in_folders_stay_there(tmp_path: Path, as_zip: bool) -> None:
+    folder = 'Ann_101_assignsubmission_file_'
+    files = {f'{folder}/ws/{MANIFEST}': b'<package/>', f'{folder}/ws/src/a.py': b''}
+    (ann,) = find_submissions([str(export(tmp_path / 'down', files, as_zip=as_zip))])
+    workspace = unpack(ann, tmp_path / 'out')
+    assert workspace.path == tmp_path / 'out' / 'ws'
+    assert (workspace.path / 'src' / 'a.py').is_file()
+
+
+@AS_ZIP
+def test_an_export_of_canvas_keeps_names_and_numbers(tmp_path: Path, as_zip: bool) -> None:
+    files = {
+        'degrootann_5101_90001_CSE461_07_03.zip': packed('ann'),
+        'özcem_LATE_5102_90002_my_ws.zip': packed('cem'),
+        'lidan_5103_90003_report.pdf': b'%PDF-1.4',
+        'lidan_5103_90005_ws-1.zip': packed('newer'),
+        'lidan_5103_90004_ws.zip': packed('older'),
+        'anon_aB3dE_90006_ws.zip': packed('anonymous'),
+        'fayeve_5104_text.html': b'<p>hello</p>',
+    }
+    found = find_submissions([str(export(tmp_path / 'submissions', files, as_zip=as_zip))])
+    by_user = {one.user: one for one in found}
+    assert facts([by_user[user] for user in ('5101', '5102', '5103', 'anon_aB3dE')]) == [
+        ('degrootann_5101', 'degrootann', '5101'),
+        ('özcem_5102', 'özcem', '5102'),
+        ('lidan_5103', 'lidan', '5103'),
+        ('anon_aB3dE', '', 'anon_aB3dE'),
+    ]
+    assert [one.user for one in found if one.late] == ['5102']
+    assert whose(by_user['5102'], tmp_path / 'out') == 'cem'
+    assert whose(by_user['5103'], tmp_path / 'out') == 'newer'
+    assert by_user['5103'].notes == (
+        'taken: ws-1.zip, the newest archive; left out: report.pdf, ws.zip',
+    )
+    with pytest.raises(Refused, match='a text or a link, and no file; hand in a zip'):
+        unpack(by_user['5104'], tmp_path / 'out')
+
+
+@AS_ZIP
+def test_several_files_of_one_canvas_user_stay_together(tmp_path: Path, as_zip: bool) -> None:
+    files = {
+        'degrootann_5101_90001_package.xml': b'<package/>',
+        'degrootann_5101_90002_setup.py': b'',
+        'özcem_5102_90003_my_path.yaml': b'waypoints: [[0, 0], [1, 0]]\n',
+    }
+    ann, cem = find_submissions([str(export(tmp_path / 'submissions', files, as_zip=as_zip))])
+    workspace = unpack(ann, tmp_path / 'ann')
+    assert workspace.handed == 'package'
+    assert (workspace.path / 'src' / 'degrootann_5101' / 'setup.py').is_file()
+    assert unpack(cem, tmp_path / 'cem').kind == 'waypoints'
+
+
+def test_like_names_of_people_are_not_taken_for_canvas(tmp_path: Path) -> None:
+    files = {f'cse461_7_{group}_ws.zip': packed() for group in (3, 4)}
+    files |= {f'cse461_8_{group}_ws.zip': packed() for group in (3, 4)}
+    found = find_submissions([str(export(tmp_path / 'class', files, as_zip=False))])
+    assert [one.id for one in found] == sorted(name.removesuffix('.zip') for name in files)
+    assert {one.lms for one in found} == {''}
+
+
+METADATA = b"""---
+submission_2002:
+  :submitters:
+  - :name: Ann de Groot
+    :sid: '0101'
+    :email: ann@example.org
+  - :name: Cem
+    :sid:
+    :email: cem@example.org
+  :created_at: 2026-03-01 10:00:00.000000000 Z
+  :score: 0.0
+  :results: !ruby/hash:ActiveSupport::HashWithIndifferentAccess
+    tests: []
+  :history:
+  - :submitters: []
+    :id: 2001
+submission_2003:
+  :submitters: []
+"""
+
+
+@AS_ZIP
+def test_an_export_of_gradescope_keeps_all_of_a_group(tmp_path: Path, as_zip: bool) -> None:
+    files = {
+        'submission_metadata.yml': METADATA,
+        f'submission_2002/ws/{MANIFEST}': b'<package><name>ann</name></package>',
+        f'submission_2003/{MANIFEST}': b'<package><name>none</name></package>',
+        'submission_2004/answer.txt': b'42',
+    }
+    files = {f'assignment_77_export/{path}': content for path, content in files.items()}
+    found = find_submissions([str(export(tmp_path / 'down', files, as_zip=as_zip))])
+    assert facts(found) == [
+        ('submission_2002', 'Ann de Groot, Cem', '0101,cem@example.org'),
+        ('submission_2003', '', ''),
+        ('submission_2004', '', ''),
+    ]
+    assert found[0].emails == ('ann@example.org', 'cem@example.org')
+    assert [whose(one, tmp_path / 'out') for one in found[:2]] == ['ann', 'none']
+    assert found[2].notes == ('not in submission_metadata.yml',)
+    with pytest.raises(Refused, match='hand in'):
+        unpack(found[2], tmp_path / 'out')
+
+
+def test_broken_metadata_costs_only_the_names(tmp_path: Path) -> None:
+    files = {'submission_metadata.yml': b'a: [', f'submission_1/{MANIFEST}': b'<package/>'}
+    (one,) = find_submissions([str(export(tmp_path / 'down', files, as_zip=False))])
+    assert one.notes[0].startswith('without names: submission_metadata.yml is not valid YAML (')
+    assert unpack(one, tmp_path / 'out').kind == 'workspace'
+
+
+def test_a_newer_attempt_replaces_the_older_and_says_so(tmp_path: Path) -> None:
+    old = {'degrootann_5101_90001_ws.zip': packed('old'), 'lidan_5103_90002_ws.zip': packed('dan')}
+    new = {'degrootann_LATE_5101_90009_ws.zip': packed('new')}
+    given = [
+        str(export(tmp_path / 'new.zip', new, as_zip=True)),
+        str(export(tmp_path / 'old.zip', old, as_zip=True)),
+    ]
+    for order in (given, given[::-1]):
+        found = {one.user: one for one in find_submissions(order)}
+        assert sorted(found) == ['5101', '5103']
+        assert found['5101'].late
+        assert found['5101'].notes == ('replaces an older one: degrootann_5101 in old.zip',)
+        assert whose(found['5101'], tmp_path / 'out') == 'new'
+
+
+def test_one_bad_entry_does_not_hide_the_others(tmp_path: Path) -> None:
+    place = tmp_path / 'class'
+    files = {
+        'ann.zip': packed(),
+        'bob.zip': packed()[:60],
+        'cem.rar': b'Rar!\x1a\x07\x01\0',
+        'dan/ws/src/pkg/package.xml': b'<package/>',
+        'eve.yaml': b'waypoints: [[0, 0], [1, 0]]\n',
+        '.DS_Store': b'',
+    }
+    export(place, files, as_zip=False)
+    (place / 'fay').symlink_to(tmp_path)
+    (place / 'gus').mkdir()
+    found = find_submissions(
+        [str(place), 'https://example.org/a.git', 'git@example.org:a.git', str(place / 'none')]
+    )
+    outcome: dict[str, str] = {}
+    for one in found:
+        try:
+            outcome[one.id] = unpack(one, tmp_path / 'out' / one.id).kind
+        except Refused as error:
+            outcome[one.id] = str(error).rpartition(': ')[2].partition(';')[0]
+    assert outcome['ann'] == outcome['dan'] == 'workspace'
+    assert outcome['eve'] == 'waypoints'
+    assert outcome['bob'].startswith('broken or incomplete')
+    assert outcome['cem.rar'] == 'a RAR archive'
+    assert outcome['fay'] == 'a link'
+    assert outcome['gus'] == 'nothing'
+    assert outcome['none'] == 'no such file or folder'
+    assert outcome['a.git'] == outcome['git@example.org_a.git'] == 'a URL'
+    assert len(found) == 10
+
+
+def test_ids_are_harmless_unique_and_always_the_same(tmp_path: Path) -> None:
+    for name in ('one/ann.zip', 'one/$(rm).tar', 'two/Ann.zip', 'two/ann.tar.gz'):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(packed())
+    given = [str(tmp_path / 'one'), str(tmp_path / 'two')]
+    found = find_submissions(given)
+    assert [one.id for one in found] == ['one__(rm)', 'one_ann', 'two_Ann', 'two_ann_2']
+    assert find_submissions(given) == found
+
+
+@pytest.mark.parametrize('inside', ['src', 'package.xml', 'a/package.xml', '.git'])
+def test_a_workspace_is_one_submission_and_not_a_class(tmp_path: Path, inside: str) -> None:
+    files = {f'{inside}/a' if inside in ('src', '.git') else inside: b'', 'build/b': b''}
+    place = export(tmp_path / 'ws', files, as_zip=False)
+    (found,) = find_submissions([str(place)])
+    assert (found.id, found.source) == ('ws', place)
+
+
+def test_the_folder_one_stands_in_can_be_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    export(tmp_path / 'ws', {MANIFEST: b'<package/>'}, as_zip=False)
+    monkeypatch.chdir(tmp_path / 'ws')
+    (found,) = find_submissions(['.'])
+    assert unpack(found, tmp_path / 'out').path == tmp_path / 'out' / 'ws'
