@@ -186,17 +186,18 @@ def test_broken_metadata_costs_only_the_names(tmp_path: Path) -> None:
 
 
 def test_a_newer_attempt_replaces_the_older_and_says_so(tmp_path: Path) -> None:
-    old = {'degrootann_5101_90001_ws.zip': packed('old'), 'lidan_5103_90002_ws.zip': packed('dan')}
-    new = {'degrootann_LATE_5101_90009_ws.zip': packed('new')}
+    then = {'degrootann_5101_90001_ws.zip': packed('old'), 'li_5103_90002_ws.zip': packed('dan')}
+    now = {'degrootann_LATE_5101_90009_ws.zip': packed('new')}
     given = [
-        str(export(tmp_path / 'new.zip', new, as_zip=True)),
-        str(export(tmp_path / 'old.zip', old, as_zip=True)),
+        str(export(tmp_path / 'new.zip', now, as_zip=True)),
+        str(export(tmp_path / 'old.zip', then, as_zip=True)),
     ]
     for order in (given, given[::-1]):
         found = {one.user: one for one in find_submissions(order)}
         assert sorted(found) == ['5101', '5103']
         assert found['5101'].late
-        assert found['5101'].notes == ('replaces an older one: degrootann_5101 in old.zip',)
+        old = f'{tmp_path}/old.zip/degrootann_5101_90001_ws.zip'
+        assert found['5101'].notes == (f'replaces an older one: {old}',)
         assert whose(found['5101'], tmp_path / 'out') == 'new'
 
 
@@ -214,7 +215,7 @@ def test_one_bad_entry_does_not_hide_the_others(tmp_path: Path) -> None:
     (place / 'fay').symlink_to(tmp_path)
     (place / 'gus').mkdir()
     found = find_submissions(
-        [str(place), 'https://example.org/a.git', 'git@example.org:a.git', str(place / 'none')]
+        [str(place), 'https://example.org/a.git', 'git@example.org:a.git', str(place / 'none'), '']
     )
     outcome: dict[str, str] = {}
     for one in found:
@@ -230,7 +231,8 @@ def test_one_bad_entry_does_not_hide_the_others(tmp_path: Path) -> None:
     assert outcome['gus'] == 'nothing'
     assert outcome['none'] == 'no such file or folder'
     assert outcome['a.git'] == outcome['git@example.org_a.git'] == 'a URL'
-    assert len(found) == 10
+    assert outcome['unnamed'] == 'an empty name'
+    assert len(found) == 11
 
 
 def test_ids_are_harmless_unique_and_always_the_same(tmp_path: Path) -> None:
@@ -251,10 +253,12 @@ def test_a_workspace_is_one_submission_and_not_a_class(tmp_path: Path, inside: s
     assert (found.id, found.source) == ('ws', place)
 
 
-def test_the_folder_one_stands_in_can_be_given(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize('given', ['.', '../link', '../ws/../ws/.'])
+def test_a_folder_may_be_given_in_other_words(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: str
 ) -> None:
     export(tmp_path / 'ws', {MANIFEST: b'<package/>'}, as_zip=False)
+    (tmp_path / 'link').symlink_to('ws')
     monkeypatch.chdir(tmp_path / 'ws')
-    (found,) = find_submissions(['.'])
+    (found,) = find_submissions([given])
     assert unpack(found, tmp_path / 'out').path == tmp_path / 'out' / 'ws'

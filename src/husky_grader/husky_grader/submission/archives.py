@@ -32,8 +32,8 @@ from husky_grader.submission.entries import (
 from husky_grader.submission.kinds import BZIP2, GZIP, XZ
 from husky_grader.submission.limits import Meter, Refused
 
-# The list of what a zip holds is read at once: for about 100 000 files.
-_ZIP_AT_ONCE = 16 << 20
+# The list of what a zip holds is read at once: of about 50 000 files.
+_ZIP_AT_ONCE = 8 << 20
 # A header with long names needs 2 kB. What tarfile does on one can take time that grows with the
 # square of its size (CVE-2024-6232).
 _TAR_AT_ONCE = CHUNK_BYTES

@@ -11,7 +11,7 @@ get_filename and add_upload_submission in lib/content_zipper.rb, github.com/inst
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 import re
 
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
@@ -19,12 +19,21 @@ from husky_grader.submission.limits import Refused
 from husky_grader.submission.listing import Listing
 from husky_grader.submission.submission import Submission
 
-_WHOSE = (
-    r'(?:(?P<name>[^\WA-Z_][^\WA-Z]*?)_)??(?P<late>LATE_)?'
-    r'(?P<user>anon_[0-9A-Za-z]{5}|[1-9]\d*)'
-)
-_UPLOAD = re.compile(_WHOSE + r'_(?P<number>[1-9]\d*)_(?P<original>.+)')
-_TEXT = re.compile(_WHOSE + r'_(?:text|link)\.html')
+_NUMBER = re.compile(r'[1-9]\d*', re.ASCII)
+_ANONYMOUS = re.compile(r'[0-9A-Za-z]{5}')
+_TEXTS = ('text.html', 'link.html')
+
+
+@dataclass(frozen=True)
+class _File:
+    """What the name of a file says."""
+
+    top: str  # the whole name
+    name: str
+    late: bool
+    user: str
+    number: int  # 0 of a text or a link
+    original: str
 
 
 def canvas_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> list[Submission]:
@@ -36,50 +45,67 @@ def canvas_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> l
 
     :param tops: the names directly in the export, and the files in each.
     """
-    uploads = {top: match for top in tops if (match := _UPLOAD.fullmatch(top))}
-    texts = {top: match for top in tops if (match := _TEXT.fullmatch(top))}
-    numbers = {match['number'] for match in uploads.values()}
-    flat = all(list(names) == [top] for top, names in tops.items())
-    if not (uploads and flat and {*uploads, *texts} == set(tops) and len(numbers) == len(uploads)):
+    by_user: dict[str, list[_File]] = {}
+    numbers: set[int] = set()
+    for top, names in tops.items():
+        file = _parse(top)
+        if file is None or list(names) != [top] or file.number in numbers - {0}:
+            return []
+        numbers.add(file.number)
+        by_user.setdefault(file.user, []).append(file)
+    if not numbers - {0}:
         return []
-    by_user: dict[str, list[re.Match[str]]] = {}
-    for match in uploads.values():
-        by_user.setdefault(match['user'], []).append(match)
-    found = [_uploaded(listing, matches) for matches in by_user.values()]
-    for top, match in texts.items():
-        if match['user'] not in by_user:
-            one = _submission(listing, [(top, top)], match)
-            found.append(replace(one, refused='a text or a link, and no file; hand in a zip'))
-    return found
+    return [_of_user(listing, files) for files in by_user.values()]
 
 
-def _uploaded(listing: Listing, matches: list[re.Match[str]]) -> Submission:
+def _parse(top: str) -> _File | None:
+    """Return what a name says; None where it is not of Canvas."""
+    words = top.split('_')
+    for at, word in enumerate(words):
+        anonymous = word == 'anon' and _ANONYMOUS.fullmatch(''.join(words[at + 1 : at + 2]))
+        if anonymous or _NUMBER.fullmatch(word):
+            after = at + 2 if anonymous else at + 1
+            return _parsed(top, words[:at], '_'.join(words[at:after]), words[after:])
+    return None
+
+
+def _parsed(top: str, before: list[str], user: str, after: list[str]) -> _File | None:
+    late = before[-1:] == ['LATE']
+    name = '_'.join(before[:-1] if late else before)
+    if name != name.lower() or not re.fullmatch(r'\w*', name):
+        return None
+    if len(after) == 1 and after[0] in _TEXTS:
+        return _File(top, name, late, user, 0, after[0])
+    if len(after) > 1 and _NUMBER.fullmatch(after[0]):
+        return _File(top, name, late, user, int(after[0]), '_'.join(after[1:]))
+    return None
+
+
+def _of_user(listing: Listing, files: list[_File]) -> Submission:
     """Return the submission of one user: the newest archive, or all files where there is none."""
-    matches.sort(key=lambda match: int(match['number']))
-    archives = [match for match in matches if _is_archive(listing, match)]
-    taken = archives[-1:] if len(matches) > 1 and archives else matches
-    left = [match['original'] for match in matches if match not in taken]
-    files = [(match[0], match['original']) for match in taken]
-    note = f'taken: {taken[-1]["original"]}, the newest archive; left out: {", ".join(left)}'
+    uploads = sorted((file for file in files if file.number), key=lambda file: file.number)
+    archives = [file for file in uploads if _is_archive(listing, file)]
+    taken = (archives[-1:] if len(uploads) > 1 else []) or uploads or files
+    left = ', '.join(file.original for file in uploads if file not in taken)
+    note = f'taken: {taken[-1].original}, the newest archive; left out: {left}'
+    newest = taken[-1]
+    wanted = f'{newest.name}_{newest.user}' if newest.name else newest.user
+    one = listing.submission([(file.top, file.original) for file in taken], wanted)
     return replace(
-        _submission(listing, files, matches[-1]),
-        late=any(match['late'] for match in matches),
-        attempt=int(matches[-1]['number']),
+        one,
+        lms='canvas',
+        user=newest.user,
+        name=newest.name,
+        late=any(file.late for file in files),
+        attempt=max(file.number for file in files),
         notes=(note,) if left else (),
+        refused=one.refused if uploads else 'a text or a link, and no file; hand in a zip',
     )
 
 
-def _is_archive(listing: Listing, match: re.Match[str]) -> bool:
+def _is_archive(listing: Listing, file: _File) -> bool:
     try:
-        head = listing.read(match[0], HEAD_BYTES)
+        head = listing.read(file.top, HEAD_BYTES)
     except Refused:
         return False
-    return kind_of(head, match['original']) in ('zip', 'tar')
-
-
-def _submission(
-    listing: Listing, files: list[tuple[str, str]], match: re.Match[str]
-) -> Submission:
-    name, user = match['name'] or '', match['user']
-    one = listing.submission(files, f'{name}_{user}' if name else user)
-    return replace(one, lms='canvas', user=user, name=name)
+    return kind_of(head, file.original) in ('zip', 'tar')

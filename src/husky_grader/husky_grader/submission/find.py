@@ -42,14 +42,19 @@ def find_submissions(given: Sequence[str]) -> list[Submission]:
 
 
 def _found_in(given: str) -> list[Submission]:
+    """Return the submissions in one of the paths; one that says why where there are none."""
     path = Path(given)
     refused = ''
     try:
-        if path.is_dir():
-            return _in_folder(path if path.name not in ('', '..') else path.resolve())
-        if path.is_file():
+        if given and path.exists() and (path.is_symlink() or path.name in ('', '..')):
+            path = path.resolve()
+        if not given:
+            refused = 'an empty name; give a file or a folder'
+        elif path.is_dir():
+            return _in_folder(path)
+        elif path.is_file():
             return _in_file(path)
-        if _URL.fullmatch(given):
+        elif _URL.fullmatch(given):
             refused = 'a URL; clone it with git first, and give the clone'
         else:
             refused = 'no file and no folder' if path.exists() else 'no such file or folder'
@@ -59,7 +64,7 @@ def _found_in(given: str) -> list[Submission]:
 
 
 def _in_file(path: Path) -> list[Submission]:
-    one = submission_at(path.resolve() if path.is_symlink() else path, without_ending(path.name))
+    one = submission_at(path)
     if one.kind == 'zip':
         try:
             with listed_zip(path) as listing:
@@ -92,7 +97,14 @@ def _is_workspace(children: Sequence[Path]) -> bool:
     folders = [
         child for child in children if child.is_dir() and child.name not in FOLDERS_OF_COLCON
     ]
-    return bool(folders) and all((folder / 'package.xml').exists() for folder in folders)
+    return bool(folders) and all(map(_is_package, folders))
+
+
+def _is_package(folder: Path) -> bool:
+    try:
+        return (folder / 'package.xml').exists()
+    except PermissionError:  # unpacking it says why
+        return False
 
 
 def _in_export(listing: Listing) -> list[Submission]:
@@ -108,21 +120,13 @@ def _in_export(listing: Listing) -> list[Submission]:
 
 
 def _newest(found: Sequence[Submission]) -> list[Submission]:
-    """Drop what a newer submission of the same student replaces; of equal ones the later is."""
-    newest: dict[tuple[str, str], int] = {}
-    dropped: set[int] = set()
-    notes: dict[int, list[str]] = {}
+    """Drop what a newer one of the same student replaces; of two that do not say, the earlier."""
+    newest: dict[object, Submission] = {}
     for number, each in enumerate(found):
-        if each.user:
-            other = newest.setdefault((each.lms, each.user), number)
-            old, new = sorted((other, number), key=lambda n: (found[n].attempt, n))
-            if old != new:
-                newest[each.lms, each.user] = new
-                dropped.add(old)
-                text = f'replaces an older one: {found[old].id} in {found[old].source.name}'
-                notes.setdefault(new, []).extend([*notes.pop(old, []), text])
-    return [
-        replace(each, notes=(*each.notes, *notes.get(number, ())))
-        for number, each in enumerate(found)
-        if number not in dropped
-    ]
+        whose = (each.lms, each.user) if each.user else number
+        other = newest.setdefault(whose, each)
+        if other is not each:
+            old, new = (each, other) if each.attempt < other.attempt else (other, each)
+            note = f'replaces an older one: {old.place}'
+            newest[whose] = replace(new, notes=(*new.notes, note))
+    return list(newest.values())

@@ -9,9 +9,10 @@ from pathlib import Path
 import subprocess
 from tempfile import TemporaryDirectory
 from threading import Timer
-from typing import IO
+from typing import cast, IO
 
-from husky_grader.submission.limits import Refused
+from husky_grader.submission.entries import CHUNK_BYTES
+from husky_grader.submission.limits import Meter, Refused
 
 _GIT_WITHIN_SEC = 60.0  # wall time of each call
 
@@ -24,35 +25,46 @@ def is_bare(folder: Path) -> bool:
 
 
 @contextmanager
-def tar_of(repository: Path) -> Iterator[IO[bytes]]:
+def tar_of(repository: Path, meter: Meter) -> Iterator[IO[bytes]]:
     """
     Give the tar of the commit that HEAD names.
 
     Git runs in a clone, which has neither settings nor hooks of the repository: see
     `git clone --no-local` in gitsecurityboundary(7), and SECURITY in git(1).
 
-    :raises Refused: when git cannot read it, or takes too long.
+    :param meter: counts the files; a commit can name a million times as many as it holds.
+    :raises Refused: when git cannot read it or takes too long, or it has too many files.
     """
     with TemporaryDirectory() as folder:
-        clone = Path(folder, 'clone')
+        clone = str(Path(folder, 'clone'))
         place = str(repository.absolute())
-        _run('clone', '--quiet', '--bare', '--no-local', '--depth=1', '--', place, str(clone))
-        _run('-C', str(clone), 'rev-parse', '--quiet', '--verify', 'HEAD^{commit}')
-        with subprocess.Popen(
-            ['git', '-C', str(clone), 'archive', '--format=tar', 'HEAD'],
-            env=_environment(),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-        ) as git:
-            watch = Timer(_GIT_WITHIN_SEC, git.kill)
-            watch.start()
-            try:
-                if git.stdout is not None:
-                    yield git.stdout
-            finally:
-                watch.cancel()
-                git.kill()  # what is left is not read
+        _run('clone', '--quiet', '--bare', '--no-local', '--depth=1', '--', place, clone)
+        _run('-C', clone, 'rev-parse', '--quiet', '--verify', 'HEAD^{commit}')
+        with _output('-C', clone, 'ls-tree', '-r', '-t', '-z', '--name-only', 'HEAD') as names:
+            while chunk := names.read(CHUNK_BYTES):
+                for _ in range(chunk.count(b'\0')):
+                    meter.add_entry()
+        with _output('-C', clone, 'archive', '--format=tar', 'HEAD') as tar:
+            yield tar
+
+
+@contextmanager
+def _output(*arguments: str) -> Iterator[IO[bytes]]:
+    """Give what git prints; it ends with what is not read of it, or after a while."""
+    with subprocess.Popen(
+        ['git', *arguments],
+        env=_environment(),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as git:
+        watch = Timer(_GIT_WITHIN_SEC, git.kill)
+        watch.start()
+        try:
+            yield cast(IO[bytes], git.stdout)
+        finally:
+            watch.cancel()
+            git.kill()
 
 
 def _run(*arguments: str) -> None:

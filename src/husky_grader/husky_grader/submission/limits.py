@@ -29,7 +29,7 @@ class Meter:
     """Counts what is read of one submission, and stops at its limits."""
 
     def __init__(self, limits: Limits) -> None:
-        self._limits = limits
+        self.limits = limits
         self._entries = 0
         self._bytes = 0
         self._until_sec = time.thread_time() + limits.cpu_sec
@@ -41,8 +41,8 @@ class Meter:
         :raises Refused: when it is one too many, or reading has taken too long.
         """
         self._entries += 1
-        if self._entries > self._limits.entries:
-            raise Refused(f'more than {self._limits.entries} files and folders; {LEAVE_OUT}')
+        if self._entries > self.limits.entries:
+            raise Refused(f'more than {self.limits.entries} files and folders; {LEAVE_OUT}')
         self._check_time()
 
     def add_bytes(self, count: int) -> None:
@@ -52,10 +52,8 @@ class Meter:
         :raises Refused: when it is too much, or reading has taken too long.
         """
         self._bytes += count
-        if self._bytes > self._limits.total_bytes:
-            raise Refused(
-                f'more than {_megabytes(self._limits.total_bytes)} unpacked; {LEAVE_OUT}'
-            )
+        if self._bytes > self.limits.total_bytes:
+            raise Refused(f'more than {_megabytes(self.limits.total_bytes)} unpacked; {LEAVE_OUT}')
         self._check_time()
 
     def check_file(self, name: str, size: int) -> None:
@@ -64,14 +62,14 @@ class Meter:
 
         :raises Refused: when it is too large.
         """
-        if size > self._limits.file_bytes:
-            allowed = _megabytes(self._limits.file_bytes)
+        if size > self.limits.file_bytes:
+            allowed = _megabytes(self.limits.file_bytes)
             raise Refused(f'{name} is larger than {allowed}; {LEAVE_OUT}')
 
     def _check_time(self) -> None:
         if time.thread_time() > self._until_sec:
             raise Refused(
-                f'unpacking takes more than {self._limits.cpu_sec:g} s of processor time; pack it '
+                f'unpacking takes more than {self.limits.cpu_sec:g} s of processor time; pack it '
                 'again, with zip'
             )
 

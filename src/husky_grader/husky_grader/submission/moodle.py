@@ -12,15 +12,12 @@ mod/assign/classes/downloader.php, github.com/moodle/moodle.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-import re
 
 from husky_grader.submission.listing import Listing
 from husky_grader.submission.names import without_ending
 from husky_grader.submission.submission import Submission
 
-_PREFIX = re.compile(
-    r'(?P<name>.+?)(?:_(?P<user>\d+))?_assignsubmission_(?P<plugin>[a-z]+)(?:_(?P<file>.*))?'
-)
+_MARK = '_assignsubmission_'
 
 
 @dataclass
@@ -38,13 +35,16 @@ def moodle_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> l
     handed: dict[tuple[str, str], _Handed] = {}
     found = []
     for top, names in tops.items():
-        match = _PREFIX.fullmatch(top)
-        if match is None:
+        prefix, mark, rest = top.partition(_MARK)
+        if not mark:
             found.append(_other(listing, top, names))
             continue
-        of_student = handed.setdefault((match['name'], match['user'] or ''), _Handed())
-        files = of_student.files if match['plugin'] == 'file' else of_student.others
-        files += [(name, name.partition('/')[2] or match['file'] or name) for name in names]
+        name, _, user = prefix.rpartition('_')
+        whose = (name, user) if name and user.isdecimal() else (prefix, '')
+        of_student = handed.setdefault(whose, _Handed())
+        plugin, _, flat = rest.partition('_')
+        files = of_student.files if plugin == 'file' else of_student.others
+        files += [(path, path.partition('/')[2] or flat or path) for path in names]
     return [*_submissions(listing, handed), *found] if handed else []
 
 

@@ -9,7 +9,7 @@ import unicodedata
 from husky_course.printable import printable
 
 from husky_grader.submission.entries import Entry, FILE, FOLDER, is_left_out
-from husky_grader.submission.limits import Limits, Meter, Refused
+from husky_grader.submission.limits import Meter, Refused
 
 Parts = tuple[str, ...]
 """A path below the folder, name by name; () is the folder itself."""
@@ -40,12 +40,11 @@ class TreeWriter:
     Only files and folders are made, so that no path leads out of the folder.
     """
 
-    def __init__(self, folder: Path, limits: Limits, meter: Meter) -> None:
+    def __init__(self, folder: Path, meter: Meter) -> None:
         folder.mkdir()
         self.files: list[Parts] = []
         self.others: dict[Parts, str] = {}  # links, devices, ...: what they are; not written
         self._folder = folder
-        self._limits = limits
         self._meter = meter
         self._folders: set[Parts] = {()}
         self._taken: dict[str, Parts] = {}  # by a name that is the same on every file system
@@ -76,12 +75,13 @@ class TreeWriter:
         if any(unicodedata.category(char) in _NOT_IN_NAMES for char in path):
             raise Refused(f'the name {shown(parts)} has bytes that are no text; rename it')
         longest = max((len(part.encode()) for part in parts), default=0)
-        if longest > _LONGEST_NAME or len(path.encode()) > self._limits.path_bytes:
+        limits = self._meter.limits
+        if longest > _LONGEST_NAME or len(path.encode()) > limits.path_bytes:
             raise Refused(f'the name {shown(parts)} is too long; rename it')
-        if len(parts) > self._limits.depth:
+        if len(parts) > limits.depth:
             raise Refused(
-                f'{shown(parts)}: more than {self._limits.depth} folders in each other; hand in '
-                'the workspace only'
+                f'{shown(parts)}: more than {limits.depth} folders in each other; hand in the '
+                'workspace only'
             )
 
     def _make_folder(self, parts: Parts) -> None:

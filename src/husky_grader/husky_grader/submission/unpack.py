@@ -19,6 +19,7 @@ from husky_grader.submission.entries import (
     file_entry,
     folder_entries,
     is_left_out,
+    refusing_what_is_broken,
 )
 from husky_grader.submission.git import is_bare, tar_of
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
@@ -49,7 +50,7 @@ def unpack(submission: Submission, folder: Path, limits: Limits = _DEFAULT) -> W
     staging = folder / _STAGING
     shutil.rmtree(staging, ignore_errors=True)  # of a call that was killed
     meter = Meter(limits)
-    tree = TreeWriter(staging, limits, meter)
+    tree = TreeWriter(staging, meter)
     try:
         with ExitStack() as stack:
             handed = _handed_in(submission, meter, stack)
@@ -80,7 +81,7 @@ def _handed_in(submission: Submission, meter: Meter, stack: ExitStack) -> _Hande
     """
     source = submission.source
     if submission.kind == 'git' and is_bare(source):
-        stream = stack.enter_context(tar_of(source))
+        stream = stack.enter_context(tar_of(source, Meter(meter.limits)))
         return _Handed(tar_entries(stream, meter), without_ending(source.name))
     if source.is_dir() and submission.files:
         found = [file_entry(source / name, path, meter) for name, path in submission.files]
@@ -88,7 +89,8 @@ def _handed_in(submission: Submission, meter: Meter, stack: ExitStack) -> _Hande
     if source.is_dir():
         return _unwrapped(list(folder_entries(source, meter)), source.name, meter, stack)
     if submission.files:
-        file = stack.enter_context(source.open('rb', buffering=0))
+        with refusing_what_is_broken():
+            file = stack.enter_context(source.open('rb', buffering=0))
         archive = stack.enter_context(opened_zip(file))
         found = list(zip_entries(archive, meter, dict(submission.files)))
         return _unwrapped(found, submission.id, meter, stack)
