@@ -201,6 +201,19 @@ def test_a_newer_attempt_replaces_the_older_and_says_so(tmp_path: Path) -> None:
         assert whose(found['5101'], tmp_path / 'out') == 'new'
 
 
+def test_a_student_cannot_hand_in_for_another(tmp_path: Path) -> None:
+    forged = {'Bob_102_assignsubmission_file_/ws.zip': packed('eve')}
+    eve = export(tmp_path / 'eve.zip', forged, as_zip=True)
+    bob = export(tmp_path / 'bob.zip', {MANIFEST: b'<package/>'}, as_zip=True)
+    alone = find_submissions([str(bob), str(eve)])
+    assert facts(alone) == [('bob', '', ''), ('eve', '', '')]
+    with pytest.raises(Refused, match=r'eve\.zip: looks like an export, among single files; give'):
+        unpack(alone[1], tmp_path / 'out')
+    in_folder = find_submissions([str(tmp_path)])
+    assert facts(in_folder) == [('bob', '', ''), ('eve', '', '')]
+    assert [one.name for one in find_submissions([str(eve)])] == ['Bob']
+
+
 def test_one_bad_entry_does_not_hide_the_others(tmp_path: Path) -> None:
     place = tmp_path / 'class'
     files = {

@@ -19,7 +19,7 @@ from husky_grader.submission.limits import Refused
 from husky_grader.submission.listing import Listing
 from husky_grader.submission.submission import Submission
 
-_NUMBER = re.compile(r'[1-9]\d*', re.ASCII)
+_NUMBER = re.compile(r'[1-9]\d{0,17}', re.ASCII)
 _ANONYMOUS = re.compile(r'[0-9A-Za-z]{5}')
 _TEXTS = ('text.html', 'link.html')
 

@@ -78,8 +78,9 @@ def refusing_what_is_broken() -> Iterator[None]:
         yield
     except Refused:
         raise
-    except PermissionError:
-        raise Refused('it may not be read; give the grader the right to read it') from None
+    except PermissionError as error:
+        what = error.filename or 'it'
+        raise Refused(f'{what} may not be read; give the grader the right to') from None
     except _BROKEN as error:
         why = ' '.join(str(error).split()) or type(error).__name__
         raise Refused(f'broken or incomplete ({why}); pack and hand it in again') from None

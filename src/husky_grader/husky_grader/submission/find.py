@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Find the submissions in what a teaching assistant has: files, folders and exports of an LMS."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 import re
+
+from husky_course.printable import printable
 
 from husky_grader.submission.canvas import canvas_submissions
 from husky_grader.submission.git import is_bare
@@ -36,9 +38,31 @@ def find_submissions(given: Sequence[str]) -> list[Submission]:
     :param given: paths: one submission, a folder of submissions, or an export of Moodle, Canvas or
         Gradescope, as a zip or unpacked.
     """
-    found = _newest([each for one in given for each in _found_in(one)])
+    found = _newest(_without_forged(given, [_found_in(path) for path in given]))
     names = folder_names([each.source.parent / each.id for each in found])
-    return [replace(each, id=name) for each, name in zip(found, names, strict=True)]
+    return [
+        replace(each, id=name, notes=tuple(map(printable, each.notes)))
+        for each, name in zip(found, names, strict=True)
+    ]
+
+
+def _without_forged(
+    given: Sequence[str], found: Sequence[list[Submission]]
+) -> Iterator[Submission]:
+    """
+    Yield what was found, with a zip that looks like an export refused beside single files.
+
+    Where the archives of a class are given one by one, a student can make such a zip for another.
+    """
+    files = [path.is_file() for path in map(Path, given)]
+    single = any(is_file and not each[0].lms for is_file, each in zip(files, found, strict=True))
+    for is_file, each in zip(files, found, strict=True):
+        if single and is_file and each[0].lms:
+            source = each[0].source
+            why = 'looks like an export, among single files; give an export alone, or unpacked'
+            yield Submission(without_ending(source.name), source, 'zip', refused=why)
+        else:
+            yield from each
 
 
 def _found_in(given: str) -> list[Submission]:
@@ -81,10 +105,6 @@ def _in_folder(folder: Path) -> list[Submission]:
         return found
     if (folder / '.git').exists() or is_bare(folder) or _is_workspace(children):
         return [submission_at(folder)]
-    if len(children) == 1 and children[0].is_dir() and not children[0].is_symlink():
-        inside = _in_export(FolderListing(children[0]))
-        if inside:
-            return inside
     if not children:
         return [Submission(folder.name, folder, 'folder', refused='an empty folder')]
     return [submission_at(child) for child in children]
@@ -108,7 +128,12 @@ def _is_package(folder: Path) -> bool:
 
 
 def _in_export(listing: Listing) -> list[Submission]:
-    """Return the submissions in an export; none where it is no export."""
+    """Return the submissions in an export, also in a folder around it; none where it is none."""
+    inside = listing.inside()
+    return _directly_in(listing) or (_directly_in(inside) if inside is not None else [])
+
+
+def _directly_in(listing: Listing) -> list[Submission]:
     tops: dict[str, list[str]] = {}
     for name in listing.names:
         tops.setdefault(name.partition('/')[0], []).append(name)
@@ -119,7 +144,7 @@ def _in_export(listing: Listing) -> list[Submission]:
     )
 
 
-def _newest(found: Sequence[Submission]) -> list[Submission]:
+def _newest(found: Iterable[Submission]) -> list[Submission]:
     """Drop what a newer one of the same student replaces; of two that do not say, the earlier."""
     newest: dict[object, Submission] = {}
     for number, each in enumerate(found):

@@ -59,7 +59,7 @@ def gradescope_submissions(
 def _with_names(
     one: Submission, top: str, submitters: Sequence[_Submitter], missing: str
 ) -> Submission:
-    number = re.search(r'\d+', top)
+    number = re.search(r'\d{1,18}', top)
     return replace(
         one,
         lms='gradescope',

@@ -25,6 +25,9 @@ class Listing(Protocol):
     def names(self) -> Sequence[str]:
         """Its paths: of a folder what is directly in it, of a zip all files."""
 
+    def inside(self) -> 'Listing | None':
+        """Return what is in the only folder, where there is nothing else."""
+
     def read(self, name: str, most: int) -> bytes:
         """
         Return the first bytes of a file.
@@ -53,6 +56,12 @@ class FolderListing:
         self._folder = folder
         self.names = visible(folder)
 
+    def inside(self) -> Listing | None:
+        if len(self.names) != 1:
+            return None
+        path = self._folder / self.names[0]
+        return FolderListing(path) if path.is_dir() and not path.is_symlink() else None
+
     def read(self, name: str, most: int) -> bytes:
         return _head(self._folder / name, most)
 
@@ -66,20 +75,23 @@ class FolderListing:
 
 
 class ZipListing:
-    """An export as it was downloaded; a folder around all of it is left out."""
+    """An export as it was downloaded."""
 
-    def __init__(self, path: Path, archive: zipfile.ZipFile) -> None:
+    def __init__(self, path: Path, archive: zipfile.ZipFile, around: str = '') -> None:
         self._path = path
         self._archive = archive
-        names = [
-            name
+        self._around = around  # the folder that is listed, with a / at its end
+        self.names = sorted(
+            name.removeprefix(around)
             for name in archive.namelist()
             if not name.endswith('/') and not any(map(is_left_out, name.split('/')))
-        ]
-        around = {name.partition('/')[0] for name in names}
-        nested = all('/' in name for name in names)
-        self._around = f'{around.pop()}/' if len(around) == 1 and nested else ''
-        self.names = sorted(name.removeprefix(self._around) for name in names)
+        )
+
+    def inside(self) -> Listing | None:
+        around = {name.partition('/')[0] for name in self.names if '/' in name}
+        if len(around) != 1 or not all('/' in name for name in self.names):
+            return None
+        return ZipListing(self._path, self._archive, f'{around.pop()}/')
 
     def read(self, name: str, most: int) -> bytes:
         with refusing_what_is_broken(), self._archive.open(self._around + name) as file:
@@ -130,22 +142,25 @@ def submission_at(path: Path, name: str = '') -> Submission:
     kind: Kind = 'unknown'
     refused = ''
     try:
-        if path.is_symlink():
-            refused = 'a link; give what it leads to'
-        elif path.is_dir():
-            kind = 'git' if (path / '.git').exists() or is_bare(path) else 'folder'
-            name = name or path.name
-        elif path.is_file():
-            head = _head(path, HEAD_BYTES)
-            kind = kind_of(head, path.name)
-            refused = why_not(head) if kind == 'unknown' else ''
-        else:
-            refused = 'no file and no folder'
-    except OSError as error:
-        refused = f'it cannot be read: {error.strerror}'
+        with refusing_what_is_broken():
+            kind, refused = _kind_at(path)
     except Refused as error:
         refused = str(error)
-    return Submission(name or without_ending(path.name), path, kind, refused=refused)
+    own = path.name if kind in ('folder', 'git') else without_ending(path.name)
+    return Submission(name or own, path, kind, refused=refused)
+
+
+def _kind_at(path: Path) -> tuple[Kind, str]:
+    """Return what lies there, and why it cannot be taken."""
+    if path.is_symlink():
+        return 'unknown', 'a link; give what it leads to'
+    if path.is_dir():
+        return 'git' if (path / '.git').exists() or is_bare(path) else 'folder', ''
+    if not path.is_file():
+        return 'unknown', 'no file and no folder'
+    head = _head(path, HEAD_BYTES)
+    kind = kind_of(head, path.name)
+    return kind, why_not(head) if kind == 'unknown' else ''
 
 
 def _head(path: Path, most: int) -> bytes:

@@ -61,7 +61,8 @@ def unpack(submission: Submission, folder: Path, limits: Limits = _DEFAULT) -> W
         raise Refused(printable(f'{submission.place}: {error}')) from None
     finally:
         shutil.rmtree(staging, ignore_errors=True)
-    return replace(workspace, notes=(*handed.notes, *workspace.notes))
+    notes = map(printable, (*handed.notes, *workspace.notes))
+    return replace(workspace, notes=tuple(notes))
 
 
 @dataclass(frozen=True)
