@@ -209,13 +209,17 @@ def test_unpacking_again_replaces_what_was_there(tmp_path: Path) -> None:
             {**below('old', SOURCES), **below('new', SOURCES)},
             '2 workspaces in it: new, old; hand in one',
         ),
+        (
+            {'ws/src/notes': '', 'ws/install/a/share/a/package.xml': ''},
+            'no package in it .* but: ws; hand in',
+        ),
         ({'report.pdf': '%PDF-'}, 'only report.pdf is in it; hand in the workspace'),
         (
             {'my_path.yaml': COURSE, 'b.yaml': COURSE},
             'no package in it .* but: b.yaml, my_path.yaml; hand in',
         ),
     ],
-    ids=['no package', 'empty', 'two', 'a report', 'two courses'],
+    ids=['no package', 'empty', 'two', 'only built', 'a report', 'two courses'],
 )
 def test_what_is_no_workspace_is_named(tmp_path: Path, files: dict[str, str], why: str) -> None:
     with pytest.raises(Refused, match=f'^[^\n]*ann.zip: {why}[^\n]*$'):
@@ -242,6 +246,7 @@ def test_git_obeys_nothing_of_a_bare_repository(tmp_path: Path) -> None:
     with (bare / 'config').open('a') as config:
         config.write(f'[core]\n fsmonitor = {trap}\n pager = {trap}\n sshCommand = {trap}\n')
         config.write(f'[uploadpack]\n packObjectsHook = {trap}\n[tar "tar"]\n command = {trap}\n')
+    (bare / 'objects' / 'passwd').symlink_to('/etc/passwd')  # a local clone would take it
     workspace = unpacked(bare)
     assert tree(workspace.path) == SOURCES
     assert not (tmp_path / 'sprung').exists()

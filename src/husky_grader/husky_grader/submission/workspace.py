@@ -129,8 +129,7 @@ def _listed(paths: Sequence[Parts]) -> str:
 
 
 def _cleared(place: Path) -> Path:
-    """Return the place, after what an earlier call has left there is gone."""
+    """Return the place, after a workspace that an earlier call has left there is gone."""
     if place.is_dir():
         shutil.rmtree(place)
-    place.unlink(missing_ok=True)
     return place
