@@ -40,7 +40,8 @@ def unpack(submission: Submission, folder: Path, limits: Limits = _DEFAULT) -> W
 
     The workspace has only files and folders, of the user who calls this, and no links.
 
-    :param folder: is made where it is missing; a workspace of the same name in it is replaced.
+    :param folder: of this submission alone; is made where it is missing. A workspace of the same
+        name in it is replaced.
     :raises Refused: when it cannot be taken, with one line for a person.
     :raises OSError: when the workspace cannot be written, which is no fault of the submission.
     """
