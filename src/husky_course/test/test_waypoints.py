@@ -7,11 +7,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from husky_course.checked_yaml import FileRefused, Problem
 from husky_course.route import plan_route, plan_speeds
 from husky_course.waypoints.course import Course
 from husky_course.waypoints.schema import schema_text
 from husky_course.waypoints.waypoint_file import load_course, parse_course
-from husky_course.waypoints.yaml_tree import FileRefused, Problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import jsonschema

@@ -1,14 +1,14 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A course, and the table of fields that a waypoint file may hold.
+A course, and the tables of the fields that a waypoint file may hold.
 
-The checker reads by this table; the JSON schema for editors is made from it, see `schema`.
+The checker reads by them; the JSON schema for editors is made from them, see `schema`.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+
+from husky_course.checked_yaml import Field, number, Table
 
 MIN_SPEED_M_S = 0.05
 MAX_SPEED_M_S = 1.0  # the velocity controller's limit
@@ -48,44 +48,29 @@ class Course:
         return (*self.waypoints, self.waypoints[0]) if self.loop else self.waypoints
 
 
-@dataclass(frozen=True)
-class Field:
-    """A field of a waypoint file: the attribute it becomes, and the JSON schema of its value."""
-
-    attribute: str
-    description: str
-    schema: Mapping[str, Any]
-    unit: str = ''
-
-
-def _number(low: float, high: float) -> Mapping[str, Any]:
-    return {'type': 'number', 'minimum': low, 'maximum': high}
-
-
-_COORDINATE = _number(-MAX_COORDINATE_M, MAX_COORDINATE_M)
-_SPEED = _number(MIN_SPEED_M_S, MAX_SPEED_M_S)
+_COORDINATE = number(-MAX_COORDINATE_M, MAX_COORDINATE_M)
+_SPEED = number(MIN_SPEED_M_S, MAX_SPEED_M_S)
 _TRUTH = {'type': 'boolean'}
 _NOT_FIRST = 'not for the first, unless loop is true.'
 
-WAYPOINT_FIELDS = {
+_WAYPOINT_FIELDS = {
     'x': Field('x_m', 'm forward of the start.', _COORDINATE, 'm'),
     'y': Field('y_m', 'm left of the start.', _COORDINATE, 'm'),
     'speed': Field('speed_m_s', 'm/s on the way to this waypoint.', _SPEED, 'm/s'),
     'yaw': Field(
         'yaw_rad',
         f'rad: stop here and turn to this heading; {_NOT_FIRST}',
-        _number(-6.2832, 6.2832),
+        number(-6.2832, 6.2832),
         'rad',
     ),
-    'dwell': Field('dwell_sec', f's: stand here for so long; {_NOT_FIRST}', _number(0, 600), 's'),
+    'dwell': Field('dwell_sec', f's: stand here for so long; {_NOT_FIRST}', number(0, 600), 's'),
     'reverse': Field('reverse', 'true: drive backwards on the way to this waypoint.', _TRUTH),
 }
-REQUIRED_OF_A_WAYPOINT = ('x', 'y')
-COURSE_FIELDS = {
+_COURSE_FIELDS = {
     'frame': Field('frame', 'The frame of the coordinates.', {'enum': ('odom',)}),
     'speed': Field('speed_m_s', 'm/s along the path.', _SPEED, 'm/s'),
     'tolerance': Field(
-        'tolerance_m', 'm, how near to a waypoint counts as reached.', _number(0.05, 1.0), 'm'
+        'tolerance_m', 'm, how near to a waypoint counts as reached.', number(0.05, 1.0), 'm'
     ),
     'loop': Field('loop', 'true: come back to the first waypoint.', _TRUTH),
     'corners': Field(
@@ -98,5 +83,8 @@ COURSE_FIELDS = {
         'waypoints',
         'The places to drive through, in order.',
         {'type': 'array', 'minItems': 2, 'maxItems': MAX_WAYPOINTS},
+        example='- [x, y]',
     ),
 }
+WAYPOINT = Table('waypoint', Waypoint, _WAYPOINT_FIELDS, ('x', 'y'))
+COURSE = Table('waypoint file', Course, _COURSE_FIELDS, ('waypoints',))

@@ -87,7 +87,7 @@ def _read_text(path: Path, name: str) -> str:
         if not path.exists():
             raise refused(f'no such file{_nearest_file(path)}')
         if not path.is_file():
-            raise refused('not a file; give the path of one waypoint file (.yaml)')
+            raise refused('not a file; give the path of one .yaml file')
         with path.open('rb') as stream:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL byte in the path
@@ -96,7 +96,7 @@ def _read_text(path: Path, name: str) -> str:
         reason = getattr(error, 'strerror', None) or str(error)
         raise refused(f'cannot be read: {reason}') from None
     if len(data) > MAX_BYTES:
-        raise refused(f'larger than {MAX_BYTES} bytes; a course of 1000 waypoints needs less')
+        raise refused(f'larger than {MAX_BYTES} bytes; 1000 waypoints need less')
     try:
         return data.decode('utf-8-sig')
     except UnicodeDecodeError as error:
