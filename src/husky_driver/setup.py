@@ -29,6 +29,7 @@ setup(
         installed(config, '*.yaml', 'config'),
         installed(config, '*.schema.json', 'config'),
         installed(config / 'waypoints', '*.yaml', 'config/waypoints'),
+        installed(config / 'rubrics', '*.yaml', 'config/rubrics'),
     ],
     install_requires=['setuptools', 'numpy'],
     zip_safe=True,

@@ -18,7 +18,7 @@ from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 
 from husky_grader.batch.tables import table, write_csv
 from husky_grader.grading import Grade, grade_file
-from husky_grader.playpen import default_course
+from husky_grader.playpen import default_course, default_rubric
 from husky_grader.report.files import as_json, summary, write_report
 from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
@@ -41,7 +41,10 @@ def _parser() -> argparse.ArgumentParser:
         '--controller', metavar='COMMAND', help='grade a node of yours: "ros2 run my_pkg my_node"'
     )
     parser.add_argument(
-        '--lab', metavar='FOLDER', help='grade a whole workspace, step by step of the lab sheet'
+        '--lab', metavar='FOLDER', help='grade a whole workspace, step by step of a rubric'
+    )
+    parser.add_argument(
+        '--rubric', metavar='FILE', help='what a lab asks for (that of the lab sheet)'
     )
     parser.add_argument(
         '--answers', metavar='A,B,..', default='', help='what is typed into a controller that asks'
@@ -77,6 +80,10 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if not options.real_time_factor > 0.0:
         parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
+    if options.rubric and not options.lab:
+        parser.error('--rubric needs --lab FOLDER, the workspace to grade by it')
+    if options.lab and (options.waypoints or options.answers):
+        parser.error('--lab takes courses and answers from the rubric; see --rubric FILE')
     if options.jobs < 0:
         parser.error(f'--jobs {options.jobs}: give a number above 0')
     try:
@@ -175,15 +182,16 @@ def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
 def _grade_lab(options: argparse.Namespace) -> int:
     from husky_grader.lab.lab import grade_lab
     from husky_grader.lab.lab import table as lab_table
+    from husky_grader.rubric.rubric_file import load_rubric
 
+    rubric = load_rubric(options.rubric or default_rubric())
     workspace = Path(options.lab)
     if not workspace.is_dir():
         raise ValueError(f'{workspace}: no such folder; give your workspace, with src in it')
     steps = grade_lab(
         workspace,
-        plan_route(load_course(options.waypoints or default_course())),
+        rubric,
         Path(options.report),
-        answers=_answer_lines(options.answers),
         real_time_factor=options.real_time_factor,
         done=lambda step: print(f'{step.name}: done', file=sys.stderr, flush=True),
     )

@@ -24,6 +24,11 @@ def default_course() -> Path:
     return config_folder() / 'waypoints' / 'central_barrier.yaml'
 
 
+def default_rubric() -> Path:
+    """Return the rubric of the lab sheet."""
+    return config_folder() / 'rubrics' / 'ros_packages_and_topics.yaml'
+
+
 def check_route(route: Route, *, world: str = '', start: Pose = (0.0, 0.0, 0.0)) -> Survey:
     """
     Return where the robot, driving exactly on the course, would come too near to an obstacle.

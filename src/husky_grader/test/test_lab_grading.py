@@ -4,6 +4,7 @@
 
 from collections.abc import Callable
 import contextlib
+from dataclasses import replace
 import json
 import os
 from pathlib import Path
@@ -13,14 +14,24 @@ import sys
 import time
 
 from husky_grader.grade import main as grade
-from husky_grader.lab.file_steps import (
-    build_step,
-    driver_package,
-    package_step,
-    sourced,
-    workspace_step,
+from husky_grader.lab.build_step import build_step, sourced
+from husky_grader.lab.drive_step import drive_step, DriveRunner
+from husky_grader.lab.file_steps import package_step, workspace_step
+from husky_grader.lab.finding import Finding
+from husky_grader.lab.lab import grade_lab
+from husky_grader.lab.live_steps import live_step
+from husky_grader.lab.runner import HostRunner
+from husky_grader.playpen import default_rubric
+from husky_grader.rubric.rubric_file import load_rubric
+from husky_grader.rubric.steps import (
+    CourseToDrive,
+    DriveLimits,
+    DriveStep,
+    PackageStep,
+    PublisherStep,
+    SubscriberStep,
+    WorkspaceStep,
 )
-from husky_grader.lab.graph_steps import publisher_step
 from husky_grader.run.live import drive_live
 import psutil
 import pytest
@@ -49,19 +60,44 @@ time.sleep(600)
 BUILD = """
 from pathlib import Path
 import sys
-from husky_grader.lab.file_steps import build_step
-build_step(Path(sys.argv[1]), Path(sys.argv[2]))
+from husky_grader.lab.build_step import build_step
+from husky_grader.lab.runner import HostRunner
+report = Path(sys.argv[2])
+build_step(Path(sys.argv[1]), HostRunner(report / 'built'), report / 'build.log')
 """
 PUBLISHER = """#!%s
 import time, rclpy
 from std_msgs.msg import String
 rclpy.init()
-publisher = rclpy.create_node('publisher').create_publisher(String, 'topic_test', 10)
+publisher = rclpy.create_node('publisher').create_publisher(String, '%s', 10)
 for number in range(1000):
     publisher.publish(String(data=f'hello world {time.time()}'))
     time.sleep(%g if number != 15 else 1.0)
 """
+SUBSCRIBER = """#!%s
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node('subscriber')
+node.create_subscription(String, 'topic_test', lambda m: print(%s, flush=True), 10)
+rclpy.spin(node)
+"""
+FOLLOW_PATH = """#!%s
+import sys
+from husky_driver.follow_path import main
+print(open(sys.argv[2]).read(), flush=True)
+sys.exit(main(sys.argv))
+"""
 SOURCE = Path(__file__).resolve().parents[2]
+SHEET = load_rubric(default_rubric())
+WORKSPACE, TOPIC_DEMO, DRIVER, _, PUBLISHES, LISTENS, _ = SHEET.steps
+
+
+@pytest.fixture(autouse=True)
+def graph(courses: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let programs find each other quickly, and import what the test imports."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(courses.parent / 'fastdds.xml'))
 
 
 @pytest.fixture
@@ -75,25 +111,66 @@ def workspace(tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(('period_sec', 'percent'), [(0.1, 100.0), (0.2, 70.0)])
+def built(folder: Path, package: str, executable: str, program: str) -> Path:
+    """Return a workspace with a package of one program, built into a folder beside it."""
+    manifest = folder / 'workspace' / 'src' / package / 'package.xml'
+    manifest.parent.mkdir(parents=True)
+    manifest.write_text(f'<package><name>{package}</name></package>')
+    (manifest.parent / f'{executable}.py').touch()
+    file = folder / 'built' / 'install' / package / 'lib' / package / executable
+    file.parent.mkdir(parents=True)
+    file.write_text(program)
+    file.chmod(0o755)
+    return folder / 'workspace'
+
+
+def found_of(step: PublisherStep | SubscriberStep, folder: Path, program: str) -> Finding:
+    workspace = built(folder, step.package, step.executable, program)
+    return live_step(step, workspace, HostRunner(folder / 'built'), os.environ, folder / 'log')
+
+
+@pytest.mark.parametrize(('period_sec', 'defects'), [(0.1, set()), (0.2, {'rate'})])
 def test_a_pause_of_a_publisher_does_not_change_its_rate(
-    tmp_path: Path, period_sec: float, percent: float
+    tmp_path: Path, period_sec: float, defects: set[str]
 ) -> None:
-    program = tmp_path / 'install' / 'topic_demo' / 'lib' / 'topic_demo' / 'publisher'
-    program.parent.mkdir(parents=True)
-    program.write_text(PUBLISHER % (sys.executable, period_sec))
-    program.chmod(0o755)
-    verdict = publisher_step(tmp_path, dict(os.environ))
-    assert verdict[0] == percent, verdict
+    assert isinstance(PUBLISHES, PublisherStep)
+    program = PUBLISHER % (sys.executable, 'topic_test', period_sec)
+    found = found_of(PUBLISHES, tmp_path, program)
+    assert set(found.defects) == defects, found
+
+
+@pytest.mark.parametrize(
+    ('program', 'why'),
+    [
+        (
+            PUBLISHER % (sys.executable, 'topic_text', 0.1),
+            'it publishes on /topic_text; the lab asks for /topic_test',
+        ),
+        (f'#!{sys.executable}\ndef main(:\n    pass\n', 'publisher line 2: SyntaxError: '),
+        (f'#!{sys.executable}\nimport os\nos._exit(7)\n', 'it ended by itself (exit code 7)'),
+    ],
+    ids=['another topic', 'a syntax error', 'an exit'],
+)
+def test_a_publisher_that_is_not_heard_is_told_why(tmp_path: Path, program: str, why: str) -> None:
+    assert isinstance(PUBLISHES, PublisherStep)
+    found = found_of(replace(PUBLISHES, within_sec=3.0), tmp_path, program)
+    assert found.score == 0.0
+    assert found.why.startswith(why), found.why
+
+
+@pytest.mark.parametrize(
+    ('shown', 'defects'), [('"heard " + m.data', set()), ('m.data', {'printed'})]
+)
+def test_a_subscriber_that_prints_another_form_is_told(
+    tmp_path: Path, shown: str, defects: set[str]
+) -> None:
+    assert isinstance(LISTENS, SubscriberStep)
+    found = found_of(LISTENS, tmp_path, SUBSCRIBER % (sys.executable, shown))
+    assert set(found.defects) == defects, found
 
 
 @pytest.mark.timeout(180)
-def test_a_good_workspace_loses_points_only_for_its_drive(
-    workspace: Path, tmp_path: Path, courses: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    profile = courses.parent / 'fastdds.xml'
-    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(profile))
+def test_a_good_workspace_loses_points_only_for_its_drive(workspace: Path, tmp_path: Path) -> None:
     report = tmp_path / 'report'
     arguments = ['--lab', str(workspace), '--report', str(report), '--real-time-factor', '4']
     assert grade(arguments) == 1
@@ -102,7 +179,7 @@ def test_a_good_workspace_loses_points_only_for_its_drive(
     short = {name: step for name, step in steps.items() if step['points'] < step['most']}
     assert short == {}
     assert set(steps) == {
-        *('workspace', 'package topic_demo', 'package my_driver'),
+        *('workspace', 'package topic_demo', 'driver package'),
         *('build', 'publisher', 'subscriber'),
     }
     assert 0.0 < drive['points'] < drive['most']
@@ -113,14 +190,12 @@ def test_a_good_workspace_loses_points_only_for_its_drive(
 
 @pytest.mark.timeout(120)
 def test_a_broken_workspace_is_told_what_to_do_at_every_step(
-    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    workspace: Path, tmp_path: Path
 ) -> None:
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     setup = workspace / 'src' / 'topic_demo' / 'setup.py'
     setup.write_text(setup.read_text().replace("'subscriber = ", "'listener = "))
     publisher = workspace / 'src' / 'topic_demo' / 'topic_demo' / 'publisher.py'
-    publisher.write_text(publisher.read_text().replace("'topic_test'", "'topic_text'"))
-    monkeypatch.setattr('husky_grader.lab.graph_steps.APPEAR_WITHIN_SEC', 6.0)
+    publisher.write_text(publisher.read_text().replace('        super()', '        super(1)'))
     shutil.rmtree(workspace / 'src' / 'my_driver')
     report = tmp_path / 'report'
     assert grade(['--lab', str(workspace), '--report', str(report)]) == 1
@@ -129,29 +204,93 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
         for step in json.loads((report / 'lab.json').read_text())['steps']
         if step['points'] < step['most']
     }
-    assert why['package husky_driver'].endswith('packages there: topic_demo')
-    assert why['publisher'] == 'it publishes on /topic_text; the sheet asks for /topic_test'
+    lacking = 'a package with follow_path.py is not in src; packages there: topic_demo'
+    assert why['driver package'] == why['drive'] == lacking
+    assert (
+        why['build']
+        == 'counts only with points for publisher or subscriber or drive; colcon build succeeded'
+    )
+    assert why['publisher'].startswith('publisher.py line ')
+    assert ': TypeError: ' in why['publisher']
     assert (
         'ros2 run topic_demo subscriber finds nothing; topic_demo has: listener'
         in (why['subscriber'])
     )
-    assert 'ros2 run husky_driver follow_path finds nothing' in why['drive']
 
 
-def test_a_workspace_of_another_name_gets_half_of_its_points(tmp_path: Path) -> None:
+def test_an_empty_workspace_scores_nothing(tmp_path: Path) -> None:
+    workspace = tmp_path / 'CSE461_07_03'
+    (workspace / 'src').mkdir(parents=True)
+    grades = grade_lab(workspace, SHEET, tmp_path / 'report')
+    assert {grade.name: grade.points for grade in grades if grade.points} == {}
+
+
+@pytest.mark.timeout(60)
+def test_a_package_as_it_was_created_gets_no_more_than_that(tmp_path: Path) -> None:
+    workspace = tmp_path / 'CSE461_07_03'
+    (workspace / 'src').mkdir(parents=True)
+    create = ['ros2', 'pkg', 'create', 'topic_demo', '--build-type', 'ament_python']
+    create += ['--dependencies', 'rclpy', 'std_msgs', '--node-name', 'publisher']
+    subprocess.run(create, cwd=workspace / 'src', check=True, stdout=subprocess.DEVNULL)
+    grades = {grade.name: grade for grade in grade_lab(workspace, SHEET, tmp_path / 'report')}
+    points = {name: grade.points for name, grade in grades.items() if grade.points}
+    assert points == {'workspace': 5.0, 'package topic_demo': 8.0}
+    why = grades['package topic_demo'].why
+    assert why == 'package.xml still says TODO: fill in its description and license'
+
+
+@pytest.mark.timeout(60)
+def test_a_hidden_course_is_known_by_its_title_only(tmp_path: Path) -> None:
+    course = tmp_path / 'course.yaml'
+    course.write_text('speed: 1.0\nwaypoints: [[0, 0], [-1.375, 0.125]]\n')
+    step = DriveStep(
+        points=10,
+        name='drive',
+        package_with='follow_path.py',
+        executable='follow_path',
+        arguments=('--waypoints', '{course}'),
+        courses=(CourseToDrive(file=course, title='course A', hidden=True),),
+        limits=DriveLimits(time_sec=1.0),
+    )
+    workspace = built(tmp_path, 'my_driver', 'follow_path', FOLLOW_PATH % sys.executable)
+    drives = DriveRunner(HostRunner(tmp_path / 'built'), os.environ, real_time_factor=10.0)
+    found = drive_step(step, drives, workspace, tmp_path / 'report')
+    assert found.score == pytest.approx(50.0)
+    assert found.why.startswith('course A: ')
+    assert ' s, 1 s are allowed; score 100.0 of 100, 2 of 2 waypoints' in found.why
+    told = [path.name for path in (tmp_path / 'report').iterdir()]
+    assert told == ['staff']
+    assert '1.375' in (tmp_path / 'report' / 'staff' / 'drive' / 'controller.log').read_text()
+    assert '1.375' not in found.why
+
+
+def test_a_workspace_of_another_name_is_told_the_right_one(tmp_path: Path) -> None:
+    assert isinstance(WORKSPACE, WorkspaceStep)
     (tmp_path / 'ws' / 'src').mkdir(parents=True)
-    percent, why = workspace_step(tmp_path / 'ws')
-    assert percent == 50.0
-    assert 'CSE461_<section>_<group>' in why
-    assert workspace_step(tmp_path)[0] == 0.0
+    found = workspace_step(WORKSPACE, tmp_path / 'ws')
+    assert found.defects == {'name': 'named ws; the lab asks for CSE461_<digits>_<digits>'}
+    assert WORKSPACE.cost_percent('name') == 50.0
+    assert workspace_step(WORKSPACE, tmp_path).score == 0.0
 
 
 def test_a_manifest_that_lacks_a_dependency_is_told_the_line(workspace: Path) -> None:
+    assert isinstance(TOPIC_DEMO, PackageStep)
+    assert isinstance(DRIVER, PackageStep)
     manifest = workspace / 'src' / 'topic_demo' / 'package.xml'
     manifest.write_text(manifest.read_text().replace('<exec_depend>std_msgs</exec_depend>', ''))
-    verdict = package_step(workspace, 'topic_demo')
-    assert verdict == (50.0, 'package.xml lacks: <exec_depend>std_msgs</exec_depend>')
-    assert driver_package(workspace) == 'my_driver'
+    found = package_step(TOPIC_DEMO, workspace)
+    lacks = 'package.xml lacks: <exec_depend>std_msgs</exec_depend>'
+    assert found.defects == {'dependencies': lacks}
+    assert package_step(DRIVER, workspace).why == 'package.xml of my_driver is complete'
+
+
+def test_a_pipe_in_the_place_of_a_manifest_is_not_read(workspace: Path) -> None:
+    assert isinstance(TOPIC_DEMO, PackageStep)
+    manifest = workspace / 'src' / 'topic_demo' / 'package.xml'
+    manifest.unlink()
+    os.mkfifo(manifest)
+    found = package_step(TOPIC_DEMO, workspace)
+    assert found.why == 'topic_demo is not in src; packages there: my_driver'
 
 
 def test_a_workspace_that_is_not_there_is_refused(
@@ -159,6 +298,18 @@ def test_a_workspace_that_is_not_there_is_refused(
 ) -> None:
     assert grade(['--lab', str(tmp_path / 'nothing')]) == 2
     assert 'no such folder; give your workspace' in capsys.readouterr().err
+
+
+def test_a_rubric_with_a_mistake_is_refused_before_anything(
+    workspace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rubric, report = tmp_path / 'rubric.yaml', tmp_path / 'report'
+    rubric.write_text('title: T\nstep: []\n')
+    arguments = ['--lab', str(workspace), '--rubric', str(rubric), '--report', str(report)]
+    assert grade(arguments) == 2
+    refused = f'{rubric}: line 2, column 1: step is no field; did you mean steps? allowed: title, '
+    assert refused in capsys.readouterr().err
+    assert not report.exists()
 
 
 def running(pids: list[int]) -> list[int]:
@@ -186,12 +337,12 @@ def daemon(pids: Path) -> str:
 def test_a_daemon_of_a_build_ends_with_the_build(workspace: Path, tmp_path: Path) -> None:
     shutil.rmtree(workspace / 'src' / 'my_driver')
     pids, report = tmp_path / 'pids', tmp_path / 'report'
-    report.mkdir()
     setup = workspace / 'src' / 'topic_demo' / 'setup.py'
     setup.write_text(setup.read_text() + daemon(pids))
-    percent, why = build_step(workspace, report)
-    assert percent == 100.0, why
-    assert 'Finished <<< topic_demo' in (report / 'build.log').read_text()
+    log = tmp_path / 'build.log'
+    found = build_step(workspace, HostRunner(report), log)
+    assert found.score == 100.0, found
+    assert 'Finished <<< topic_demo' in log.read_text()
     assert running([int(pid) for pid in pids.read_text().split()]) == []
 
 
@@ -216,13 +367,13 @@ def test_a_build_ends_with_the_killed_grader(workspace: Path, tmp_path: Path) ->
 def test_a_hook_that_breaks_the_shell_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, hook: str, why: str
 ) -> None:
-    monkeypatch.setattr('husky_grader.lab.file_steps.SOURCE_WITHIN_SEC', 1.0)
+    monkeypatch.setattr('husky_grader.lab.build_step.SOURCE_WITHIN_SEC', 1.0)
     (tmp_path / 'install').mkdir()
     (tmp_path / 'install' / 'local_setup.bash').write_text(f'export KNOWN=1\n{hook}\n')
     with pytest.raises(ValueError, match=why):
-        sourced(tmp_path)
+        sourced(HostRunner(tmp_path))
     (tmp_path / 'install' / 'local_setup.bash').write_text('export KNOWN="a\nb"\n')
-    assert sourced(tmp_path)['KNOWN'] == 'a\nb'
+    assert sourced(HostRunner(tmp_path))['KNOWN'] == 'a\nb'
 
 
 @pytest.mark.timeout(60)

@@ -1,155 +1,90 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The steps of the lab that can be judged by looking at files: workspace, packages, build."""
+"""The steps that can be judged by looking at files: workspace and packages."""
 
-import os
+from dataclasses import dataclass
 from pathlib import Path
-import re
-import signal
-from tempfile import TemporaryFile
 import xml.etree.ElementTree as ElementTree
 
-from husky_runtime.children import ChildProcess
-from husky_runtime.descendants import descendants_ended
+from husky_grader.lab.finding import Finding, nothing
+from husky_grader.rubric.steps import PackageStep, WorkspaceStep
 
-BUILD_WITHIN_SEC = 300.0
-SOURCE_WITHIN_SEC = 60.0
-WORKSPACE_NAME = re.compile(r'CSE461[_ -]?\d+[_ -]\d+')
-DEPENDENCIES = {'topic_demo': ('rclpy', 'std_msgs')}
-DRIVING = ('rclpy', 'geometry_msgs')
+MAX_MANIFEST = 100_000  # bytes
 
 
-Verdict = tuple[float, str]
-"""How much of a step's points it gets, in percent, and why."""
-
-
-class ProgramMissing(ValueError):
-    """There is no such executable; the message says what there is."""
-
-
-def workspace_step(workspace: Path) -> Verdict:
+def workspace_step(step: WorkspaceStep, workspace: Path) -> Finding:
     """Look at the workspace's name and its src folder."""
     if not (workspace / 'src').is_dir():
-        return 0.0, f'{workspace} has no folder src; packages live in it'
-    if not WORKSPACE_NAME.fullmatch(workspace.name):
-        return 50.0, f'named {workspace.name}; the sheet asks for CSE461_<section>_<group>'
-    return 100.0, f'{workspace.name} with a folder src'
+        return nothing(f'{workspace.name} has no folder src; packages live in it')
+    if step.forms and not any(form.fits(workspace.name) for form in step.forms):
+        return Finding('', defects={'name': f'named {workspace.name}; {asked(step.forms[0])}'})
+    return Finding(f'{workspace.name} with a folder src')
 
 
-def package_step(workspace: Path, package: str) -> Verdict:
+def asked(what: object) -> str:
+    return f'the lab asks for {what}'
+
+
+def package_step(step: PackageStep, workspace: Path) -> Finding:
     """Look at a package's manifest."""
-    packages = _packages(workspace)
-    if package not in packages:
-        have = ', '.join(sorted(packages)) or 'none'
-        return 0.0, f'not in {workspace / "src"}; packages there: {have}'
-    root = ElementTree.parse(packages[package] / 'package.xml').getroot()
+    try:
+        manifest = find_package(workspace, step.package, step.package_with)
+    except PackageMissing as error:
+        return nothing(str(error))
+    root, defects = manifest.root, {}
     given = {element.text for element in root if element.tag.endswith('depend')}
-    missing = [wanted for wanted in DEPENDENCIES.get(package, DRIVING) if wanted not in given]
-    if missing:
+    if missing := [wanted for wanted in step.dependencies if wanted not in given]:
         lines = ' '.join(f'<exec_depend>{wanted}</exec_depend>' for wanted in missing)
-        return 50.0, f'package.xml lacks: {lines}'
-    if root.findtext('export/build_type') != 'ament_python':
-        return 50.0, 'package.xml lacks <export><build_type>ament_python</build_type></export>'
-    return 100.0, 'package.xml is complete'
+        defects['dependencies'] = f'package.xml lacks: {lines}'
+    if root.findtext('export/build_type') != step.build_type:
+        line = f'<export><build_type>{step.build_type}</build_type></export>'
+        defects['build_type'] = f'package.xml lacks {line}'
+    if todo := [element.tag for element in root if (element.text or '').startswith('TODO')]:
+        defects['todo'] = f'package.xml still says TODO: fill in its {" and ".join(todo)}'
+    return Finding(f'package.xml of {manifest.name} is complete', defects=defects)
 
 
-def driver_package(workspace: Path) -> str:
-    """Return the package that drives: husky_driver, as in the sheet, or one with follow_path."""
-    packages = _packages(workspace)
-    others = (name for name in packages if list(packages[name].glob('**/follow_path.py')))
-    return 'husky_driver' if 'husky_driver' in packages else next(others, 'husky_driver')
+class PackageMissing(ValueError):
+    """There is no such package; the message says what there is."""
 
 
-def _packages(workspace: Path) -> dict[str, Path]:
-    found = {}
-    for manifest in sorted((workspace / 'src').glob('**/package.xml')):
+@dataclass(frozen=True)
+class Manifest:
+    """A package.xml that could be read."""
+
+    name: str
+    folder: Path
+    root: ElementTree.Element
+
+
+def find_package(workspace: Path, name: str, with_file: str) -> Manifest:
+    """
+    Return a package of the workspace.
+
+    :param with_file: the file that it has, where its name is not given.
+    :raises PackageMissing: when there is none.
+    """
+    manifests = find_manifests(workspace)
+    for manifest in manifests:
+        if manifest.name == name or (with_file and any(manifest.folder.glob(f'**/{with_file}'))):
+            return manifest
+    what = name or f'a package with {with_file}'
+    have = ', '.join(sorted(manifest.name for manifest in manifests)) or 'none'
+    raise PackageMissing(f'{what} is not in src; packages there: {have}')
+
+
+def find_manifests(workspace: Path) -> list[Manifest]:
+    """Return the manifests that can be read, in the order of their folders."""
+    found = []
+    for path in sorted((workspace / 'src').glob('**/package.xml')):
+        # Never a pipe or a device: to read one may take for ever.
+        if path.is_symlink() or not path.is_file():
+            continue
         try:
-            root = ElementTree.parse(manifest).getroot()
+            with path.open('rb') as stream:
+                root = ElementTree.fromstring(stream.read(MAX_MANIFEST))
         except (ElementTree.ParseError, OSError):
             continue
-        found[(root.findtext('name') or '').strip()] = manifest.parent
+        if name := (root.findtext('name') or '').strip():
+            found.append(Manifest(name, path.parent, root))
     return found
-
-
-def build_step(workspace: Path, folder: Path) -> Verdict:
-    """Build the workspace with colcon, into the report's folder, so that nothing of it changes."""
-    command = ['colcon', '--log-base', str(folder / 'log'), 'build']
-    command += ['--base-paths', str(workspace / 'src')]
-    command += ['--build-base', str(folder / 'build'), '--install-base', str(folder / 'install')]
-    try:
-        exit_code = _run(command, folder / 'build.log')
-    except FileNotFoundError:
-        return 0.0, 'colcon is not installed here'
-    if exit_code is None:
-        return 0.0, f'colcon build took longer than {BUILD_WITHIN_SEC:g} s'
-    if exit_code != 0:
-        why = _first_error((folder / 'build.log').read_text(encoding='utf-8', errors='replace'))
-        return 0.0, f'colcon build failed: {why}'
-    return 100.0, 'colcon build succeeded'
-
-
-def _run(command: list[str], log: Path) -> int | None:
-    """Run it and end all that it started; return its exit code, None where it took too long."""
-    with (
-        log.open('w', encoding='utf-8') as stream,
-        descendants_ended(),
-        ChildProcess(command, os.environ, stream, parent_death=signal.SIGKILL) as process,
-    ):
-        return process.exit_code if process.wait(BUILD_WITHIN_SEC) else None
-
-
-def _first_error(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines() if 'rror' in line]
-    return lines[0] if lines else 'see build.log'
-
-
-def sourced(folder: Path) -> dict[str, str]:
-    """
-    Return the environment after sourcing what was built.
-
-    :raises ValueError: when nothing was built, or sourcing fails or takes too long.
-    """
-    if not (folder / 'install' / 'local_setup.bash').is_file():
-        raise ValueError('nothing was built')
-    script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
-    command = ['bash', '-c', script, str(folder)]
-    with (
-        TemporaryFile('w+', encoding='utf-8', errors='surrogateescape', newline='') as told,
-        descendants_ended(),
-        ChildProcess(command, os.environ, told, parent_death=signal.SIGKILL) as process,
-    ):
-        in_time = process.wait(SOURCE_WITHIN_SEC)
-        told.seek(0)
-        pairs = [entry.partition('=') for entry in told.read().split('\0') if entry]
-    if not in_time:
-        raise ValueError(
-            f'sourcing install/local_setup.bash took longer than {SOURCE_WITHIN_SEC:g} s; '
-            'a hook of a package waits for something: take it out'
-        )
-    if process.exit_code != 0 or not pairs:
-        raise ValueError(
-            f'sourcing install/local_setup.bash ended the shell (exit code {process.exit_code}); '
-            'a hook of a package must not call exit'
-        )
-    return {name: value for name, _, value in pairs}
-
-
-def find_executable(folder: Path, package: str, name: str) -> Path:
-    """
-    Return an executable that `ros2 run` would find.
-
-    :raises ProgramMissing: when there is none.
-    """
-    programs = folder / 'install' / package / 'lib' / package
-    for candidate in (programs / name, programs / f'{name}.py'):
-        if candidate.is_file() and os.access(candidate, os.X_OK):
-            return candidate
-    if not (folder / 'install' / package).is_dir():
-        raise ProgramMissing(
-            f'ros2 run {package} {name} finds nothing: there is no package {package}'
-        )
-    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
-    raise ProgramMissing(
-        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
-        f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
-    )

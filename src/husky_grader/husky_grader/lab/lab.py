@@ -1,36 +1,37 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Grade a student's whole workspace: every step of the lab sheet, with points and reasons."""
+"""Grade a student's whole workspace: every step of a rubric, with points and reasons."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 import json
 from pathlib import Path
 import shutil
 
-from husky_course.record import read_run
-from husky_course.route import Route
+from husky_course.files import replacing
+from husky_course.printable import printable
 
-from husky_grader.lab.file_steps import (
-    build_step,
-    driver_package,
-    find_executable,
-    package_step,
-    ProgramMissing,
-    sourced,
-    Verdict,
-    workspace_step,
+from husky_grader.lab.build_step import build_step, ProgramMissing, sourced
+from husky_grader.lab.drive_step import drive_step, DriveRunner
+from husky_grader.lab.file_steps import package_step, PackageMissing, workspace_step
+from husky_grader.lab.finding import Finding, nothing
+from husky_grader.lab.live_steps import live_step
+from husky_grader.lab.runner import HostRunner, Runner
+from husky_grader.rubric.steps import (
+    BuildStep,
+    DriveStep,
+    PackageStep,
+    ProgramStep,
+    Rubric,
+    Step,
+    WorkspaceStep,
 )
-from husky_grader.lab.graph_steps import publisher_step, subscriber_step
-from husky_grader.report.files import write_report
-from husky_grader.run.live import drive_live
-from husky_grader.scoring.report import judge
 
-LiveStep = Callable[[Path, dict[str, str]], Verdict]
+BUILT = 'built'
 
 
 @dataclass(frozen=True)
-class Step:
+class StepGrade:
     """One step of the lab: what it was worth, what it got, and what to do about the rest."""
 
     name: str
@@ -46,74 +47,125 @@ class Step:
 
 def grade_lab(
     workspace: Path,
-    route: Route,
+    rubric: Rubric,
     folder: Path,
     *,
-    answers: str = '',
+    runner: Runner | None = None,
     real_time_factor: float = 1.0,
     done: Callable[[Step], None] = lambda _step: None,
-) -> list[Step]:
-    """Grade step after step; a step that cannot be tried for want of another gets nothing."""
-    folder = folder.resolve()
-    shutil.rmtree(folder / 'install', ignore_errors=True)
+) -> list[StepGrade]:
+    """
+    Grade step after step; a step that cannot be tried for want of another gets nothing.
+
+    :param folder: of the report; lab.json is written there.
+    :param runner: runs what students wrote; as the grader itself, in the folder, if left out.
+    """
+    workspace, folder = workspace.resolve(), folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    workspace = workspace.resolve()
-
-    def drive_step(_: Path, environment: dict[str, str]) -> Verdict:
-        program = find_executable(folder, driver_package(workspace), 'follow_path')
-        live = drive_live(
-            str(program),
-            route.course.file,
-            folder / 'drive',
-            answers=answers,
-            environment=environment,
-            real_time_factor=real_time_factor,
-        )
-        run = read_run(live.record)
-        report = live.with_notes(judge(run, route))
-        write_report(folder / 'drive', report, run, route)
-        return report.score, '; '.join(report.reasons) or f'{report.course} passed'
-
-    steps = []
-    for name, most, (percent, why) in _verdicts(workspace, folder, drive_step):
-        steps.append(Step(name, most, most * percent / 100.0, why))
-        done(steps[-1])
-    total = sum(step.points for step in steps)
-    content = {'score': total, 'steps': [asdict(step) for step in steps]}
-    (folder / 'lab.json').write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
-    return steps
+    if runner is None:
+        shutil.rmtree(folder / BUILT, ignore_errors=True)
+        runner = HostRunner(folder / BUILT)
+    grading = _Grading(workspace, folder, runner, real_time_factor)
+    findings = {}
+    for step in rubric.steps:
+        findings[step.name] = grading.find(step)
+        done(step)
+    grades = list(_with_needs(rubric.steps, findings))
+    content = {
+        'rubric': rubric.title,
+        'score': sum(grade.points for grade in grades),
+        'steps': [asdict(grade) for grade in grades],
+    }
+    with replacing(folder / 'lab.json') as part:
+        part.write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
+    return grades
 
 
-def _verdicts(
-    workspace: Path, folder: Path, drive_step: LiveStep
-) -> Iterator[tuple[str, float, Verdict]]:
-    """Yield the name of each step, its points, and what became of it."""
-    driver = driver_package(workspace)
-    yield 'workspace', 5.0, workspace_step(workspace)
-    yield 'package topic_demo', 10.0, package_step(workspace, 'topic_demo')
-    yield f'package {driver}', 5.0, package_step(workspace, driver)
-    yield 'build', 15.0, build_step(workspace, folder)
-    live = (
-        ('publisher', 20.0, publisher_step),
-        ('subscriber', 15.0, subscriber_step),
-        ('drive', 30.0, drive_step),
-    )
-    try:
-        environment = sourced(folder)
-    except ValueError as error:
-        yield from ((name, most, (0.0, str(error))) for name, most, _ in live)
-        return
-    for name, most, step in live:
+class _Grading:
+    """Finds out about the steps, in their order: the programs run when the workspace was built."""
+
+    def __init__(
+        self, workspace: Path, folder: Path, runner: Runner, real_time_factor: float
+    ) -> None:
+        self._workspace = workspace
+        self._folder = folder
+        self._runner = runner
+        self._real_time_factor = real_time_factor
+        self._environment: Mapping[str, str] = {}
+        self._not_sourced = 'nothing was built'
+
+    def find(self, step: Step) -> Finding:
+        if isinstance(step, WorkspaceStep):
+            return workspace_step(step, self._workspace)
+        if isinstance(step, PackageStep):
+            return package_step(step, self._workspace)
+        if isinstance(step, BuildStep):
+            return self._build(step)
+        if isinstance(step, ProgramStep):
+            return self._run(step)
+        raise TypeError(f'{step.kind}: a step of this kind cannot be graded')
+
+    def _build(self, step: Step) -> Finding:
+        found = build_step(self._workspace, self._runner, self._log(step))
         try:
-            yield name, most, step(folder, environment)
-        except ProgramMissing as error:
-            yield name, most, (0.0, str(error))
+            self._environment, self._not_sourced = sourced(self._runner), ''
+        except ValueError as error:
+            self._not_sourced = str(error)
+        return found
+
+    def _run(self, step: ProgramStep) -> Finding:
+        if self._not_sourced:
+            return nothing(self._not_sourced)
+        try:
+            if isinstance(step, DriveStep):
+                drives = DriveRunner(self._runner, self._environment, self._real_time_factor)
+                return drive_step(step, drives, self._workspace, self._folder)
+            return live_step(
+                step, self._workspace, self._runner, self._environment, self._log(step)
+            )
+        except (PackageMissing, ProgramMissing) as error:
+            return nothing(str(error))
+
+    def _log(self, step: Step) -> Path:
+        return self._folder / f'{step.file_name}.log'
 
 
-def table(steps: list[Step]) -> str:
+def _with_needs(steps: Sequence[Step], findings: Mapping[str, Finding]) -> Iterator[StepGrade]:
+    """Yield the grades; a step that lacks what it needs gets nothing."""
+    percents = {step.name: _percent(step, findings[step.name]) for step in steps}
+    by_name = {step.name: step for step in steps}
+
+    def counts(name: str) -> bool:
+        return percents[name] > 0.0 and not lacks(by_name[name])
+
+    def lacks(step: Step) -> str:
+        missing = [name for name in step.needs if not counts(name)]
+        if missing:
+            return f'counts only with points for {" and ".join(missing)}'
+        if step.needs_one_of and not any(map(counts, step.needs_one_of)):
+            return f'counts only with points for {" or ".join(step.needs_one_of)}'
+        return ''
+
+    for step in steps:
+        found, lacking = findings[step.name], lacks(step)
+        points = 0.0 if lacking else step.points * percents[step.name] / 100.0
+        told = list(found.defects.values()) or [found.why]
+        if lacking and percents[step.name] > 0.0:
+            told.insert(0, lacking)
+        yield StepGrade(step.name, step.points, points, '; '.join(told))
+
+
+def _percent(step: Step, found: Finding) -> float:
+    return max(found.score - sum(map(step.cost_percent, found.defects)), 0.0)
+
+
+def table(grades: Sequence[StepGrade]) -> str:
     """Return one line a step, and the sum."""
+    width = max(len(grade.name) for grade in grades)
     lines = [
-        f'{step.name:<22} {step.points:5.1f} of {step.most:4.0f}  {step.why}' for step in steps
+        f'{grade.name:<{width}} {grade.points:5.1f} of {grade.most:4.0f}  {grade.why}'
+        for grade in grades
     ]
-    total, most = sum(step.points for step in steps), sum(step.most for step in steps)
-    return '\n'.join([*lines, f'{"total":<22} {total:5.1f} of {most:4.0f}'])
+    total, most = sum(grade.points for grade in grades), sum(grade.most for grade in grades)
+    lines.append(f'{"total":<{width}} {total:5.1f} of {most:4.0f}')
+    return '\n'.join(map(printable, lines))

@@ -1,0 +1,95 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Build a workspace, and find what was built."""
+
+from collections.abc import Mapping
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from husky_grader.lab.file_steps import find_manifests
+from husky_grader.lab.finding import Finding, nothing
+from husky_grader.lab.runner import Runner
+from husky_grader.run.diagnosis import crash
+
+BUILD_WITHIN_SEC = 300.0
+SOURCE_WITHIN_SEC = 60.0
+
+
+class ProgramMissing(ValueError):
+    """There is no such executable; the message says what there is."""
+
+
+def build_step(workspace: Path, runner: Runner, log: Path) -> Finding:
+    """Build the workspace with colcon, into the runner's folder, so that nothing of it changes."""
+    if not find_manifests(workspace):
+        return nothing('there is no package in src: ros2 pkg create makes one')
+    command = ['colcon', '--log-base', str(runner.folder / 'log'), 'build', '--continue-on-error']
+    command += ['--base-paths', str(workspace / 'src')]
+    command += ['--build-base', str(runner.folder / 'build')]
+    command += ['--install-base', str(runner.folder / 'install')]
+    try:
+        exit_code = runner.run(command, runner.environment, log, BUILD_WITHIN_SEC)
+    except FileNotFoundError:
+        return nothing('colcon is not installed here')
+    if exit_code is None:
+        return nothing(f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
+    if exit_code != 0:
+        text = log.read_text(encoding='utf-8', errors='replace')
+        return nothing(f'colcon build failed: {crash(text) or _first_error(text, log.name)}')
+    return Finding('colcon build succeeded')
+
+
+def _first_error(text: str, log: str) -> str:
+    lines = (line.strip() for line in text.splitlines() if 'rror' in line)
+    return next(lines, f'see {log}')
+
+
+def sourced(runner: Runner) -> Mapping[str, str]:
+    """
+    Return the environment after sourcing what was built.
+
+    :raises ValueError: when nothing was built, or sourcing fails or takes too long.
+    """
+    if not (runner.folder / 'install' / 'local_setup.bash').is_file():
+        raise ValueError('nothing was built')
+    script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
+    command = ['bash', '-c', script, str(runner.folder)]
+    with TemporaryDirectory() as place:  # not in a report: it has the grader's own variables, too
+        log = Path(place) / 'environment'
+        exit_code = runner.run(command, runner.environment, log, SOURCE_WITHIN_SEC)
+        told = os.fsdecode(log.read_bytes())
+    if exit_code is None:
+        raise ValueError(
+            f'sourcing install/local_setup.bash took longer than {SOURCE_WITHIN_SEC:g} s; '
+            'a hook of a package waits for something: take it out'
+        )
+    pairs = [entry.partition('=') for entry in told.split('\0') if entry]
+    if exit_code != 0 or not pairs:
+        raise ValueError(
+            f'sourcing install/local_setup.bash ended the shell (exit code {exit_code}); '
+            'a hook of a package must not call exit'
+        )
+    return {name: value for name, _, value in pairs}
+
+
+def find_executable(folder: Path, package: str, name: str) -> Path:
+    """
+    Return an executable that `ros2 run` would find.
+
+    :param folder: where the workspace was built.
+    :raises ProgramMissing: when there is none.
+    """
+    programs = folder / 'install' / package / 'lib' / package
+    for candidate in (programs / name, programs / f'{name}.py'):
+        if candidate.is_file() and os.access(candidate, os.X_OK):
+            return candidate
+    if not (folder / 'install' / package).is_dir():
+        raise ProgramMissing(
+            f'ros2 run {package} {name} finds nothing: package {package} was not built'
+        )
+    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
+    raise ProgramMissing(
+        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
+        f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+    )

@@ -1,0 +1,115 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The step in which a program drives courses."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+import shlex
+import shutil
+
+from husky_course.record import read_run
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+
+from husky_grader.lab.finding import Finding
+from husky_grader.lab.live_steps import command_of
+from husky_grader.lab.runner import Runner
+from husky_grader.report.files import write_report
+from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveStep
+from husky_grader.run.live import drive_live
+from husky_grader.scoring.report import judge, Report
+
+COURSE_FILE = 'course.yaml'
+FOR_STAFF = 'staff'
+"""The folder, in a report, of what students must not see: the drives of hidden courses."""
+
+
+@dataclass(frozen=True)
+class DriveRunner:
+    """Runs a program with the simulator."""
+
+    runner: Runner
+    environment: Mapping[str, str]
+    real_time_factor: float = 1.0
+
+    def drive(
+        self, step: DriveStep, course: CourseToDrive, workspace: Path, folder: Path
+    ) -> Report:
+        """Let a program drive a course, and write the report on it into a folder."""
+        route = plan_route(load_course(course.file))
+        given = self.runner.folder / COURSE_FILE
+        shutil.copyfile(course.file, given)
+        told = {COURSE: str(given)}
+        command = [_put(part, told) for part in command_of(step, workspace, self.runner.folder)]
+        live = drive_live(
+            shlex.join(command),
+            route,
+            folder,
+            answers=''.join(f'{_put(answer, told)}\n' for answer in step.answers),
+            environment=self.environment,
+            real_time_factor=self.real_time_factor,
+        )
+        run = read_run(live.record)
+        report = live.with_notes(judge(run, route))
+        if course.title:
+            report = replace(report, course=course.title)
+        write_report(folder, report, run, route)
+        return report
+
+
+def _put(text: str, told: Mapping[str, str]) -> str:
+    for name, value in told.items():
+        text = text.replace(name, value)
+    return text
+
+
+def drive_step(step: DriveStep, runner: DriveRunner, workspace: Path, folder: Path) -> Finding:
+    """
+    Let a program drive every course of a step.
+
+    :param folder: of the whole report; each drive gets a folder of its own in it.
+    :raises PackageMissing: when the package is not there.
+    :raises ProgramMissing: when the program is not there.
+    """
+    whole = sum(course.share for course in step.courses)
+    score, lines = 0.0, []
+    for number, course in enumerate(step.courses, 1):
+        name = step.file_name if len(step.courses) == 1 else f'{step.file_name}_{number}'
+        place = folder / FOR_STAFF / name if course.hidden else folder / name
+        report = runner.drive(step, course, workspace, place)
+        exceeded = _exceeded(step, report)
+        cost = sum(map(step.cost_percent, exceeded))
+        score += max(report.score - cost, 0.0) * course.share / whole
+        reasons = _numbers(report) if course.hidden else report.reasons
+        told = '; '.join([*exceeded.values(), *reasons])
+        one = f'{report.course}: {told}' if len(step.courses) > 1 or course.hidden else told
+        lines.append(one if told else f'{report.course} passed')
+    return Finding('; '.join(lines), score=score)
+
+
+def _exceeded(step: DriveStep, report: Report) -> dict[str, str]:
+    """Return which limits of the step a drive has exceeded, and by what."""
+    limits = step.limits
+    exceeded = {}
+    touches = len(report.collisions)
+    if limits.collisions is not None and touches > limits.collisions:
+        exceeded['collisions'] = f'{touches} collisions, {limits.collisions:g} are allowed'
+    rms_m = report.cross_track_rms_m
+    if limits.off_path_m is not None and rms_m > limits.off_path_m:
+        exceeded['off_path_m'] = (
+            f'{rms_m:.3f} m RMS off the path, {limits.off_path_m:g} m are allowed'
+        )
+    needed_sec = report.sim_time_sec
+    if limits.time_sec is not None and needed_sec > limits.time_sec:
+        exceeded['time_sec'] = f'{needed_sec:.1f} s, {limits.time_sec:g} s are allowed'
+    return exceeded
+
+
+def _numbers(report: Report) -> tuple[str, ...]:
+    """Return what may be told of a hidden course: nothing that tells where it goes."""
+    touches = len(report.collisions)
+    return (
+        f'score {report.score:.1f} of 100, {report.waypoints_reached} of '
+        f'{report.waypoints_total} waypoints, {touches} collision{"" if touches == 1 else "s"}',
+    )

@@ -1,0 +1,57 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Judge messages by what a rubric asks of their fields."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from statistics import median
+from typing import Any
+
+from husky_grader.lab.file_steps import asked
+from husky_grader.rubric.steps import FieldCheck
+from husky_grader.run.diagnosis import shortened
+
+
+def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
+    """Return which field of a message holds something else than asked for; nothing if none."""
+    for check in checks:
+        value = message
+        for name in check.field.split('.'):
+            value = getattr(value, name)
+        entries = (
+            [value] if isinstance(value, (str, bytes)) or not hasattr(value, '__len__') else value
+        )
+        for entry in entries:
+            if not _fits(entry, check):
+                return f'{check.field} is {shortened(repr(entry))}; {asked(_wanted(check))}'
+    return ''
+
+
+def _fits(value: Any, check: FieldCheck) -> bool:
+    text = str(value).strip()
+    return (
+        (check.form is None or check.form.fits(text))
+        and (check.equals is None or value == check.equals)
+        and (check.least is None or value >= check.least)
+        and (check.most is None or value <= check.most)
+    )
+
+
+def _wanted(check: FieldCheck) -> str:
+    words = []
+    if check.form is not None:
+        words.append(f'"{check.form}"')
+    if check.equals is not None:
+        words.append(repr(check.equals))
+    if check.least is not None:
+        words.append(f'{check.least:g} or more')
+    if check.most is not None:
+        words.append(f'{check.most:g} or less')
+    return ' and '.join(words)
+
+
+def rate_hz(times_sec: Sequence[float]) -> float:
+    """Return how many messages came a second; 0 of a single one."""
+    # Their median: that the machine stood still for a moment is not the publisher's fault.
+    gaps = [after - before for before, after in pairwise(times_sec)]
+    return 1.0 / max(median(gaps), 1e-3) if gaps else 0.0

@@ -1,0 +1,214 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The grader's own node in the graph of a student's program: it listens, sends and calls.
+
+It needs the step of the rubric, the DDS domain and the log of the program, and gives plain
+values: so it may run in another process than the rest of the grading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+import random
+import time
+from typing import Any
+
+from husky_runtime.executor import make_executor
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rosidl_runtime_py.utilities import get_message, get_service
+
+from husky_grader.lab.file_steps import asked
+from husky_grader.lab.finding import Finding, nothing
+from husky_grader.lab.messages import complaint, rate_hz
+from husky_grader.rubric.forms import ANYTHING, Form, with_token
+from husky_grader.rubric.interfaces import filled
+from husky_grader.rubric.steps import (
+    ProgramStep,
+    PublisherStep,
+    ServiceCall,
+    ServiceStep,
+    SubscriberStep,
+)
+from husky_grader.run.diagnosis import nearest, unheard_topics
+from husky_grader.run.graph import read_graph
+from husky_grader.run.printed import read_printed
+
+NAME = 'grader'
+SEND_EVERY_SEC = 0.1
+SETTLED_SEC = 0.3  # what was on its way when a service answered has come by then
+MAX_MESSAGES = 2000  # that are kept
+# It matches every publisher, and every subscription.
+HEARS_ALL = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+HEARD_BY_ALL = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
+Over = Callable[[], bool]
+"""Tells whether the student's program has ended."""
+
+
+def observe(step: ProgramStep, domain: int, over: Over, log: Path) -> Finding:
+    """
+    Find out what a running program does of what a step asks.
+
+    :param domain: the DDS domain of the program.
+    :param log: what it prints.
+    :raises TypeError: when the step is of another kind.
+    """
+    with _observer(domain, over) as observer:
+        if isinstance(step, PublisherStep):
+            return _publisher(step, observer)
+        if isinstance(step, SubscriberStep):
+            return _subscriber(step, observer, log)
+        if isinstance(step, ServiceStep):
+            return _service(step, observer)
+    raise TypeError(f'{step.kind}: nothing can be observed of such a step')
+
+
+class _Observer:
+    """A node in the domain of the program."""
+
+    def __init__(self, node: Node, over: Over) -> None:
+        self.node = node
+        self.over = over
+        self.executor = make_executor(node.context)
+        self.executor.add_node(node)
+
+    def spin_until(self, fact: Callable[[], object], within_sec: float) -> None:
+        """Serve the node until there is a fact, the program has ended or time is up."""
+        deadline = time.monotonic() + within_sec
+        while not (fact() or self.over()) and time.monotonic() <= deadline:
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def spin_for(self, duration_sec: float) -> None:
+        self.spin_until(lambda: False, duration_sec)
+
+
+@contextmanager
+def _observer(domain: int, over: Over) -> Iterator[_Observer]:
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        node = Node(NAME, context=context, enable_rosout=False, start_parameter_services=False)
+        observer = _Observer(node, over)
+        try:
+            yield observer
+        finally:
+            observer.executor.remove_node(node)
+            node.destroy_node()
+    finally:
+        rclpy.shutdown(context=context)
+
+
+def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
+    if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
+        return found
+    received: list[tuple[float, Any]] = []
+
+    def on_message(message: Any) -> None:
+        if len(received) < MAX_MESSAGES:
+            received.append((time.monotonic(), message))
+
+    kind = get_message(step.type)
+    observer.node.create_subscription(kind, step.topic, on_message, HEARS_ALL)
+    if step.call is not None:
+        observer.spin_for(SETTLED_SEC)
+        received.clear()
+    observer.spin_until(lambda: received, step.within_sec)
+    if not received:
+        return nothing(_why_silent(step, observer))
+    observer.spin_for(step.listen_sec)
+    return _judge(step, received)
+
+
+def _judge(step: PublisherStep, received: list[tuple[float, Any]]) -> Finding:
+    defects = {}
+    complaints = (complaint(message, step.content) for _, message in received)
+    if wrong := next(filter(None, complaints), ''):
+        defects['content'] = wrong
+    rate = rate_hz([time_sec for time_sec, _ in received])
+    if step.rate_hz is not None:
+        off_hz = step.rate_tolerance_percent / 100 * step.rate_hz
+        if abs(rate - step.rate_hz) > off_hz:
+            defects['rate'] = f'{rate:.1f} messages a second; {asked(f"{step.rate_hz:g}")}'
+    return Finding(f'{rate:.1f} Hz on {step.topic}, {step.type}', defects=defects)
+
+
+def _why_silent(step: PublisherStep, observer: _Observer) -> str:
+    graph = read_graph(observer.node, (NAME,))
+    types = [each.type for each in graph.publishers if each.topic == step.topic]
+    if types and step.type not in types:
+        return f'it publishes {types[0]} on {step.topic}; {asked(step.type)}'
+    others = [each.topic for each in graph.publishers if each.type == step.type]
+    if others and not types:
+        topic = nearest(step.topic, others) or others[0]
+        return f'it publishes on {topic}; {asked(step.topic)}'
+    waits = next(unheard_topics(graph), '')
+    return f'nothing came on {step.topic} within {step.within_sec:g} s' + (
+        f': {waits}' if waits else ''
+    )
+
+
+def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding:
+    token = str(random.randint(100_000, 999_999))
+    message = filled(get_message(step.type)(), with_token(step.sent, token))
+    publisher = observer.node.create_publisher(type(message), step.topic, HEARD_BY_ALL)
+
+    def lines() -> list[str]:
+        return [line.strip() for line in read_printed(log).splitlines() if token in line]
+
+    def sent_and_printed() -> bool:
+        publisher.publish(message)
+        observer.spin_for(SEND_EVERY_SEC)
+        return bool(lines())
+
+    observer.spin_until(sent_and_printed, step.within_sec)
+    wanted = with_token(step.printed, token)
+    form = Form(f'{ANYTHING}{wanted}{ANYTHING}')
+    if not lines():
+        waits = next(unheard_topics(read_graph(observer.node, (NAME,))), '')
+        return nothing(waits or f'it did not print what came on {step.topic}')
+    if right := next((line for line in lines() if form.fits(line)), ''):
+        return Finding(f'"{right}"')
+    return Finding('', defects={'printed': f'it prints "{lines()[0]}"; {asked(wanted)}'})
+
+
+def _service(step: ServiceStep, observer: _Observer) -> Finding:
+    call = ServiceCall(service=step.service, type=step.type, request=step.request)
+    response = _called(call, step, observer)
+    if isinstance(response, Finding):
+        return response
+    if wrong := complaint(response, step.response):
+        return Finding('', defects={'response': f'{step.service} answers: {wrong}'})
+    return Finding(f'{step.service} answers, {step.type}')
+
+
+def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Observer) -> Any:
+    """Return the response of a service; a finding where there is none."""
+    kind = get_service(call.type)
+    client = observer.node.create_client(kind, call.service)
+    observer.spin_until(client.service_is_ready, step.within_sec)
+    if not client.service_is_ready():
+        return nothing(_why_no_service(call, observer))
+    future = client.call_async(filled(kind.Request(), call.request))
+    observer.spin_until(future.done, step.within_sec)
+    if not future.done():
+        return nothing(f'{call.service} did not answer within {step.within_sec:g} s')
+    return future.result()
+
+
+def _why_no_service(call: ServiceCall, observer: _Observer) -> str:
+    services = dict(observer.node.get_service_names_and_types())
+    if call.service in services:
+        return f'it offers {call.service} as {services[call.service][0]}; {asked(call.type)}'
+    if near := nearest(call.service, services):
+        return f'it offers {near}; {asked(call.service)}'
+    return f'it offers no service {call.service}'

@@ -1,0 +1,90 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a step of a rubric asks for that cannot be: fields that a type lacks, and the like."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from rosidl_runtime_py.utilities import get_message, get_service
+
+from husky_grader.rubric.forms import Form, TOKEN, with_token
+from husky_grader.rubric.interfaces import check_field, filled
+from husky_grader.rubric.steps import (
+    COURSE,
+    DriveStep,
+    FieldCheck,
+    PackageStep,
+    ProgramStep,
+    PublisherStep,
+    ServiceStep,
+    Step,
+    SubscriberStep,
+)
+
+A_TOKEN = '123456'
+
+_Mistakes = Iterator[tuple[str, str]]
+
+
+def mistakes_of(step: Step) -> _Mistakes:
+    """Yield the field and what is wrong with it."""
+    if isinstance(step, (PackageStep, ProgramStep)) and bool(step.package) == bool(
+        step.package_with
+    ):
+        yield 'package', 'give package or package_with, one of the two'
+    if isinstance(step, PublisherStep):
+        yield from _checks('content', get_message(step.type)(), step.content)
+        if step.call is not None:
+            yield from _content('call', get_service(step.call.type).Request(), step.call.request)
+    elif isinstance(step, SubscriberStep):
+        yield from _subscriber(step)
+    elif isinstance(step, ServiceStep):
+        kind = get_service(step.type)
+        yield from _content('request', kind.Request(), step.request)
+        yield from _checks('response', kind.Response(), step.response)
+    elif isinstance(step, DriveStep):
+        yield from _drive(step)
+
+
+def _subscriber(step: SubscriberStep) -> _Mistakes:
+    yield from _content('sent', get_message(step.type)(), with_token(step.sent, A_TOKEN))
+    lacks = f'lacks {TOKEN}, the number that tells that it was heard'
+    if with_token(step.sent, A_TOKEN) == step.sent:
+        yield 'sent', lacks
+    if TOKEN not in step.printed:
+        yield 'printed', lacks
+    try:
+        Form(step.printed.replace(TOKEN, A_TOKEN))
+    except ValueError as error:
+        yield 'printed', str(error)
+
+
+def _drive(step: DriveStep) -> _Mistakes:
+    told = any(COURSE in text for text in (*step.arguments, *step.answers))
+    if not told and (len(step.courses) > 1 or any(course.hidden for course in step.courses)):
+        yield (
+            'courses',
+            f'which one it is to drive is not told to the program; put {COURSE} into arguments',
+        )
+    for course in step.courses:
+        if course.hidden and not course.title:
+            yield 'courses', 'a hidden course needs a title, which is all that students are told'
+
+
+def _content(field: str, message: Any, values: Mapping[str, Any]) -> _Mistakes:
+    try:
+        filled(message, values)
+    except ValueError as error:
+        yield field, str(error)
+
+
+def _checks(field: str, message: Any, checks: Sequence[FieldCheck]) -> _Mistakes:
+    for check in checks:
+        try:
+            check_field(message, check.field)
+        except ValueError as error:
+            yield field, str(error)
+        if isinstance(check.equals, (list, dict)):
+            yield field, f'{check.field} equals a text, a number, true or false, and nothing else'
+        if (check.form, check.equals, check.least, check.most) == (None, None, None, None):
+            yield field, f'{check.field}: say what it must hold: form, equals, least or most'

@@ -1,0 +1,183 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Why a program did not do what it should: from what it printed, and from its place in the graph.
+
+Pure functions of the logs and of a description of the graph, see `graph`.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from itertools import takewhile
+from pathlib import PurePath
+import re
+import sys
+import sysconfig
+
+from husky_course.printable import printable
+
+MAX_LINE = 200  # characters of an error in a reason
+COMMAND_TOPIC = '/husky_velocity_controller/cmd_vel'
+COMMAND_TYPE = 'geometry_msgs/msg/Twist'
+VELOCITY_TYPES = (COMMAND_TYPE, 'geometry_msgs/msg/TwistStamped')
+EVERYWHERE = ('/clock', '/parameter_events', '/rosout')  # topics of which each node may have one
+# Which file an error stands in tells most; one of these is not what a student has written.
+LIBRARIES = tuple(
+    {sysconfig.get_path(name) for name in ('stdlib', 'platstdlib', 'purelib', 'platlib')}
+    | {f'{sys.base_prefix}/lib/python3', '/opt/ros/', '/usr/lib/python3', '<frozen '}
+)
+
+_FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
+_ERROR = re.compile(r'(?P<name>[A-Za-z_][\w.]*)(: .*)?')
+_ENDED = ('KeyboardInterrupt', 'ExternalShutdownException')  # whoever asked it to end
+_NOT_FINITE = re.compile(r'linear\.x=(\S+), angular\.z=(\S+): a velocity must be a finite number')
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A publisher or a subscription of a node."""
+
+    topic: str
+    type: str
+    reliable: bool = True
+    transient_local: bool = False
+
+
+@dataclass(frozen=True)
+class Graph:
+    """What the program publishes and listens to, and what all others do."""
+
+    publishers: Sequence[Endpoint] = ()
+    subscriptions: Sequence[Endpoint] = ()
+    other_publishers: Sequence[Endpoint] = ()
+
+
+def reasons(printed: str, simulator_log: str, graph: Graph) -> tuple[str, ...]:
+    """
+    Return why a controller did not drive, the most telling first.
+
+    :param printed: what it has printed until it was ended.
+    :param graph: where it stood, with the publishers of the simulator as others.
+    """
+    crashed = crash(printed)
+    found = [crashed] if crashed else []
+    if refused := _NOT_FINITE.search(simulator_log):
+        found.append(
+            f'it commanded linear.x = {refused[1]}, angular.z = {refused[2]}: a velocity must be '
+            'a finite number'
+        )
+    found += unheard_topics(graph)
+    found += _wrong_commands(graph)
+    return tuple(dict.fromkeys(map(printable, found)))
+
+
+def crash(printed: str) -> str:
+    """
+    Return the error that ended a program, with the student's own line: `follow_path.py line 12:`.
+
+    :param printed: what it has printed; nothing is said of an end that it was asked for.
+    """
+    errors = list(takewhile(lambda error: not error.was_asked_for, _errors(printed)))
+    return shortened(f'{errors[-1].place}: {errors[-1].text}') if errors else ''
+
+
+@dataclass(frozen=True)
+class _Error:
+    """An error of Python with its frames, file and line each, the innermost last."""
+
+    text: str
+    frames: Sequence[tuple[str, str]]
+
+    @property
+    def was_asked_for(self) -> bool:
+        return self.text.partition(':')[0].endswith(_ENDED)
+
+    @property
+    def place(self) -> str:
+        own = [frame for frame in self.frames if not frame[0].startswith(LIBRARIES)]
+        file, line = (own or self.frames)[-1]
+        return f'{PurePath(file).name} line {line}'
+
+
+def _errors(printed: str) -> Iterator[_Error]:
+    """Yield the errors of tracebacks, and of what Python could not even read."""
+    frames: list[tuple[str, str]] = []
+    for line in printed.splitlines():
+        if found := _FRAME.match(line):
+            frames.append((found['file'], found['line']))
+        elif line[:1].strip():  # neither source nor a mark below it
+            if frames and _ERROR.fullmatch(line):
+                yield _Error(line, frames)
+            frames = []
+
+
+def shortened(text: str) -> str:
+    return text if len(text) <= MAX_LINE else f'{text[: MAX_LINE - 3]}...'
+
+
+def unheard_topics(graph: Graph) -> Iterator[str]:
+    """Yield why subscriptions of a program hear nothing."""
+    by_topic: dict[str, list[Endpoint]] = {}
+    for publisher in graph.other_publishers:
+        by_topic.setdefault(publisher.topic, []).append(publisher)
+    own = {publisher.topic for publisher in graph.publishers}
+    for wanted in graph.subscriptions:
+        if wanted.topic in EVERYWHERE or wanted.topic in own:
+            continue
+        offered = by_topic.get(wanted.topic)
+        if not offered:
+            near = nearest(wanted.topic, by_topic)
+            hint = f'; did you mean {near}?' if near else ''
+            yield f'it listens to {wanted.topic}, which nobody publishes{hint}'
+        elif wanted.type not in {each.type for each in offered}:
+            yield (
+                f'it listens to {wanted.topic} as {wanted.type}; that topic carries '
+                f'{offered[0].type}'
+            )
+        else:
+            yield from _wrong_qos(wanted, offered)
+
+
+def _wrong_qos(wanted: Endpoint, offered: Sequence[Endpoint]) -> Iterator[str]:
+    """Yield what a subscription requests and nobody offers (DDS 1.4, 2.2.3)."""
+    hears = f'it hears nothing of {wanted.topic}: it asks for'
+    if wanted.transient_local and not any(each.transient_local for each in offered):
+        yield (
+            f'{hears} TRANSIENT_LOCAL, but that is published VOLATILE; '
+            'leave the durability of its QoS profile out'
+        )
+    if wanted.reliable and not any(each.reliable for each in offered):
+        yield (
+            f'{hears} RELIABLE, but that is published BEST_EFFORT; '
+            'subscribe with qos_profile_sensor_data'
+        )
+
+
+def _wrong_commands(graph: Graph) -> Iterator[str]:
+    """Yield why the Husky hears no commands."""
+    commands = [each for each in graph.publishers if each.topic == COMMAND_TOPIC]
+    for each in commands:
+        if each.type != COMMAND_TYPE:
+            yield f'it publishes {each.type} on {COMMAND_TOPIC}; the Husky takes {COMMAND_TYPE}'
+        if not each.reliable:
+            yield (
+                f'it publishes {COMMAND_TOPIC} best effort; the Husky listens reliably and hears '
+                'nothing'
+            )
+    if not commands:
+        for each in graph.publishers:
+            if each.type in VELOCITY_TYPES:
+                yield (
+                    f'it publishes {each.type} on {each.topic}; the Husky listens on '
+                    f'{COMMAND_TOPIC}'
+                )
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """Return the name that was likely meant: one like it, or with the same last part."""
+    names = sorted(known)
+    near = get_close_matches(name, names, n=1)
+    last = name.rpartition('/')[2]
+    near += [each for each in names if each.rpartition('/')[2] == last]
+    return near[0] if near else ''

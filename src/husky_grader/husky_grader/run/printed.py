@@ -1,0 +1,38 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a program has printed, as much of it as a report may hold."""
+
+import os
+from pathlib import Path
+
+from husky_course.printable import printable
+
+MAX_READ = 32_000  # bytes, of the beginning and of the end each
+MAX_SHOWN = 4_000  # characters
+
+
+def read_printed(log: Path) -> str:
+    """Return the beginning and the end of a log; nothing where there is none."""
+    try:
+        with log.open('rb') as stream:
+            begin = stream.read(MAX_READ)
+            left = os.fstat(stream.fileno()).st_size - len(begin)
+            stream.seek(-min(left, MAX_READ), os.SEEK_END)
+            end = stream.read() if left > 0 else b''
+    except OSError:
+        return ''
+    dots = f'\n[{left - MAX_READ} bytes are left out]\n' if left > MAX_READ else ''
+    return ''.join((_text(begin), dots, _text(end)))
+
+
+def shown(printed: str) -> str:
+    """Return what of it a report shows: its beginning and its end."""
+    half = MAX_SHOWN // 2
+    if len(printed) > MAX_SHOWN:
+        left_out = f'\n[{len(printed) - MAX_SHOWN} characters are left out]\n'
+        printed = printed[:half] + left_out + printed[-half:]
+    return printable(printed, keep='\n\t')
+
+
+def _text(data: bytes) -> str:
+    return data.decode('utf-8', errors='replace')

@@ -1,0 +1,199 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Rubrics: what they may say, and how each mistake is told."""
+
+import json
+from pathlib import Path
+import time
+from typing import Any
+
+from husky_course.checked_yaml import FileRefused
+from husky_grader.rubric.forms import Form
+from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
+from husky_grader.rubric.schema import schema_text
+from husky_grader.rubric.steps import DriveStep, PublisherStep
+import jsonschema
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[3]
+CONFIG = ROOT / 'config'
+RUBRICS = [
+    *sorted((CONFIG / 'rubrics').glob('*.yaml')),
+    *(ROOT / 'docs' / 'rubrics').glob('*.yaml'),
+]
+PROGRAM = 'points: 1, package: p, executable: e'
+TOPIC = f'{PROGRAM}, topic: t'
+STRING = 'type: std_msgs/msg/String'
+
+
+def problems(*steps: str, file: str = 'rubric.yaml') -> list[str]:
+    lines = ''.join(f'  - {{{step}}}\n' for step in ('kind: build, points: 1', *steps))
+    with pytest.raises(FileRefused) as refused:
+        parse_rubric(f'title: T\nsteps:\n{lines}', file)
+    return str(refused.value).splitlines()
+
+
+def test_every_rubric_of_the_lab_is_valid() -> None:
+    assert [load_rubric(path).points for path in RUBRICS] == [100.0, 100.0]
+
+
+def test_a_rubric_says_what_stands_in_the_file() -> None:
+    sheet = load_rubric(CONFIG / 'rubrics' / 'ros_packages_and_topics.yaml')
+    publisher, drive = sheet.steps[4], sheet.steps[6]
+    assert isinstance(publisher, PublisherStep)
+    assert (publisher.name, publisher.topic, publisher.rate_hz) == ('publisher', '/topic_test', 10)
+    assert publisher.content[0].form == Form('hello world <number>')
+    assert publisher.costs.rate == 30.0
+    assert isinstance(drive, DriveStep)
+    assert drive.courses[0].file.samefile(CONFIG / 'waypoints' / 'central_barrier.yaml')
+
+
+def test_every_mistake_of_a_rubric_is_told_at_once_with_its_place() -> None:
+    assert problems(
+        'kind: publsher, points: 1',
+        f'kind: publisher, {TOPIC}, type: std_msgs/msg/Sring, rate: 10',
+        'kind: workspace, points: many, forms: [<numbr>]',
+        'kind: package, name: package p',
+    ) == [
+        'rubric.yaml: line 4, column 12: steps[1].kind: publsher is not allowed; did you mean '
+        'publisher? allowed: workspace, package, build, publisher, subscriber, service, drive',
+        'rubric.yaml: line 5, column 77: steps[2].type: std_msgs/msg/Sring is no type that is '
+        'installed here; did you mean std_msgs/msg/String?',
+        'rubric.yaml: line 5, column 97: steps[2]: rate is no field; did you mean rate_hz? '
+        'allowed: kind, name, points, needs, needs_one_of, package, package_with, executable, '
+        'arguments, parameters, topic, type, rate_hz, rate_tolerance, content, call, within_sec, '
+        'listen_sec, costs',
+        'rubric.yaml: line 6, column 31: steps[3].points: many is not a number; '
+        'allowed is 0 to 1000 points',
+        'rubric.yaml: line 6, column 45: steps[3].forms[0]: <numbr> is no placeholder; did you '
+        'mean <number>? allowed: <number>, <digits>, <word>, <text>',
+        'rubric.yaml: line 7, column 5: steps[4].points: missing; every package step needs kind '
+        'and points',
+    ]
+
+
+@pytest.mark.parametrize(
+    ('step', 'expected'),
+    [
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, costs: {{rat: 5}}',
+            'rat is no field; did you mean',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, costs: {{rate: 105}}',
+            'allowed is 0 to 100 percent',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, content: [{{field: dat, equals: a}}]',
+            'steps[1].content: dat of dat is no field; did you mean data? allowed: data',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, content: [{{field: data}}]',
+            'data: say what it must hold: form, equals, least or most',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, call: {{service: s, type: std_srvs/srv/Trig}}',
+            'steps[1].call.type: std_srvs/srv/Trig is no type that is installed here; did',
+        ),
+        (
+            f'kind: subscriber, {TOPIC}, {STRING}, sent: {{data: a}}, printed: a',
+            'steps[1].printed: lacks {token}, the number that tells that it was heard',
+        ),
+        (
+            f'kind: service, {PROGRAM}, service: s, type: std_srvs/srv/SetBool, '
+            'request: {data: maybe}',
+            "steps[1].request: data: 'maybe' is refused",
+        ),
+        ('kind: package, points: 1', 'steps[1].package: give package or package_with'),
+        (f'kind: publisher, {PROGRAM}, topic: 7up, {STRING}', '7up is no topic or service'),
+        (f'kind: drive, {PROGRAM}, courses: [{{file: nowhere.yaml}}]', 'nowhere.yaml: line 1'),
+        ('kind: build, points: 1', 'steps[1].name: build is the name of another step, too'),
+        (
+            'kind: workspace, points: 1, needs: [publisher]',
+            'steps[1].needs: publisher is no step; allowed: build, workspace',
+        ),
+        ('kind: workspace, points: 1, needs: [workspace]', 'neither could ever count'),
+    ],
+)
+def test_a_mistake_in_a_step_is_told_with_what_is_allowed(step: str, expected: str) -> None:
+    assert any(expected in line for line in problems(step)), problems(step)
+
+
+@pytest.mark.parametrize('hidden', ['hidden: true, title: A', 'title: A}, {file: square.yaml'])
+def test_a_program_must_be_told_which_course_it_is(hidden: str) -> None:
+    step = f'kind: drive, {PROGRAM}, courses: [{{file: straight.yaml, {hidden}}}]'
+    file = str(CONFIG / 'waypoints' / 'rubric.yaml')
+    assert 'put {course} into arguments' in problems(step, file=file)[0]
+
+
+def test_a_program_cannot_run_before_the_build() -> None:
+    with pytest.raises(FileRefused, match='put a step of kind build before it'):
+        parse_rubric(f'title: T\nsteps: [{{kind: publisher, {TOPIC}, {STRING}}}]')
+
+
+@pytest.mark.parametrize(
+    ('form', 'text', 'fits'),
+    [
+        ('hello world <number>', 'hello world 1711179043.967', True),
+        ('hello world <number>', 'hello world -2e-05', True),
+        ('hello world <number>', 'hello world 3 times', False),
+        ('hello world <number>', 'Hello world 3', False),
+        ('took <number>.', 'took 4.', True),
+        ('<text>heard<text>end', 'I heard of the end', True),
+        ('<text>heard<text>end', 'I heard of the end of it', False),
+        ('<text>a<text>b', 'b a', False),
+        ('<word> <digits>', 'group 12', True),
+        ('', '', True),
+        ('a < b', 'a < b', True),
+        ('<text>', 'x' * 1001, False),
+    ],
+)
+def test_a_form_fits_what_it_says(form: str, text: str, *, fits: bool) -> None:
+    assert Form(form).fits(text) is fits
+
+
+@pytest.mark.parametrize('form', ['<digits><number>', '<digits>7', '<word>s', '<text><time>'])
+def test_a_form_that_nothing_can_have_is_refused(form: str) -> None:
+    with pytest.raises(ValueError, match=r'is no placeholder|nothing is left'):
+        Form(form)
+
+
+def test_no_text_keeps_a_form_busy() -> None:
+    form = Form('<text>'.join(f'{k} <digits> <word>' for k in range(9)))
+    begun = time.process_time()
+    for text in ('0 1 a' * 200, '1' * 1000, '0 ' * 500, '8 1 ' * 250):
+        assert not form.fits(text)
+    assert time.process_time() - begun < 1.0
+
+
+@pytest.fixture
+def schema() -> Any:
+    text = (CONFIG / 'rubric.schema.json').read_text()
+    return jsonschema.Draft202012Validator(json.loads(text))
+
+
+def test_the_schema_of_rubrics_is_made_from_the_tables() -> None:
+    command = './lab exec python3 -m husky_grader.rubric.schema > config/rubric.schema.json'
+    assert (CONFIG / 'rubric.schema.json').read_text() == schema_text(), f'run: {command}'
+
+
+@pytest.mark.parametrize('path', RUBRICS, ids=lambda path: path.stem)
+def test_the_schema_accepts_every_rubric(schema: Any, path: Path) -> None:
+    jsonschema.Draft202012Validator.check_schema(schema.schema)
+    assert list(schema.iter_errors(yaml.safe_load(path.read_text()))) == []
+
+
+@pytest.mark.parametrize(
+    'step',
+    [
+        'kind: publsher, points: 1',
+        f'kind: publisher, {TOPIC}, {STRING}, rate: 10',
+        f'kind: publisher, {TOPIC}, {STRING}, rate_hz: fast',
+        'kind: build',
+        'kind: workspace, points: 1, forms: a',
+    ],
+)
+def test_the_schema_refuses_what_the_grader_refuses(schema: Any, step: str) -> None:
+    assert problems(step)
+    assert list(schema.iter_errors(yaml.safe_load(f'title: T\nsteps: [{{{step}}}]')))
