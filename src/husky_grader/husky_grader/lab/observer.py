@@ -9,8 +9,9 @@ values: so it may run in another process than the rest of the grading.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 import random
 import time
@@ -35,7 +36,7 @@ from husky_grader.rubric.steps import (
     ServiceStep,
     SubscriberStep,
 )
-from husky_grader.run.diagnosis import nearest, unheard_topics
+from husky_grader.run.diagnosis import Graph, nearest, unheard_topics
 from husky_grader.run.graph import read_graph
 from husky_grader.run.printed import read_printed
 
@@ -124,7 +125,7 @@ def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
         received.clear()
     observer.spin_until(lambda: received, step.within_sec)
     if not received:
-        return nothing(_why_silent(step, observer))
+        return nothing(_why_silent(step, read_graph(observer.node, (NAME,))))
     observer.spin_for(step.listen_sec)
     return _judge(step, received)
 
@@ -142,19 +143,16 @@ def _judge(step: PublisherStep, received: list[tuple[float, Any]]) -> Finding:
     return Finding(f'{rate:.1f} Hz on {step.topic}, {step.type}', defects=defects)
 
 
-def _why_silent(step: PublisherStep, observer: _Observer) -> str:
-    graph = read_graph(observer.node, (NAME,))
+def _why_silent(step: PublisherStep, graph: Graph) -> str:
     types = [each.type for each in graph.publishers if each.topic == step.topic]
     if types and step.type not in types:
         return f'it publishes {types[0]} on {step.topic}; {asked(step.type)}'
-    others = [each.topic for each in graph.publishers if each.type == step.type]
-    if others and not types:
-        topic = nearest(step.topic, others) or others[0]
+    topics = [each.topic for each in graph.publishers if each.type == step.type]
+    if topics and not types:
+        topic = nearest(step.topic, topics) or topics[0]
         return f'it publishes on {topic}; {asked(step.topic)}'
-    waits = next(unheard_topics(graph), '')
-    return f'nothing came on {step.topic} within {step.within_sec:g} s' + (
-        f': {waits}' if waits else ''
-    )
+    nothing_came = f'nothing came on {step.topic} within {step.within_sec:g} s'
+    return '; '.join([nothing_came, *unheard_topics(graph)])
 
 
 def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding:
@@ -174,11 +172,18 @@ def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding
     wanted = with_token(step.printed, token)
     form = Form(f'{ANYTHING}{wanted}{ANYTHING}')
     if not lines():
-        waits = next(unheard_topics(read_graph(observer.node, (NAME,))), '')
-        return nothing(waits or f'it did not print what came on {step.topic}')
+        return nothing(_why_deaf(step, read_graph(observer.node, (NAME,))))
     if right := next((line for line in lines() if form.fits(line)), ''):
         return Finding(f'"{right}"')
     return Finding('', defects={'printed': f'it prints "{lines()[0]}"; {asked(wanted)}'})
+
+
+def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
+    listening = [each for each in graph.subscriptions if each.topic == step.topic]
+    if not graph.subscriptions:
+        return f'it listens to nothing; {asked(step.topic)}'
+    wrong = unheard_topics(replace(graph, subscriptions=listening or graph.subscriptions))
+    return next(wrong, f'it did not print what came on {step.topic}')
 
 
 def _service(step: ServiceStep, observer: _Observer) -> Finding:
@@ -197,7 +202,7 @@ def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Obs
     client = observer.node.create_client(kind, call.service)
     observer.spin_until(client.service_is_ready, step.within_sec)
     if not client.service_is_ready():
-        return nothing(_why_no_service(call, observer))
+        return nothing(_why_no_service(call, dict(observer.node.get_service_names_and_types())))
     future = client.call_async(filled(kind.Request(), call.request))
     observer.spin_until(future.done, step.within_sec)
     if not future.done():
@@ -205,10 +210,10 @@ def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Obs
     return future.result()
 
 
-def _why_no_service(call: ServiceCall, observer: _Observer) -> str:
-    services = dict(observer.node.get_service_names_and_types())
-    if call.service in services:
-        return f'it offers {call.service} as {services[call.service][0]}; {asked(call.type)}'
-    if near := nearest(call.service, services):
-        return f'it offers {near}; {asked(call.service)}'
-    return f'it offers no service {call.service}'
+def _why_no_service(call: ServiceCall, offered: Mapping[str, Sequence[str]]) -> str:
+    if others := [kind for kind in offered.get(call.service, ()) if kind != call.type]:
+        return f'it offers {call.service} as {others[0]}; {asked(call.type)}'
+    near = nearest(call.service, [name for name in offered if name != call.service])
+    return (
+        f'it offers {near}; {asked(call.service)}' if near else f'it does not offer {call.service}'
+    )

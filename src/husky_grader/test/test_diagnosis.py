@@ -1,0 +1,217 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What real programs print, and where real nodes stand in the graph, and what is told of it."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+import os
+from pathlib import Path
+import signal
+import sys
+import time
+
+from geometry_msgs.msg import Twist, TwistStamped
+from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons
+from husky_grader.run.graph import read_graph
+from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
+from husky_runtime.children import ChildProcess
+from nav_msgs.msg import Odometry
+import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
+from rclpy.signals import SignalHandlerOptions
+
+ODOMETRY = '/odometry/filtered'
+
+
+def printed_by(program: str, folder: Path, *, until: str = '') -> str:
+    """
+    Run a program, and return what it prints.
+
+    :param until: what it prints before Ctrl-C; empty: it ends by itself.
+    """
+    file, log = folder / 'follow_path.py', folder / 'controller.log'
+    file.write_text(program)
+    with log.open('w') as stream:
+        process = ChildProcess([sys.executable, str(file)], os.environ, stream)
+        if until:
+            wait_for(lambda: until in read_printed(log), f'{until}, printed by the program')
+            process.send(signal.SIGINT)
+        assert process.wait(20.0)
+    return read_printed(log)
+
+
+def wait_for(fact: Callable[[], object], what: str) -> None:
+    deadline = time.monotonic() + 10.0
+    while not fact():
+        assert time.monotonic() < deadline, f'not within 10 s: {what}'
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize(
+    ('program', 'reason'),
+    [
+        ("print('starting')\ndef main(:\n", 'follow_path.py line 2: SyntaxError: '),
+        ("import math\n\nmath.sqrt('4')\n", 'follow_path.py line 3: TypeError: '),
+        (
+            'import json\ndef read():\n    return json.loads("{")\nread()\n',
+            'follow_path.py line 3: json.decoder.JSONDecodeError: ',
+        ),
+        (
+            'try:\n    {}["x"]\nexcept KeyError:\n    raise ValueError("no such path")\n',
+            'follow_path.py line 4: ValueError: no such path',
+        ),
+        ('import no_such_module\n', 'follow_path.py line 1: ModuleNotFoundError: '),
+        (
+            'print("x" * 100000)\nraise ValueError("late")\n',
+            'follow_path.py line 2: ValueError: late',
+        ),
+    ],
+)
+def test_an_error_is_told_with_the_line_of_the_student(
+    program: str, reason: str, tmp_path: Path
+) -> None:
+    printed = printed_by(program, tmp_path)
+    assert reasons(printed, '', Graph())[0].startswith(reason), printed
+
+
+def test_an_end_that_was_asked_for_is_no_error(
+    domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+    program = (
+        'import rclpy, sys\n'
+        'sys.excepthook = sys.__excepthook__\n'  # it tells all, as where a ROS is sourced
+        "rclpy.init()\nnode = rclpy.create_node('student')\ntry:\n"
+        "    print('ready', flush=True)\n    rclpy.spin(node)\nfinally:\n    rclpy.shutdown()\n"
+    )
+    printed = printed_by(program, tmp_path, until='ready')
+    assert 'RCLError' in printed
+    assert reasons(printed, '', Graph()) == ()
+
+
+def test_a_velocity_that_is_no_number_is_told_from_the_simulator(
+    student: tuple[Node, Callable[[], Graph]], domain: int, tmp_path: Path
+) -> None:
+    log = tmp_path / 'simulator.log'
+    publisher = student[0].create_publisher(Twist, COMMAND_TOPIC, 10)
+    wrong = Twist()
+    wrong.linear.x = float('nan')
+
+    def told() -> tuple[str, ...]:
+        publisher.publish(wrong)
+        return reasons('', read_printed(log), Graph())
+
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain)}
+    simulator = [sys.executable, '-m', 'husky_sim.ros.node']
+    with log.open('w') as stream, ChildProcess(simulator, environment, stream):
+        wait_for(told, 'what the simulator says of nan')
+    assert told() == (
+        'it commanded linear.x = nan, angular.z = 0.0: a velocity must be a finite number',
+    )
+
+
+def test_of_a_long_log_beginning_and_end_are_kept(tmp_path: Path) -> None:
+    log = tmp_path / 'controller.log'
+    log.write_text('first\n' + 'x' * 200_000 + '\nlast \x1b[31m\n')
+    for text in (read_printed(log), shown(read_printed(log))):
+        assert text.startswith('first\n')
+        assert 'are left out]\n' in text
+        assert '\nlast ' in text
+    assert len(shown(read_printed(log))) < MAX_SHOWN + 100
+    assert '\x1b' not in shown(read_printed(log))
+    assert read_printed(tmp_path / 'nothing') == ''
+
+
+@pytest.fixture
+def student(
+    domain: int, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[tuple[Node, Callable[[], Graph]]]:
+    """Give a student's node beside a simulator, and how the grader sees it."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    with ExitStack() as stack:
+        nodes = []
+        for name in ('follow_path', 'husky_sim', 'grader'):
+            context = rclpy.Context()
+            rclpy.init(
+                context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO
+            )
+            stack.callback(rclpy.shutdown, context=context)
+            nodes.append(Node(name, context=context))
+            stack.callback(nodes[-1].destroy_node)
+        nodes[1].create_publisher(Odometry, 'odometry/filtered', 10)
+        nodes[1].create_publisher(Odometry, 'front/scan', qos_profile_sensor_data)
+
+        def graph() -> Graph:
+            return read_graph(nodes[2], ('husky_sim', 'grader'))
+
+        offered = {'/front/scan', ODOMETRY}
+        wait_for(lambda: {e.topic for e in graph().other_publishers} >= offered, 'the simulator')
+        yield nodes[0], graph
+
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+MISTAKES: dict[str, tuple[Callable[[Node], object], str]] = {
+    'misspelt': (
+        lambda node: node.create_subscription(Odometry, 'odometry/filterd', print, 10),
+        f'it listens to /odometry/filterd, which nobody publishes; did you mean {ODOMETRY}?',
+    ),
+    'without its namespace': (
+        lambda node: node.create_subscription(Odometry, 'filtered', print, 10),
+        f'it listens to /filtered, which nobody publishes; did you mean {ODOMETRY}?',
+    ),
+    'transient local': (
+        lambda node: node.create_subscription(Odometry, 'odometry/filtered', print, LATCHED),
+        f'it hears nothing of {ODOMETRY}: it asks for TRANSIENT_LOCAL, but that is published '
+        'VOLATILE; leave the durability of its QoS profile out',
+    ),
+    'reliable': (
+        lambda node: node.create_subscription(Odometry, 'front/scan', print, 10),
+        'it hears nothing of /front/scan: it asks for RELIABLE, but that is published '
+        'BEST_EFFORT; subscribe with qos_profile_sensor_data',
+    ),
+    'another type': (
+        lambda node: node.create_subscription(Twist, 'odometry/filtered', print, 10),
+        f'it listens to {ODOMETRY} as geometry_msgs/msg/Twist; that topic carries '
+        'nav_msgs/msg/Odometry',
+    ),
+    'commands elsewhere': (
+        lambda node: node.create_publisher(Twist, 'cmd_vel', 10),
+        f'it publishes geometry_msgs/msg/Twist on /cmd_vel; the Husky listens on {COMMAND_TOPIC}',
+    ),
+    'commands of another type': (
+        lambda node: node.create_publisher(TwistStamped, COMMAND_TOPIC, 10),
+        f'it publishes geometry_msgs/msg/TwistStamped on {COMMAND_TOPIC}; the Husky takes '
+        'geometry_msgs/msg/Twist',
+    ),
+    'commands best effort': (
+        lambda node: node.create_publisher(Twist, COMMAND_TOPIC, qos_profile_sensor_data),
+        f'it publishes {COMMAND_TOPIC} best effort; the Husky listens reliably and hears nothing',
+    ),
+}
+
+
+@pytest.mark.parametrize('name', MISTAKES)
+def test_a_mistake_on_the_graph_is_told_for_what_it_is(
+    name: str, student: tuple[Node, Callable[[], Graph]]
+) -> None:
+    node, graph = student
+    make, reason = MISTAKES[name]
+    kept = make(node)
+    wait_for(lambda: reasons('', '', graph()), reason)
+    assert reasons('', '', graph()) == (reason,)
+    del kept
+
+
+def test_nothing_is_told_of_a_node_that_does_it_right(
+    student: tuple[Node, Callable[[], Graph]],
+) -> None:
+    node, graph = student
+    kept = [
+        node.create_subscription(Odometry, 'odometry/filtered', print, 10),
+        node.create_publisher(Twist, COMMAND_TOPIC, 10),
+    ]
+    wait_for(lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, 'the graph')
+    assert reasons('', '', graph()) == ()
+    del kept
