@@ -91,7 +91,7 @@ def test_an_end_that_was_asked_for_is_no_error(
     assert reasons(printed, '', Graph()) == ()
 
 
-def test_a_velocity_that_is_no_number_is_told_from_the_simulator(
+def test_a_velocity_that_is_no_number_is_told(
     student: tuple[Node, Callable[[], Graph]], domain: int, tmp_path: Path
 ) -> None:
     log = tmp_path / 'simulator.log'

@@ -199,11 +199,8 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
     shutil.rmtree(workspace / 'src' / 'my_driver')
     report = tmp_path / 'report'
     assert grade(['--lab', str(workspace), '--report', str(report)]) == 1
-    why = {
-        step['name']: step['why']
-        for step in json.loads((report / 'lab.json').read_text())['steps']
-        if step['points'] < step['most']
-    }
+    steps = {step['name']: step for step in json.loads((report / 'lab.json').read_text())['steps']}
+    why = {name: step['why'] for name, step in steps.items() if step['points'] < step['most']}
     lacking = 'a package with follow_path.py is not in src; packages there: topic_demo'
     assert why['driver package'] == why['drive'] == lacking
     assert (
@@ -212,6 +209,7 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
     )
     assert why['publisher'].startswith('publisher.py line ')
     assert ': TypeError: ' in why['publisher']
+    assert 'Traceback (most recent call last)' in steps['publisher']['printed']
     assert (
         'ros2 run topic_demo subscriber finds nothing; topic_demo has: listener'
         in (why['subscriber'])
@@ -253,13 +251,13 @@ def test_a_hidden_course_is_known_by_its_title_only(tmp_path: Path) -> None:
         limits=DriveLimits(time_sec=1.0),
     )
     workspace = built(tmp_path, 'my_driver', 'follow_path', FOLLOW_PATH % sys.executable)
-    drives = DriveRunner(HostRunner(tmp_path / 'built'), os.environ, real_time_factor=10.0)
+    drives = DriveRunner(HostRunner(tmp_path / 'built'), os.environ, real_time_factor=4.0)
     found = drive_step(step, drives, workspace, tmp_path / 'report')
-    assert found.score == pytest.approx(50.0)
+    report = json.loads((tmp_path / 'report' / 'staff' / 'drive' / 'report.json').read_text())
+    assert found.score == max(report['score'] - 50.0, 0.0)
     assert found.why.startswith('course A: ')
-    assert ' s, 1 s are allowed; score 100.0 of 100, 2 of 2 waypoints' in found.why
-    told = [path.name for path in (tmp_path / 'report').iterdir()]
-    assert told == ['staff']
+    assert f' s, 1 s are allowed; score {report["score"]:.1f} of 100, ' in found.why
+    assert [path.name for path in (tmp_path / 'report').iterdir()] == ['staff']
     assert '1.375' in (tmp_path / 'report' / 'staff' / 'drive' / 'controller.log').read_text()
     assert '1.375' not in found.why
 

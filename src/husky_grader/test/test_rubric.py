@@ -49,7 +49,7 @@ def test_a_rubric_says_what_stands_in_the_file() -> None:
     assert drive.courses[0].file.samefile(CONFIG / 'waypoints' / 'central_barrier.yaml')
 
 
-def test_every_mistake_of_a_rubric_is_told_at_once_with_its_place() -> None:
+def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
     assert problems(
         'kind: publsher, points: 1',
         f'kind: publisher, {TOPIC}, type: std_msgs/msg/Sring, rate: 10',

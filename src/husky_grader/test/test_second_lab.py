@@ -104,7 +104,7 @@ def test_one_that_takes_no_parameters_gets_its_service_only(tmp_path: Path) -> N
 
 
 @pytest.mark.timeout(60)
-def test_one_whose_service_has_another_type_is_told_the_right_one(tmp_path: Path) -> None:
+def test_one_with_another_type_of_service_is_told_the_right(tmp_path: Path) -> None:
     program = FORCE_SENSOR.replace('create_service(Trigger', 'create_service(SetBool')
     hurried = [
         replace(step, within_sec=4.0) if isinstance(step, (PublisherStep, ServiceStep)) else step

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The step in which a program drives courses."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 import shlex
 import shutil
+from tempfile import TemporaryDirectory
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
@@ -38,18 +40,16 @@ class DriveRunner:
     ) -> Report:
         """Let a program drive a course, and write the report on it into a folder."""
         route = plan_route(load_course(course.file))
-        given = self.runner.folder / COURSE_FILE
-        shutil.copyfile(course.file, given)
-        told = {COURSE: str(given)}
-        command = [_put(part, told) for part in command_of(step, workspace, self.runner.folder)]
-        live = drive_live(
-            shlex.join(command),
-            route,
-            folder,
-            answers=''.join(f'{_put(answer, told)}\n' for answer in step.answers),
-            environment=self.environment,
-            real_time_factor=self.real_time_factor,
-        )
+        command = command_of(step, workspace, self.runner.folder)
+        with self._lent(course.file) as given:
+            live = drive_live(
+                shlex.join(part.replace(COURSE, given) for part in command),
+                route,
+                folder,
+                answers=''.join(f'{answer.replace(COURSE, given)}\n' for answer in step.answers),
+                environment=self.environment,
+                real_time_factor=self.real_time_factor,
+            )
         run = read_run(live.record)
         report = live.with_notes(judge(run, route))
         if course.title:
@@ -57,11 +57,13 @@ class DriveRunner:
         write_report(folder, report, run, route)
         return report
 
-
-def _put(text: str, told: Mapping[str, str]) -> str:
-    for name, value in told.items():
-        text = text.replace(name, value)
-    return text
+    @contextmanager
+    def _lent(self, file: Path) -> Iterator[str]:
+        """Give the name of a copy that programs can read."""
+        # In a new folder: a link that a build has left there would lead the copy elsewhere.
+        with TemporaryDirectory(dir=self.runner.folder) as place:
+            Path(place).chmod(0o755)
+            yield shutil.copyfile(file, f'{place}/{COURSE_FILE}')
 
 
 def drive_step(step: DriveStep, runner: DriveRunner, workspace: Path, folder: Path) -> Finding:

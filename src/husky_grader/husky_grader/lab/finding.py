@@ -14,11 +14,13 @@ class Finding:
     :param why: what is right about it, or why it gets nothing.
     :param score: percent of its points, before its defects.
     :param defects: why each costs something, by its name in the costs of the step.
+    :param printed: what the program or the build has printed, as much as a report holds.
     """
 
     why: str
     score: float = 100.0
     defects: Mapping[str, str] = field(default_factory=dict)
+    printed: str = ''
 
 
 def nothing(why: str) -> Finding:

@@ -3,7 +3,7 @@
 """Grade a student's whole workspace: every step of a rubric, with points and reasons."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 import json
 from pathlib import Path
 import shutil
@@ -26,6 +26,7 @@ from husky_grader.rubric.steps import (
     Step,
     WorkspaceStep,
 )
+from husky_grader.run.printed import read_printed, shown
 
 BUILT = 'built'
 
@@ -38,6 +39,7 @@ class StepGrade:
     most: float
     points: float
     why: str
+    printed: str = ''  # by its program or the build, shortened
 
     @property
     def is_full(self) -> bool:
@@ -95,39 +97,40 @@ class _Grading:
         self._not_sourced = 'nothing was built'
 
     def find(self, step: Step) -> Finding:
+        """Return the finding on a step, with what was printed meanwhile."""
+        log = self._folder / f'{step.file_name}.log'
+        log.unlink(missing_ok=True)  # that of a former grading
+        return replace(self._found(step, log), printed=shown(read_printed(log)))
+
+    def _found(self, step: Step, log: Path) -> Finding:
         if isinstance(step, WorkspaceStep):
             return workspace_step(step, self._workspace)
         if isinstance(step, PackageStep):
             return package_step(step, self._workspace)
         if isinstance(step, BuildStep):
-            return self._build(step)
+            return self._build(log)
         if isinstance(step, ProgramStep):
-            return self._run(step)
+            return self._run(step, log)
         raise TypeError(f'{step.kind}: a step of this kind cannot be graded')
 
-    def _build(self, step: Step) -> Finding:
-        found = build_step(self._workspace, self._runner, self._log(step))
+    def _build(self, log: Path) -> Finding:
+        found = build_step(self._workspace, self._runner, log)
         try:
             self._environment, self._not_sourced = sourced(self._runner), ''
         except ValueError as error:
             self._not_sourced = str(error)
         return found
 
-    def _run(self, step: ProgramStep) -> Finding:
+    def _run(self, step: ProgramStep, log: Path) -> Finding:
         if self._not_sourced:
             return nothing(self._not_sourced)
         try:
             if isinstance(step, DriveStep):
                 drives = DriveRunner(self._runner, self._environment, self._real_time_factor)
                 return drive_step(step, drives, self._workspace, self._folder)
-            return live_step(
-                step, self._workspace, self._runner, self._environment, self._log(step)
-            )
+            return live_step(step, self._workspace, self._runner, self._environment, log)
         except (PackageMissing, ProgramMissing) as error:
             return nothing(str(error))
-
-    def _log(self, step: Step) -> Path:
-        return self._folder / f'{step.file_name}.log'
 
 
 def _with_needs(steps: Sequence[Step], findings: Mapping[str, Finding]) -> Iterator[StepGrade]:
@@ -152,7 +155,7 @@ def _with_needs(steps: Sequence[Step], findings: Mapping[str, Finding]) -> Itera
         told = list(found.defects.values()) or [found.why]
         if lacking and percents[step.name] > 0.0:
             told.insert(0, lacking)
-        yield StepGrade(step.name, step.points, points, '; '.join(told))
+        yield StepGrade(step.name, step.points, points, '; '.join(told), found.printed)
 
 
 def _percent(step: Step, found: Finding) -> float:

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 import signal
 
-from husky_runtime.domains import OwnDomain
+from husky_runtime.domains import DomainError, OwnDomain
 
 from husky_grader.lab.build_step import find_executable
 from husky_grader.lab.file_steps import find_package
@@ -31,9 +31,14 @@ def live_step(
 
     :raises PackageMissing: when the package is not there.
     :raises ProgramMissing: when the program is not there.
+    :raises ValueError: when no DDS domain is free.
     """
     command = command_of(step, workspace, runner.folder)
-    with OwnDomain() as own:
+    try:
+        domain = OwnDomain()
+    except DomainError as error:
+        raise ValueError(str(error)) from None
+    with domain as own:
         theirs = {**environment, 'ROS_DOMAIN_ID': str(own.number), 'PYTHONUNBUFFERED': '1'}
         try:
             running = runner.start(command, theirs, log)

@@ -23,7 +23,8 @@ def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
         )
         for entry in entries:
             if not _fits(entry, check):
-                return f'{check.field} is {shortened(repr(entry))}; {asked(_wanted(check))}'
+                shown = repr(entry) if isinstance(entry, str) else str(entry)
+                return f'{check.field} is {shortened(shown)}; {asked(_wanted(check))}'
     return ''
 
 
