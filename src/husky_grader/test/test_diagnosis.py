@@ -76,6 +76,18 @@ def test_an_error_is_told_with_the_line_of_the_student(
     assert reasons(printed, '', Graph())[0].startswith(reason), printed
 
 
+def test_an_error_of_a_launched_program_is_told_too(tmp_path: Path) -> None:
+    program, launch = tmp_path / 'follow_path.py', tmp_path / 'drive.launch.yaml'
+    program.write_text('limit = 4\nraise ValueError(limit)\n')
+    launch.write_text(f'launch: [{{executable: {{cmd: {sys.executable} {program}}}}}]\n')
+    log = tmp_path / 'controller.log'
+    with log.open('w') as stream:
+        process = ChildProcess(['ros2', 'launch', str(launch)], os.environ, stream)
+        assert process.wait(20.0)
+    told = reasons(read_printed(log), '', Graph())
+    assert told == ('follow_path.py line 2: ValueError: 4',), read_printed(log)
+
+
 def test_an_end_that_was_asked_for_is_no_error(
     domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -120,6 +120,24 @@ def test_a_mistake_in_a_step_is_told_with_what_is_allowed(step: str, expected: s
     assert any(expected in line for line in problems(step)), problems(step)
 
 
+JUNK = ['', '~', '[]', '{}', '-1', 'x', '[x, {y: z}]', '{kind: build}', "''", '.nan', '&a 1', '{{']
+
+
+def test_any_change_of_a_rubric_is_read_or_refused_with_a_line() -> None:
+    for path in RUBRICS:
+        lines = path.read_text().splitlines()
+        for number, line in enumerate(lines):
+            key = line.partition(':')[0]
+            junk = JUNK[number % len(JUNK)]
+            for changed in ([], [f'{key}: {junk}'], [line, line]):
+                text = '\n'.join([*lines[:number], *changed, *lines[number + 1 :]])
+                try:
+                    parse_rubric(text, str(path))
+                except FileRefused as refused:
+                    first = refused.problems[0]
+                    assert first.line >= 1, text
+
+
 @pytest.mark.parametrize('hidden', ['hidden: true, title: A', 'title: A}, {file: square.yaml'])
 def test_a_program_must_be_told_which_course_it_is(hidden: str) -> None:
     step = f'kind: drive, {PROGRAM}, courses: [{{file: straight.yaml, {hidden}}}]'

@@ -28,6 +28,7 @@ LIBRARIES = tuple(
     | {f'{sys.base_prefix}/lib/python3', '/opt/ros/', '/usr/lib/python3', '<frozen '}
 )
 
+_LAUNCHED = re.compile(r'\[[\w.-]+-\d+\] ')  # what `ros2 launch` puts before each line
 _FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _ERROR = re.compile(r'(?P<name>[A-Za-z_][\w.]*)(: .*)?')
 _ENDED = ('KeyboardInterrupt', 'ExternalShutdownException')  # whoever asked it to end
@@ -103,7 +104,8 @@ class _Error:
 def _errors(printed: str) -> Iterator[_Error]:
     """Yield the errors of tracebacks, and of what Python could not even read."""
     frames: list[tuple[str, str]] = []
-    for line in printed.splitlines():
+    for printed_line in printed.splitlines():
+        line = _LAUNCHED.sub('', printed_line, count=1)
         if found := _FRAME.match(line):
             frames.append((found['file'], found['line']))
         elif line[:1].strip():  # neither source nor a mark below it
