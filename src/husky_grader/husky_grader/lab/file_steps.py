@@ -4,12 +4,14 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+import re
 import xml.etree.ElementTree as ElementTree
 
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.rubric.steps import PackageStep, WorkspaceStep
 
 MAX_MANIFEST = 100_000  # bytes
+PACKAGE_NAME = re.compile(r'[A-Za-z][\w-]*', re.ASCII)  # REP-149: no way to another folder
 
 
 def workspace_step(step: WorkspaceStep, workspace: Path) -> Finding:
@@ -85,6 +87,7 @@ def find_manifests(workspace: Path) -> list[Manifest]:
                 root = ElementTree.fromstring(stream.read(MAX_MANIFEST))
         except (ElementTree.ParseError, OSError):
             continue
-        if name := (root.findtext('name') or '').strip():
+        name = (root.findtext('name') or '').strip()
+        if PACKAGE_NAME.fullmatch(name):
             found.append(Manifest(name, path.parent, root))
     return found

@@ -26,9 +26,11 @@ from husky_grader.rubric.steps import (
     Step,
     WorkspaceStep,
 )
+from husky_grader.run.diagnosis import shortened
 from husky_grader.run.printed import read_printed, shown
 
 BUILT = 'built'
+MAX_WHY = 1000  # characters
 
 
 @dataclass(frozen=True)
@@ -155,7 +157,8 @@ def _with_needs(steps: Sequence[Step], findings: Mapping[str, Finding]) -> Itera
         told = list(found.defects.values()) or [found.why]
         if lacking and percents[step.name] > 0.0:
             told.insert(0, lacking)
-        yield StepGrade(step.name, step.points, points, '; '.join(told), found.printed)
+        why = shortened('; '.join(told), MAX_WHY)
+        yield StepGrade(step.name, step.points, points, why, found.printed)
 
 
 def _percent(step: Step, found: Finding) -> float:

@@ -43,6 +43,7 @@ from husky_grader.run.printed import read_printed
 NAME = 'grader'
 SEND_EVERY_SEC = 0.1
 SETTLED_SEC = 0.3  # what was on its way when a service answered has come by then
+TOKENS = (10_000_000, 2**24)  # any field of numbers but the smallest holds them exactly
 MAX_MESSAGES = 2000  # that are kept
 # It matches every publisher, and every subscription.
 HEARS_ALL = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -156,7 +157,7 @@ def _why_silent(step: PublisherStep, graph: Graph) -> str:
 
 
 def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding:
-    token = str(random.randint(100_000, 999_999))
+    token = str(random.randint(*TOKENS))
     message = filled(get_message(step.type)(), with_token(step.sent, token))
     publisher = observer.node.create_publisher(type(message), step.topic, HEARD_BY_ALL)
 

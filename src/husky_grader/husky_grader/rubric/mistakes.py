@@ -21,7 +21,7 @@ from husky_grader.rubric.steps import (
     SubscriberStep,
 )
 
-A_TOKEN = '123456'
+A_TOKEN = '12345678'
 
 _Mistakes = Iterator[tuple[str, str]]
 

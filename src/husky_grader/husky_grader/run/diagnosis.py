@@ -114,8 +114,8 @@ def _errors(printed: str) -> Iterator[_Error]:
             frames = []
 
 
-def shortened(text: str) -> str:
-    return text if len(text) <= MAX_LINE else f'{text[: MAX_LINE - 3]}...'
+def shortened(text: str, most: int = MAX_LINE) -> str:
+    return text if len(text) <= most else f'{text[: most - 3]}...'
 
 
 def unheard_topics(graph: Graph) -> Iterator[str]:
