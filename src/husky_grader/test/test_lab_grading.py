@@ -148,8 +148,9 @@ def test_a_pause_of_a_publisher_does_not_change_its_rate(
         ),
         (f'#!{sys.executable}\ndef main(:\n    pass\n', 'publisher line 2: SyntaxError: '),
         (f'#!{sys.executable}\nimport os\nos._exit(7)\n', 'it ended by itself (exit code 7)'),
+        ('#!/no/such/python\n', 'publisher cannot be started: No such file or directory'),
     ],
-    ids=['another topic', 'a syntax error', 'an exit'],
+    ids=['another topic', 'a syntax error', 'an exit', 'no interpreter'],
 )
 def test_a_publisher_that_is_not_heard_is_told_why(tmp_path: Path, program: str, why: str) -> None:
     assert isinstance(PUBLISHES, PublisherStep)
@@ -341,6 +342,14 @@ def test_a_daemon_of_a_build_ends_with_the_build(workspace: Path, tmp_path: Path
     found = build_step(workspace, HostRunner(report), log)
     assert found.score == 100.0, found
     assert 'Finished <<< topic_demo' in log.read_text()
+    assert running([int(pid) for pid in pids.read_text().split()]) == []
+
+
+def test_a_daemon_of_a_publisher_ends_with_its_step(tmp_path: Path) -> None:
+    assert isinstance(PUBLISHES, PublisherStep)
+    pids = tmp_path / 'pids'
+    found = found_of(PUBLISHES, tmp_path, f'#!{sys.executable}\n{daemon(pids)}')
+    assert found.why == 'it ended by itself (exit code 0)'
     assert running([int(pid) for pid in pids.read_text().split()]) == []
 
 

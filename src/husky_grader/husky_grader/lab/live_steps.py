@@ -3,6 +3,7 @@
 """The steps that are judged on a running program: publisher, subscriber and service."""
 
 from collections.abc import Mapping
+from contextlib import ExitStack
 import json
 from pathlib import Path
 import signal
@@ -34,19 +35,18 @@ def live_step(
     :raises ValueError: when no DDS domain is free.
     """
     command = command_of(step, workspace, runner.folder)
-    try:
-        domain = OwnDomain()
-    except DomainError as error:
-        raise ValueError(str(error)) from None
-    with domain as own:
-        theirs = {**environment, 'ROS_DOMAIN_ID': str(own.number), 'PYTHONUNBUFFERED': '1'}
+    with ExitStack() as stack:
         try:
-            running = runner.start(command, theirs, log)
+            domain = stack.enter_context(OwnDomain()).number
+        except DomainError as error:
+            raise ValueError(str(error)) from None
+        theirs = {**environment, 'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
+        try:
+            program = stack.enter_context(runner.start(command, theirs, log))
         except OSError as error:
             return nothing(f'{step.executable} cannot be started: {error.strerror}')
-        with running as program:
-            found = observe(step, own.number, lambda: program.exit_code is not None, log)
-            exit_code = program.exit_code
+        found = observe(step, domain, lambda: program.exit_code is not None, log)
+        exit_code = program.exit_code
     if exit_code is not None and found.score == 0.0:
         return nothing(how_it_ended(exit_code, read_printed(log)))
     return found

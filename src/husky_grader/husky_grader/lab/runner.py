@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What runs the programs of a submission: the one door between them and the grader."""
 
-from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 import os
 from pathlib import Path
 import signal
@@ -45,10 +45,10 @@ class Runner(Protocol):
         self, command: Sequence[str], environment: Mapping[str, str], log: Path, input: str = ''
     ) -> AbstractContextManager[Program]:
         """
-        Start a program; the context ends it with all that it has started.
+        Return the context in which a program runs; its end ends all that this has started.
 
         :param input: what it reads from its standard input.
-        :raises OSError: when it cannot be started.
+        :raises OSError: on entering, when it cannot be started.
         """
 
 
@@ -63,11 +63,18 @@ class HostRunner:
     def run(
         self, command: Sequence[str], environment: Mapping[str, str], log: Path, within_sec: float
     ) -> int | None:
-        with descendants_ended(), self.start(command, environment, log) as process:
+        with self.start(command, environment, log) as process:
             return process.exit_code if process.wait(within_sec) else None
 
+    @contextmanager
     def start(
         self, command: Sequence[str], environment: Mapping[str, str], log: Path, input: str = ''
-    ) -> ChildProcess:
-        with log.open('w') as stream:
-            return ChildProcess(command, environment, stream, input, parent_death=signal.SIGKILL)
+    ) -> Iterator[ChildProcess]:
+        with (
+            descendants_ended(),
+            log.open('w') as stream,
+            ChildProcess(
+                command, environment, stream, input, parent_death=signal.SIGKILL
+            ) as process,
+        ):
+            yield process
