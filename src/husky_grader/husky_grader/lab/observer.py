@@ -44,7 +44,7 @@ NAME = 'grader'
 SEND_EVERY_SEC = 0.1
 SETTLED_SEC = 0.3  # what was on its way when a service answered has come by then
 TOKENS = (10_000_000, 2**24)  # any field of numbers but the smallest holds them exactly
-MAX_MESSAGES = 2000  # that are kept
+MAX_MESSAGES = 2000  # that are judged
 # It matches every publisher, and every subscription.
 HEARS_ALL = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 HEARD_BY_ALL = QoSProfile(
@@ -113,30 +113,26 @@ def _observer(domain: int, over: Over) -> Iterator[_Observer]:
 def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
     if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
         return found
-    received: list[tuple[float, Any]] = []
+    times_sec: list[float] = []
+    complaints: list[str] = []  # the first; no message is kept: a large one costs much memory
 
     def on_message(message: Any) -> None:
-        if len(received) < MAX_MESSAGES:
-            received.append((time.monotonic(), message))
+        if len(times_sec) < MAX_MESSAGES:
+            times_sec.append(time.monotonic())
+            if not complaints and (wrong := complaint(message, step.content)):
+                complaints.append(wrong)
 
-    kind = get_message(step.type)
-    observer.node.create_subscription(kind, step.topic, on_message, HEARS_ALL)
+    observer.node.create_subscription(get_message(step.type), step.topic, on_message, HEARS_ALL)
     if step.call is not None:
         observer.spin_for(SETTLED_SEC)
-        received.clear()
-    observer.spin_until(lambda: received, step.within_sec)
-    if not received:
+        times_sec.clear()
+        complaints.clear()
+    observer.spin_until(lambda: times_sec, step.within_sec)
+    if not times_sec:
         return nothing(_why_silent(step, read_graph(observer.node, (NAME,))))
     observer.spin_for(step.listen_sec)
-    return _judge(step, received)
-
-
-def _judge(step: PublisherStep, received: list[tuple[float, Any]]) -> Finding:
-    defects = {}
-    complaints = (complaint(message, step.content) for _, message in received)
-    if wrong := next(filter(None, complaints), ''):
-        defects['content'] = wrong
-    rate = rate_hz([time_sec for time_sec, _ in received])
+    defects = {'content': complaints[0]} if complaints else {}
+    rate = rate_hz(times_sec)
     if step.rate_hz is not None:
         off_hz = step.rate_tolerance_percent / 100 * step.rate_hz
         if abs(rate - step.rate_hz) > off_hz:
