@@ -11,7 +11,7 @@ import sys
 import time
 
 from geometry_msgs.msg import Twist, TwistStamped
-from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons
+from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons, reasons_of_graph
 from husky_grader.run.graph import read_graph
 from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
 from husky_runtime.children import ChildProcess
@@ -73,7 +73,7 @@ def test_an_error_is_told_with_the_line_of_the_student(
     program: str, reason: str, tmp_path: Path
 ) -> None:
     printed = printed_by(program, tmp_path)
-    assert reasons(printed, '', Graph())[0].startswith(reason), printed
+    assert reasons(printed, '', (), None)[0].startswith(reason), printed
 
 
 def test_an_error_of_a_launched_program_is_told_too(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_an_error_of_a_launched_program_is_told_too(tmp_path: Path) -> None:
     with log.open('w') as stream:
         process = ChildProcess(['ros2', 'launch', str(launch)], os.environ, stream)
         assert process.wait(20.0)
-    told = reasons(read_printed(log), '', Graph())
+    told = reasons(read_printed(log), '', (), None)
     assert told == ('follow_path.py line 2: ValueError: 4',), read_printed(log)
 
 
@@ -100,7 +100,7 @@ def test_an_end_that_was_asked_for_is_no_error(
     )
     printed = printed_by(program, tmp_path, until='ready')
     assert 'RCLError' in printed
-    assert reasons(printed, '', Graph()) == ()
+    assert reasons(printed, '', (), None) == ()
 
 
 def test_a_velocity_that_is_no_number_is_told(
@@ -113,7 +113,7 @@ def test_a_velocity_that_is_no_number_is_told(
 
     def told() -> tuple[str, ...]:
         publisher.publish(wrong)
-        return reasons('', read_printed(log), Graph())
+        return reasons('', read_printed(log), (), None)
 
     environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain)}
     simulator = [sys.executable, '-m', 'husky_sim.ros.node']
@@ -211,8 +211,8 @@ def test_a_mistake_on_the_graph_is_told_for_what_it_is(
     node, graph = student
     make, reason = MISTAKES[name]
     kept = make(node)
-    wait_for(lambda: reasons('', '', graph()), reason)
-    assert reasons('', '', graph()) == (reason,)
+    wait_for(lambda: tuple(reasons_of_graph(graph())), reason)
+    assert tuple(reasons_of_graph(graph())) == (reason,)
     del kept
 
 
@@ -225,5 +225,5 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
         node.create_publisher(Twist, COMMAND_TOPIC, 10),
     ]
     wait_for(lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, 'the graph')
-    assert reasons('', '', graph()) == ()
+    assert tuple(reasons_of_graph(graph())) == ()
     del kept

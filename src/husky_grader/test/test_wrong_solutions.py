@@ -215,7 +215,27 @@ LIVE = {
         f'drive(node.create_publisher(Twist, {TOPIC}, sensor), message, 9)',
         'it publishes /husky_velocity_controller/cmd_vel best effort',
     ),
-    'crashes': ("raise RuntimeError('no such path')", 'it crashed (exit code 1): RuntimeError'),
+    'crashes': (
+        "raise RuntimeError('no such path')",
+        'it crashed (exit code 1): student.py line 11: RuntimeError: no such path',
+    ),
+    'listens to a name nobody has': (
+        'from nav_msgs.msg import Odometry\n'
+        f'publisher = node.create_publisher(Twist, {TOPIC}, 10)\n'
+        "node.create_subscription(Odometry, 'odometry/filterd', lambda _: None, 10)\n"
+        'drive(publisher, Twist(), 5)',
+        'it listens to /odometry/filterd, which nobody publishes; did you mean '
+        '/odometry/filtered?',
+    ),
+    'commands what is no number': (
+        "message = Twist(); message.linear.x = float('nan')\n"
+        f'drive(node.create_publisher(Twist, {TOPIC}, 10), message, 5)',
+        'it commanded linear.x = nan, angular.z = 0.0: a velocity must be a finite number',
+    ),
+    'is no Python': (
+        'def drive(:',
+        'it crashed (exit code 1): student.py line 11: SyntaxError: ',
+    ),
     'prints only': ("print('driving')", 'it never moved: no command but zero arrived'),
 }
 
@@ -245,7 +265,7 @@ def test_a_node_that_does_it_wrong_on_the_graph_is_told_how(name: str, tmp_path:
     report = json.loads((tmp_path / 'report' / 'report.json').read_text())
     assert code == 1
     assert report['score'] == 0.0
-    assert any(line.startswith(reason) for line in report['reasons']), report['reasons']
+    assert report['reasons'][0].startswith(reason), report['reasons']
 
 
 @pytest.mark.usefixtures('graph')

@@ -44,7 +44,7 @@ class DriveRunner:
         with self._lent(course.file) as given:
             live = drive_live(
                 shlex.join(part.replace(COURSE, given) for part in command),
-                route,
+                str(course.file),
                 folder,
                 answers=''.join(f'{answer.replace(COURSE, given)}\n' for answer in step.answers),
                 environment=self.environment,

@@ -25,7 +25,7 @@ JSON_KEYS = (
     *('collisions', 'disturbances'),
     *('cross_track_rms_m', 'cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m'),
     *('sim_time_sec', 'wall_time_sec', 'acceleration_rms_m_s2', 'yaw_acceleration_rms_rad_s2'),
-    *('trajectory_sha256', 'score', 'parts', 'reasons', 'ending', 'pace'),
+    *('trajectory_sha256', 'score', 'parts', 'reasons', 'ending', 'pace', 'printed'),
 )
 
 

@@ -12,6 +12,7 @@ from difflib import get_close_matches
 from itertools import takewhile
 from pathlib import PurePath
 import re
+from signal import Signals
 import sys
 import sysconfig
 
@@ -54,23 +55,38 @@ class Graph:
     other_publishers: Sequence[Endpoint] = ()
 
 
-def reasons(printed: str, simulator_log: str, graph: Graph) -> tuple[str, ...]:
+def reasons(
+    printed: str, simulator_log: str, graph_reasons: Iterable[str], exit_code: int | None
+) -> tuple[str, ...]:
     """
     Return why a controller did not drive, the most telling first.
 
     :param printed: what it has printed until it was ended.
-    :param graph: where it stood, with the publishers of the simulator as others.
+    :param graph_reasons: what its place in the graph says, see `reasons_of_graph`.
+    :param exit_code: with which it has ended by itself; None where it was ended.
     """
     crashed = crash(printed)
+    if exit_code:
+        how = f'exit code {exit_code}' if exit_code > 0 else Signals(-exit_code).name
+        last = crashed or shortened(printed.strip().rpartition('\n')[2])
+        crashed = f'it crashed ({how})' + (f': {last}' if last else '')
     found = [crashed] if crashed else []
     if refused := _NOT_FINITE.search(simulator_log):
         found.append(
             f'it commanded linear.x = {refused[1]}, angular.z = {refused[2]}: a velocity must be '
             'a finite number'
         )
-    found += unheard_topics(graph)
-    found += _wrong_commands(graph)
+    found += graph_reasons
     return tuple(dict.fromkeys(map(printable, found)))
+
+
+def reasons_of_graph(graph: Graph) -> list[str]:
+    """
+    Return what a program's place in the graph says, the most telling first.
+
+    :param graph: where it stood, with the publishers of the simulator as others.
+    """
+    return [*unheard_topics(graph), *unheard_commands(graph)]
 
 
 def crash(printed: str) -> str:
@@ -156,7 +172,7 @@ def _wrong_qos(wanted: Endpoint, offered: Sequence[Endpoint]) -> Iterator[str]:
         )
 
 
-def _wrong_commands(graph: Graph) -> Iterator[str]:
+def unheard_commands(graph: Graph) -> Iterator[str]:
     """Yield why the Husky hears no commands."""
     commands = [each for each in graph.publishers if each.topic == COMMAND_TOPIC]
     for each in commands:

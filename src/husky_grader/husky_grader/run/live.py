@@ -8,7 +8,7 @@ The result is the simulator's record, in simulated time.
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 import os
 from pathlib import Path
 import shlex
@@ -22,6 +22,8 @@ from husky_runtime.descendants import descendants_ended
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.shared_memory import clean_shared_memory
 
+from husky_grader.run.diagnosis import reasons
+from husky_grader.run.printed import read_printed, shown
 from husky_grader.run.told import listen, Told
 from husky_grader.scoring.report import Report
 
@@ -46,13 +48,18 @@ class LiveRun:
     record: Record
     ending: str
     pace: str  # how time passed
-    notes: list[str] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
+    printed: str = ''  # by the controller
 
     def with_notes(self, report: Report) -> Report:
         """Return the report with the notes among its reasons; a run that passed needs none."""
         notes = () if report.passed else self.notes
         return replace(
-            report, reasons=(*notes, *report.reasons), ending=self.ending, pace=self.pace
+            report,
+            reasons=(*notes, *report.reasons),
+            ending=self.ending,
+            pace=self.pace,
+            printed=self.printed,
         )
 
 
@@ -98,12 +105,9 @@ def drive_live(
             exit_code = controller.exit_code
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')
-    notes = last.notes
-    if exit_code:
-        how = f'exit code {exit_code}' if exit_code > 0 else signal.Signals(-exit_code).name
-        tail = tail_of(folder / 'controller.log', 1)
-        notes = [f'it crashed ({how})' + (f': {tail}' if tail else ''), *notes]
-    return LiveRun(read_record(record), last.ending, last.pace, notes)
+    printed = read_printed(folder / 'controller.log')
+    notes = reasons(printed, read_printed(folder / 'simulator.log'), last.notes, exit_code)
+    return LiveRun(read_record(record), last.ending, last.pace, notes, shown(printed))
 
 
 @contextmanager

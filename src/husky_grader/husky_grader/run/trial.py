@@ -86,8 +86,8 @@ class TrialRun:
             self._end(ending)
 
     def _on_look(self) -> None:
-        self._graph.check()
-        if not self._referee.started and self._graph.hinting_sec() > HOPELESS_SEC:
+        self._graph.look()
+        if not self._referee.started and self._graph.unheard_sec() > HOPELESS_SEC:
             self._end('its commands cannot be heard')
         self._tell()
 
@@ -111,7 +111,7 @@ class TrialRun:
                 waypoints_left=self._referee.waypoints_left,
                 pace=str(self._pace),
                 ending=ending,
-                notes=self._graph.hints,
+                notes=self._graph.reasons,
             ),
         )
 

@@ -60,6 +60,7 @@ class Report(Measurement):
     reasons: tuple[str, ...]  # what went wrong; empty for a good run
     ending: str = ''  # of a controller's run: why it was over
     pace: str = ''  # and how its time passed
+    printed: str = ''  # by the controller, the beginning and the end of it
 
     @property
     def passed(self) -> bool:
