@@ -18,6 +18,7 @@ setup(
         'markupsafe',
         'numpy',
         'pebble',
+        'psutil',
         'PyYAML',
         'resvg-py',
     ],

@@ -1,0 +1,112 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What of the host's files there is in a jail, and which of the environment's variables."""
+
+from collections.abc import Iterable, Mapping
+from fnmatch import fnmatchcase
+import os
+from pathlib import Path
+import sys
+from typing import Literal, NamedTuple
+
+from husky_grader.jail.limits import Limits, MB
+
+INSIDE = Path(__file__).with_name('inside.py').resolve()  # the program that starts a command
+PYTHON = Path(sys.executable).resolve()  # by which it runs; it is none of .venv
+
+# What programs need of the system.
+_SYSTEM = ('/usr', '/bin', '/sbin', '/lib', '/lib32', '/lib64', '/libx32')
+# And what of /etc: the dynamic linker, names of users and computers, languages, time.
+_ETC = (
+    *('alternatives', 'ld.so.cache', 'ld.so.conf', 'ld.so.conf.d', 'fonts', 'ssl/openssl.cnf'),
+    *('group', 'hosts', 'nsswitch.conf', 'passwd', 'protocols', 'services', 'os-release'),
+    *('locale.alias', 'locale.conf', 'localtime', 'mime.types', 'timezone'),
+)
+# The folders of the clone that hold the lab; what else lies there may be reports of others.
+_LAB = ('.venv', 'build', 'config', 'install', 'src', 'underlay', 'worlds')
+_CLONE = Path(__file__).resolve().parents[4]
+
+# Variables that the lab's programs read, and no other: among those are tokens and passwords.
+_ALLOWED = (
+    *('PATH', 'LANG', 'LANGUAGE', 'LC_*', 'TZ', 'LD_LIBRARY_PATH', 'VIRTUAL_ENV'),
+    *('PYTHONPATH', 'PYTHONUTF8', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE'),
+    *('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'COLCON_PYTHON_EXECUTABLE'),
+    *('ROS_DISTRO', 'ROS_VERSION', 'ROS_PYTHON_VERSION', 'ROS_PYTHON_CHECK_FIELDS'),
+    *('RMW_IMPLEMENTATION', 'FASTRTPS_DEFAULT_PROFILES_FILE', 'HUSKY_LAB_ROS'),
+    '_ROS_WHEELS_BOOTSTRAP_COMPLETE',
+)
+_PATHS = ('AMENT_PREFIX_PATH', 'PYTHONPATH', 'LD_LIBRARY_PATH')  # these lead to what is read
+
+
+class Mount(NamedTuple):
+    """Something that is at a place in a jail."""
+
+    kind: Literal['read', 'write', 'memory']
+    source: str  # the path outside, without links; of memory its size in bytes
+    target: str
+
+
+def mounts_of(folder: Path, readable: Iterable[Path], limits: Limits) -> list[Mount]:
+    """
+    Return what is in a jail, what holds others before them.
+
+    :param folder: what may be written, at the same path as outside.
+    :param readable: besides the system and the lab.
+    """
+    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *_lab(), *readable}
+    ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
+    read = (way for way in ways if ways.isdisjoint(way.parents))
+    own = (
+        Mount('memory', str(limits.temporary_mb * MB), '/tmp'),
+        Mount('memory', str(limits.shared_mb * MB), '/dev/shm'),
+        Mount('write', str(folder.resolve()), str(folder.resolve())),
+    )
+    mounts = (*(Mount('read', str(way.resolve()), str(way)) for way in read), *own)
+    return sorted(mounts, key=lambda mount: Path(mount.target).parts)
+
+
+def _lab() -> set[Path]:
+    """Return where the lab's programs are read from, and the Python by which they run."""
+    found = {INSIDE.parent, Path(sys.prefix), Path(sys.base_prefix), *_links_of(sys.executable)}
+    found |= {_CLONE / name for name in _LAB}
+    for variable in _PATHS:
+        found |= {Path(entry) for entry in os.environ.get(variable, '').split(':')}
+    home = Path.home()
+    return {path for path in found if path.is_absolute() and not home.is_relative_to(path)}
+
+
+def _links_of(program: str) -> list[Path]:
+    """Return a program and the links that lead to it."""
+    ways = [Path(program)]
+    while ways[-1].is_symlink():
+        ways.append(Path(os.path.normpath(ways[-1].parent / ways[-1].readlink())))
+    return ways
+
+
+def environment_for(folder: Path, given: Mapping[str, str]) -> dict[str, str]:
+    """Return what a jailed program starts with: variables of the lab, a home, and the given."""
+    allowed = {
+        name: value
+        for name, value in os.environ.items()
+        if any(fnmatchcase(name, pattern) for pattern in _ALLOWED)
+    }
+    own = {'HOME': str(home_of(folder)), 'USER': 'student', 'LOGNAME': 'student'}
+    return {**allowed, **own, **given}
+
+
+def home_of(folder: Path) -> Path:
+    return folder / 'home'
+
+
+def give(folder: Path, user: int) -> None:
+    """
+    Make a user the owner of a folder and all that is in it.
+
+    A file with another name elsewhere is left alone: somebody else's may have been linked here.
+    """
+    os.chown(folder, user, user)
+    for place, folders, files in os.walk(folder):
+        for name in (*folders, *files):
+            path = Path(place, name)
+            if name in folders or path.lstat().st_nlink == 1:
+                os.chown(path, user, user, follow_symlinks=False)

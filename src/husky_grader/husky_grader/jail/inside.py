@@ -1,0 +1,241 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The last step into a jail: folders, limits, rights; then the command.
+
+A program, `python -I -S inside.py PLAN`, that imports nothing of ours: it has to start quickly,
+and what it runs with must not come from anybody else. It stays as the parent of the command, in
+most jails as the init of their process namespace, which ends with it. It ends when the command
+does, or when nobody reads its output any more: the grader has been killed.
+"""
+
+import _thread
+import ctypes
+import marshal
+import os
+import resource
+import select
+import sys
+
+# Exit codes as those of env(1).
+_NO_JAIL, _NO_COMMAND = 125, 127
+
+_LIBC = ctypes.CDLL(None, use_errno=True)
+
+# <sys/mount.h>, <linux/mount.h>
+_MS_NOSUID, _MS_NODEV, _MS_NOEXEC, _MS_BIND, _MS_REC = 2, 4, 8, 4096, 16384
+_MNT_DETACH = 2
+_MOUNT_ATTR_RDONLY, _MOUNT_ATTR_NOSUID, _MOUNT_ATTR_NODEV = 1, 2, 4
+_AT_FDCWD, _AT_RECURSIVE = -100, 0x8000
+_NR_MOUNT_SETATTR = 442  # of every architecture; glibc has it since 2.36
+_DEVICES = ('null', 'zero', 'full', 'random', 'urandom')
+_PLACE = '/tmp'  # any folder that is there; others do not see what is mounted on it here
+
+# <linux/landlock.h>; the numbers of the calls are those of every architecture
+_NR_CREATE_RULESET, _NR_ADD_RULE, _NR_RESTRICT_SELF = 444, 445, 446
+_CREATE_RULESET_VERSION, _RULE_PATH_BENEATH = 1, 1
+_EXECUTE, _WRITE_FILE, _READ_FILE, _READ_DIR, _TRUNCATE = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14
+# How many rights to files the versions 1, 2, ... know.
+_FILE_RIGHTS = (13, 14, 15, 15, 16)
+_SCOPE_ALL = 0b11  # abstract sockets and signals; from version 6 on
+
+_PR_SET_NO_NEW_PRIVS = 38  # <linux/prctl.h>
+_CAPABILITY_VERSION = 0x20080522  # <linux/capability.h>
+
+# <signal.h>; to import signal takes longer than all the rest
+_SIGINT, _SIGPIPE, _SIGTERM, _SIGXFSZ = 2, 13, 15, 25
+_SIG_DFL, _SIG_IGN = ctypes.c_void_p(0), ctypes.c_void_p(1)
+
+
+def _checked(result: int, what: str) -> int:
+    if result < 0:
+        number = ctypes.get_errno()
+        raise OSError(number, f'{what}: {os.strerror(number)}')
+    return result
+
+
+def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
+    """Leave the host's files for a root that holds nothing but what is named."""
+    _mount('tmpfs', _PLACE, kind='tmpfs', flags=_MS_NOSUID | _MS_NODEV)
+    os.chdir(_PLACE)
+    os.mkdir('host')
+    os.mkdir('new')
+    _checked(_LIBC.pivot_root(b'.', b'host'), 'pivot_root')
+    os.chdir('/')
+    _mount('tmpfs', '/new', kind='tmpfs', flags=_MS_NOSUID | _MS_NODEV, data='mode=755')
+    for device in _DEVICES:
+        _bind(f'/host/dev/{device}', f'/new/dev/{device}')
+    for name, place in (('fd', ''), ('stdin', '/0'), ('stdout', '/1'), ('stderr', '/2')):
+        os.symlink(f'/proc/self/fd{place}', f'/new/dev/{name}')
+    os.mkdir('/new/proc')
+    _mount('proc', '/new/proc', kind='proc', flags=_MS_NOSUID | _MS_NODEV | _MS_NOEXEC)
+    for kind, source, target in mounts:
+        if kind == 'memory':
+            os.makedirs(f'/new{target}', exist_ok=True)
+            _mount(
+                'tmpfs',
+                f'/new{target}',
+                kind='tmpfs',
+                flags=_MS_NOSUID | _MS_NODEV,
+                data=f'mode=1777,size={source}',
+            )
+        else:
+            _bind(f'/host{source}', f'/new{target}')
+            _restrict(f'/new{target}', recursive=True, read_only=kind == 'read')
+    _restrict('/new', recursive=False, read_only=True)
+    os.chdir('/new')
+    _checked(_LIBC.pivot_root(b'.', b'.'), 'pivot_root')
+    _checked(_LIBC.umount2(b'.', _MNT_DETACH), 'umount')
+    os.chdir('/')
+
+
+def _mount(source: str, target: str, *, kind: str = '', flags: int, data: str = '') -> None:
+    words = [word.encode() for word in (source, target, kind)]
+    done = _LIBC.mount(*words, ctypes.c_ulong(flags), data.encode())
+    _checked(done, f'mount {target}')
+
+
+def _bind(source: str, target: str) -> None:
+    if os.path.isdir(source):
+        os.makedirs(target, exist_ok=True)
+    elif not os.path.exists(target):
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        os.close(os.open(target, os.O_CREAT | os.O_WRONLY | os.O_CLOEXEC))
+    _mount(source, target, flags=_MS_BIND | _MS_REC)
+
+
+def _restrict(target: str, *, recursive: bool, read_only: bool) -> None:
+    kept = _MOUNT_ATTR_NOSUID | _MOUNT_ATTR_NODEV | (_MOUNT_ATTR_RDONLY if read_only else 0)
+    attributes = (ctypes.c_uint64 * 4)(kept, 0, 0, 0)  # struct mount_attr: to set, to clear, ...
+    how = _AT_RECURSIVE if recursive else 0
+    number, size = ctypes.c_long(_NR_MOUNT_SETATTR), ctypes.c_size_t(ctypes.sizeof(attributes))
+    done = _LIBC.syscall(number, _AT_FDCWD, target.encode(), how, attributes, size)
+    _checked(done, f'mount_setattr {target}')
+
+
+def _drop_rights(user: int | None) -> None:
+    if user is not None:
+        os.setgroups([])
+        os.setresgid(user, user, user)
+        os.setresuid(user, user, user)
+    # No more of them comes back, neither by a set-user-id program nor by one with capabilities.
+    _checked(_LIBC.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 'no_new_privs')
+    header, none = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION, 0), (ctypes.c_uint32 * 6)()
+    _checked(_LIBC.capset(header, none), 'capset')
+
+
+def _restrict_files(writable: list[str], *, needed: bool) -> None:
+    """
+    Have Landlock refuse writing elsewhere, mounting, and reaching what is outside by any name.
+
+    See landlock(7). The mounts say the same: two locks, so that a hole in one is none in both.
+    """
+    flag, size = ctypes.c_uint32(_CREATE_RULESET_VERSION), ctypes.c_size_t(0)
+    version = _LIBC.syscall(_NR_CREATE_RULESET, None, size, flag)
+    if version < 1:
+        if needed:
+            raise OSError('this kernel has no Landlock, which it needs to be a sandbox')
+        return
+    every = (1 << _FILE_RIGHTS[min(version, len(_FILE_RIGHTS)) - 1]) - 1
+    fields = [every, 0, _SCOPE_ALL] if version >= 6 else [every]
+    attributes = (ctypes.c_uint64 * len(fields))(*fields)
+    size = ctypes.c_size_t(ctypes.sizeof(attributes))
+    ruleset = _checked(_LIBC.syscall(_NR_CREATE_RULESET, attributes, size, 0), 'Landlock')
+    _allow(ruleset, '/', _EXECUTE | _READ_FILE | _READ_DIR)
+    _allow(ruleset, '/dev', every & (_READ_FILE | _READ_DIR | _WRITE_FILE | _TRUNCATE))
+    for folder in writable:
+        _allow(ruleset, folder, every)
+    _checked(_LIBC.syscall(_NR_RESTRICT_SELF, ruleset, 0), 'Landlock')
+    os.close(ruleset)
+
+
+def _allow(ruleset: int, folder: str, rights: int) -> None:
+    class Beneath(ctypes.Structure):
+        _pack_ = 1
+        _fields_ = [('rights', ctypes.c_uint64), ('folder', ctypes.c_int32)]
+
+    place = os.open(folder, os.O_PATH | os.O_CLOEXEC)
+    rule = ctypes.byref(Beneath(rights, place))
+    done = _LIBC.syscall(_NR_ADD_RULE, ruleset, _RULE_PATH_BENEATH, rule, 0)
+    _checked(done, f'Landlock of {folder}')
+    os.close(place)
+
+
+def _limit(limits: list[tuple[int, int]]) -> None:
+    for number, most in limits:
+        hard = resource.getrlimit(number)[1]
+        most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(number, (most, most))
+
+
+def _start(command: list[str], environment: dict[str, str]) -> int:
+    """Start the command in a session of its own, from which no signal goes to who watches it."""
+    child = os.fork()
+    if child == 0:
+        os.setsid()
+        for number in (_SIGINT, _SIGPIPE, _SIGTERM, _SIGXFSZ):
+            _LIBC.signal(number, _SIG_DFL)
+        try:
+            os.execvpe(command[0], command, environment)
+        except OSError as error:
+            os.write(2, f'{command[0]}: {error.strerror}\n'.encode())
+        os._exit(_NO_COMMAND)
+    return child
+
+
+def _end_without_reader() -> None:
+    output = select.poll()
+    output.register(1, 0)  # reports POLLERR, unasked, when nobody can read any more
+    output.poll()
+    os._exit(_NO_JAIL)
+
+
+def _await(child: int) -> int:
+    """Wait for the command's end and return its exit code, or 128 and the signal that ended it."""
+    _thread.start_new_thread(_end_without_reader, ())
+    while True:
+        ended, status = os.wait()  # an init gets the orphans of the others too
+        if ended == child:
+            code = os.waitstatus_to_exitcode(status)
+            return code if code >= 0 else 128 - code
+
+
+def main(
+    *,
+    mounts: list[tuple[str, str, str]],
+    writable: list[str],
+    needs_landlock: bool,
+    limits: list[tuple[int, int]],
+    user: int | None,
+    folder: str,
+    environment: dict[str, str],
+    command: list[str],
+) -> int:
+    """
+    Make the jail, and run the command in it.
+
+    :param mounts: as in folders.Mount; none where the root is made already.
+    :param writable: what Landlock lets it write to.
+    :param limits: numbers of setrlimit(2) and values.
+    :param user: whose number to take; None: it stays.
+    :returns: the exit code.
+    """
+    for number in (_SIGINT, _SIGTERM):  # they are for the command
+        _LIBC.signal(number, _SIG_IGN)
+    try:
+        if mounts:
+            _enter_root(mounts)
+        os.chdir(folder)
+        with open('/proc/self/oom_score_adj', 'w') as score:  # if memory runs out, these go first
+            score.write('1000')
+        _drop_rights(user)
+        _restrict_files(writable, needed=needs_landlock)
+        _limit(limits)
+    except (OSError, ValueError) as error:
+        print(f'the jail cannot be made: {error}', file=sys.stderr)
+        return _NO_JAIL
+    return _await(_start(command, environment))
+
+
+if __name__ == '__main__':
+    sys.exit(main(**marshal.loads(bytes.fromhex(sys.argv[1]))))

@@ -1,0 +1,131 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a jail asks of a sandbox, and the one that separates nothing."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+import marshal
+import os
+from pathlib import Path
+from typing import Protocol
+
+from husky_runtime.children import ChildProcess
+from husky_runtime.descendants import descendants_ended
+from husky_runtime.domains import OwnDomain
+import psutil
+
+from husky_grader.jail.folders import INSIDE, Mount, PYTHON
+from husky_grader.jail.limits import Limits
+
+_RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+# Where there is only the loopback interface, SUBNET is nobody else. With LOCALHOST rmw_fastrtps
+# adds shared memory, by which data is lost between two that have a /dev/shm each.
+OWN_NETWORK = {'ROS_DOMAIN_ID': '0', _RANGE: 'SUBNET', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}
+# What starts a jail gets nothing of the grader's environment: a jailed program may read it.
+CLEAN = {'PATH': '/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin', 'LC_ALL': 'C'}
+
+
+class NoSandbox(ValueError):
+    """There is no sandbox, or not the one asked for; the message says what to do."""
+
+
+class SandboxFails(Exception):
+    """A sandbox does not work here; the message says why."""
+
+
+@dataclass(frozen=True)
+class Call:
+    """A command to run in a jail."""
+
+    command: Sequence[str]
+    environment: Mapping[str, str]
+    folder: Path  # where it starts
+    mounts: Sequence[Mount]
+    limits: Limits
+
+
+class Cell(Protocol):
+    """An open sandbox."""
+
+    @property
+    def graph(self) -> Mapping[str, str]:
+        """Return the variables by which nodes in it and beside it find each other."""
+
+    @property
+    def user(self) -> int | None:
+        """Return the number of the user as whom commands run; None: who calls."""
+
+    def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
+        """Return the command that runs another one inside, and its environment."""
+
+    def beside(self, command: Sequence[str]) -> list[str]:
+        """Return the command that runs another one outside, but in the same network."""
+
+    def first_of(self, child: ChildProcess) -> psutil.Process | None:
+        """Return the process whose end ends all that a child has started; None: there is none."""
+
+    def ending_all(self) -> AbstractContextManager[None]:
+        """End what else was started meanwhile."""
+
+
+class Sandbox(Protocol):
+    """A way to separate programs from the rest of the machine."""
+
+    @property
+    def name(self) -> str: ...
+
+    def open(self) -> AbstractContextManager[Cell]:
+        """
+        Open a network that is the jail's own.
+
+        :raises SandboxFails: if it does not work here.
+        """
+
+
+def inside(
+    call: Call, *, user: int | None, mounts: Sequence[Mount] = (), needs_landlock: bool = False
+) -> list[str]:
+    """Return the command that takes the last step into a jail; see inside.py."""
+    plan = {
+        'mounts': [tuple(mount) for mount in mounts],
+        'writable': [mount.target for mount in call.mounts if mount.kind != 'read'],
+        'needs_landlock': needs_landlock,
+        'limits': call.limits.for_each_process(),
+        'user': user,
+        'folder': str(call.folder),
+        'environment': dict(call.environment),
+        'command': list(call.command),
+    }
+    # As JSON it would take longer to read than all the rest.
+    return [str(PYTHON), '-I', '-S', str(INSIDE), marshal.dumps(plan).hex()]
+
+
+class Nothing:
+    """No sandbox: a DDS domain of its own, and no process that outlives the jail."""
+
+    name = 'none'
+
+    @contextmanager
+    def open(self) -> Iterator[Cell]:
+        with OwnDomain() as domain, descendants_ended():
+            discovery = os.environ.get(_RANGE, 'LOCALHOST')
+            yield _Open({'ROS_DOMAIN_ID': str(domain.number), _RANGE: discovery})
+
+
+@dataclass(frozen=True)
+class _Open:
+    graph: Mapping[str, str]
+    user = None
+
+    def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
+        return ['env', '-C', str(call.folder), *call.command], call.environment
+
+    def beside(self, command: Sequence[str]) -> list[str]:
+        return list(command)
+
+    def first_of(self, child: ChildProcess) -> psutil.Process | None:  # noqa: ARG002
+        return None
+
+    def ending_all(self) -> AbstractContextManager[None]:
+        return descendants_ended()

@@ -1,0 +1,84 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""How much jailed programs use, of what the kernel limits only for each process by itself."""
+
+from collections.abc import Callable, Iterable
+import os
+from pathlib import Path
+import time
+
+import psutil
+
+from husky_grader.jail.limits import Limits, MB
+
+PROCESSES_SEC = 0.2  # between two looks at the processes
+FOLDER_SEC = 1.0  # and at the folder
+_KIB, _BLOCK_BYTES = 1024, 512  # the units of proc(5) and stat(2)
+
+
+class Usage:
+    """Looks at processes and at a folder, each time when it is due."""
+
+    def __init__(self, folder: Path, limits: Limits) -> None:
+        self._folder, self._limits = folder, limits
+        self._processes_at_sec = self._folder_at_sec = time.monotonic()
+
+    def too_much(self, processes: Callable[[], Iterable[psutil.Process]]) -> str:
+        """Return in words which limit is exceeded; nothing if none is, or no look is due."""
+        now = time.monotonic()
+        why = ''
+        if now >= self._processes_at_sec:
+            self._processes_at_sec = now + PROCESSES_SEC
+            why = _overuse(processes(), self._limits)
+        if not why and now >= self._folder_at_sec:
+            self._folder_at_sec = now + FOLDER_SEC
+            why = _overfull(self._folder, self._limits)
+        return why
+
+
+def _overuse(processes: Iterable[psutil.Process], limits: Limits) -> str:
+    """Return in words what processes use too much of; nothing if they do not."""
+    memory, tasks = 0, 0
+    for process in processes:
+        used = _status_of(process.pid)
+        memory += (used.get('RssAnon', 0) + used.get('RssShmem', 0)) * _KIB
+        tasks += used.get('Threads', 0)
+    if memory > limits.memory_mb * MB:
+        return f'used {memory // MB} MB of memory; {limits.memory_mb} MB are allowed'
+    if tasks > limits.tasks:
+        return f'had {tasks} processes and threads; {limits.tasks} are allowed'
+    return ''
+
+
+def _status_of(pid: int) -> dict[str, int]:
+    """Return the numbers of /proc/PID/status; none of a process that has ended."""
+    try:
+        lines = (
+            Path(f'/proc/{pid}/status').read_text(encoding='utf-8', errors='replace').splitlines()
+        )
+    except OSError:
+        return {}
+    words = [line.split() for line in lines]
+    return {each[0][:-1]: int(each[1]) for each in words if len(each) > 1 and each[1].isdigit()}
+
+
+def _overfull(folder: Path, limits: Limits) -> str:
+    """Return in words what a folder holds too much of; nothing if it does not."""
+    size, files, folders = 0, 0, [str(folder)]
+    while folders:
+        try:
+            with os.scandir(folders.pop()) as entries:
+                for entry in entries:
+                    files += 1
+                    size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK_BYTES
+                    if size > limits.folder_mb * MB:
+                        return f'filled its folder with over {limits.folder_mb} MB'
+                    if files > limits.files:
+                        return f'made over {limits.files} files'
+                    if entry.is_dir(follow_symlinks=False):
+                        folders.append(entry.path)
+        except PermissionError:
+            return 'closed a folder of its own to everybody'
+        except OSError:  # removed meanwhile
+            continue
+    return ''

@@ -1,0 +1,254 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A jail ends what runs in it, and holds it to its limits, in every sandbox that works here."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+from husky_grader.jail import find_sandbox, Jail, Limits, NoSandbox, Sandbox
+from playpen_testing.jails import in_each_sandbox
+from playpen_testing.waiting import wait_until
+import psutil
+import pytest
+
+# Each program is followed by its mark, by which it is found from outside.
+SLEEPING = 'import time; print("here", flush=True); time.sleep(600)'
+DEAF = f'import signal; [signal.signal(n, signal.SIG_IGN) for n in (1, 2, 15)]; {SLEEPING}'
+CLOSING = f"""
+try:
+    {SLEEPING}
+except KeyboardInterrupt:
+    print('closed', flush=True)
+"""
+# Neither its session, its parent, its environment nor its open files tell where it comes from.
+DAEMON = f"""
+import os, sys
+if os.fork() == 0:
+    os.setsid()
+    if os.fork() == 0:
+        os.closerange(0, 99)
+        os.execve(sys.executable, [sys.executable, '-c', {SLEEPING!r}, sys.argv[1]], {{}})
+    os._exit(0)
+os.wait()
+"""
+FORKS = 'import os\nwhile True:\n    try: os.fork()\n    except OSError: pass'
+EATS = """
+import os, time
+for _ in range(4):
+    if os.fork() == 0:
+        eaten = b'x' * 60_000_000
+        time.sleep(600)
+time.sleep(600)
+"""
+GRADER = """
+import os, sys, time
+from pathlib import Path
+from husky_grader.jail import find_sandbox, Jail
+from husky_runtime.children import ChildProcess
+name, folder, mark = sys.argv[1:]
+sleeping = [sys.executable, '-c', 'import time; print("here", flush=True); time.sleep(600)', mark]
+with Jail(find_sandbox(name), Path(folder)) as jail:
+    with Path(folder + '_beside.log').open('w') as log:
+        ChildProcess(jail.beside(sleeping), os.environ, log)
+    print('ready', flush=True)
+    jail.run(sleeping, log=Path(folder + '.log'), within_sec=600.0)
+"""
+
+
+@pytest.fixture
+def mark(tmp_path: Path) -> Iterator[str]:
+    """Return a word to start programs with; at last none of those may be there."""
+    yield str(tmp_path)
+    assert running(str(tmp_path)) == []
+
+
+def running(mark: str) -> list[str]:
+    """Return the programs that were started with a mark as their last word."""
+    found = []
+    for process in psutil.process_iter(['cmdline']):
+        words = process.info['cmdline']
+        if words and words[-1] == mark and psutil.pid_exists(process.pid):
+            found.append(' '.join(words))
+    return found
+
+
+@contextmanager
+def jail_in(sandbox: Sandbox, place: Path, limits: Limits | None = None) -> Iterator[Jail]:
+    folder = place / 'folder'
+    folder.mkdir()
+    with Jail(sandbox, folder, limits=limits or Limits()) as jail:
+        yield jail
+
+
+def python(text: str, *words: str) -> list[str]:
+    return [sys.executable, '-c', text, *words]
+
+
+def has_said(log: Path, text: str) -> None:
+    wait_until(lambda: text in log.read_text(), timeout_sec=10.0, what=f'{text} in {log.name}')
+
+
+@in_each_sandbox
+def test_an_exit_code_a_signal_and_a_missing_program_are_told(
+    sandbox: Sandbox, tmp_path: Path
+) -> None:
+    log = tmp_path / 'log'
+    with jail_in(sandbox, tmp_path) as jail:
+        assert jail.run(['bash', '-c', 'exit 3'], log=log, within_sec=10.0) == 3
+        assert jail.run(['bash', '-c', 'kill -SEGV $$'], log=log, within_sec=10.0) == -11
+        assert jail.run(['sleep', '600'], log=log, within_sec=0.3) is None
+        assert jail.run(['no_such_program'], log=log, within_sec=10.0) == 127
+    assert 'no_such_program: No such file or directory' in log.read_text()
+
+
+@in_each_sandbox
+def test_input_and_variables_reach_the_command(
+    sandbox: Sandbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('GRADER_TOKEN', 'secret')
+    log, show = tmp_path / 'log', ['bash', '-c', 'read -r line; echo $line $GIVEN $GRADER_TOKEN ~']
+    with jail_in(sandbox, tmp_path) as jail:
+        process = jail.start(show, {'GIVEN': 'a word'}, log=log, answers='an answer\n')
+        assert process.wait(10.0)
+    assert log.read_text() == f'an answer a word {tmp_path}/folder/home\n'
+
+
+@in_each_sandbox
+def test_a_daemon_ends_with_the_run(sandbox: Sandbox, tmp_path: Path, mark: str) -> None:
+    with jail_in(sandbox, tmp_path) as jail:
+        exit_code = jail.run(python(DAEMON, mark), log=tmp_path / 'log', within_sec=10.0)
+        assert (exit_code, running(mark)) == (0, [])
+
+
+@in_each_sandbox
+def test_what_may_close_closes_and_what_is_deaf_is_killed(
+    sandbox: Sandbox, tmp_path: Path, mark: str
+) -> None:
+    logs = {'closing': tmp_path / 'closing', 'deaf': tmp_path / 'deaf'}
+    with jail_in(sandbox, tmp_path) as jail:
+        closing = jail.start(python(CLOSING, mark), log=logs['closing'])
+        deaf = jail.start(python(DEAF, mark), log=logs['deaf'])
+        has_said(logs['closing'], 'here')
+        has_said(logs['deaf'], 'here')
+        closing.end()
+        assert (closing.exit_code, deaf.exit_code) == (0, None)
+        assert logs['closing'].read_text() == 'here\nclosed\n'
+        begun = time.monotonic()
+        deaf.end(within_sec=0.5)
+        assert time.monotonic() - begun < 2.0
+        assert deaf.exit_code == -signal.SIGKILL
+
+
+@in_each_sandbox
+def test_a_fork_bomb_stays_in_its_jail(sandbox: Sandbox, tmp_path: Path, mark: str) -> None:
+    limits = Limits(tasks=50)
+    with jail_in(sandbox, tmp_path, limits) as jail:
+        bomb = jail.start(python(FORKS, mark), log=tmp_path / 'log')
+        wait_until(lambda: len(running(mark)) > 20, timeout_sec=10.0, what='a fork')
+        most = max(len(running(mark)) for _ in range(3))
+        bomb.kill()
+    assert most <= 60
+    assert running(mark) == []
+
+
+@in_each_sandbox
+def test_memory_over_its_limit_ends_only_who_took_it(
+    sandbox: Sandbox, tmp_path: Path, mark: str
+) -> None:
+    with jail_in(sandbox, tmp_path, Limits(memory_mb=150)) as jail:
+        other = jail.start(python(SLEEPING, mark), log=tmp_path / 'other')
+        eater = jail.start(python(EATS, mark), log=tmp_path / 'log')
+        assert eater.wait(10.0)
+        assert other.exit_code is None
+    assert eater.exit_code == -signal.SIGKILL
+    assert 'MB of memory; 150 MB are allowed' in eater.stopped
+    assert f'[ended by the grader: it {eater.stopped}]' in (tmp_path / 'log').read_text()
+
+
+@in_each_sandbox
+def test_a_log_is_cut_in_its_middle(sandbox: Sandbox, tmp_path: Path) -> None:
+    log, much = tmp_path / 'log', 'echo begin; yes | head -c 200000000; echo end'
+    with jail_in(sandbox, tmp_path, Limits(log_mb=0.1)) as jail:
+        assert jail.run(['bash', '-c', much], log=log, within_sec=60.0) == 0
+    text = log.read_text()
+    assert len(text) < 110_000
+    assert text.startswith('begin\ny\n')
+    assert text.endswith('y\nend\n')
+    assert '\n[199900010 bytes of the log are left out here]\n' in text
+
+
+@in_each_sandbox
+def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> None:
+    limits = Limits(file_mb=2, folder_mb=5, temporary_mb=1, shared_mb=1)
+    log, fill = tmp_path / 'log', 'head -c 3000000 /dev/zero >'
+    with jail_in(sandbox, tmp_path, limits) as jail:
+        for place in ('one', '/tmp/one', '/dev/shm/one'):
+            assert jail.run(['bash', '-c', f'{fill} {place}'], log=log, within_sec=10.0) != 0, (
+                place
+            )
+        assert (tmp_path / 'folder' / 'one').stat().st_size == 2_000_000
+        many = 'for i in {1..9}; do head -c 1000000 /dev/zero > $i; done; sleep 600'
+        process = jail.start(['bash', '-c', many], log=log)
+        assert process.wait(10.0)
+        assert process.stopped == 'filled its folder with over 5 MB'
+
+
+@in_each_sandbox
+def test_jails_do_not_meet_on_the_network(sandbox: Sandbox, tmp_path: Path) -> None:
+    serve = 'import socket; server = socket.create_server(("127.0.0.1", 4000)); ' + SLEEPING
+    ask = 'import socket; socket.create_connection(("127.0.0.1", 4000), 1.0)'
+    for name in ('one', 'two'):
+        (tmp_path / name).mkdir()
+    with jail_in(sandbox, tmp_path / 'one') as one, jail_in(sandbox, tmp_path / 'two') as two:
+        one.start(python(serve), log=tmp_path / 'log')
+        has_said(tmp_path / 'log', 'here')
+        assert one.run(python(ask), log=tmp_path / 'asked', within_sec=10.0) == 0
+        assert two.run(python(ask), log=tmp_path / 'asked', within_sec=10.0) == 1
+        beside = subprocess.run(one.beside(python(ask)), capture_output=True, text=True)
+        assert beside.returncode == 0, beside.stderr
+
+
+@in_each_sandbox
+@pytest.mark.parametrize('how', ['SIGKILL', 'SIGINT'])
+def test_nothing_outlives_a_grader_that_ends(
+    sandbox: Sandbox, tmp_path: Path, mark: str, how: str
+) -> None:
+    folder = tmp_path / 'folder'
+    folder.mkdir()
+    command = python(GRADER, sandbox.name, str(folder), mark)
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as grader:
+        assert grader.stdout is not None
+        assert grader.stdout.readline() == b'ready\n'
+        wait_until(lambda: len(running(mark)) >= 2, timeout_sec=10.0, what='both programs')
+        has_said(tmp_path / 'folder.log', 'here')
+        grader.send_signal(signal.Signals[how])
+        wait_until(
+            lambda: running(mark) == [] and grader.poll() is not None,
+            timeout_sec=2.0,
+            what=lambda: f'the end of {running(mark)}',
+        )
+
+
+def test_an_unknown_sandbox_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(NoSandbox, match=r"'chroot': allowed are auto, bwrap, .*, none"):
+        find_sandbox('chroot')
+    with pytest.raises(ValueError, match='nothing: no such folder; make the one'):
+        Jail(find_sandbox('none'), tmp_path / 'nothing')
+    with pytest.raises(ValueError, match='tasks=0: a limit is a number above 0'):
+        Limits(tasks=0)
+
+
+def test_a_machine_without_a_sandbox_is_told_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv('PATH', '')
+    with pytest.raises(NoSandbox) as refused:
+        find_sandbox()
+    assert 'unshare' in str(refused.value)
+    assert 'sudo apt install' in str(refused.value)
+    assert '\n' not in str(refused.value)

@@ -1,0 +1,116 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a jailed program does to what is outside, in every sandbox that works here."""
+
+from collections.abc import Iterator
+import json
+import os
+from pathlib import Path
+import socket
+import subprocess
+import sys
+
+from husky_grader.jail import find_sandbox, Jail, NotAFile, read_left, Sandbox
+from playpen_testing.jails import in_each_sandbox
+import pytest
+
+PROGRAM = Path(__file__).with_name('jail_attacks.py')
+# They succeed where there is no jail, of any user.
+SUCCEEDING = (
+    *('reads_secrets', 'lists_folders_of_others', 'writes'),
+    *('reads_environments', 'sees_processes', 'enters_the_root_of_others', 'signals_the_grader'),
+    *('connects_by_tcp', 'connects_to_an_abstract_socket', 'has_rights'),
+)
+# Some do only as root, or on some computers.
+OTHERS = (
+    *('traces_the_grader', 'listens_to_all_packets', 'has_open_files', 'mounts'),
+    *('writes_settings_of_the_kernel', 'types_at_the_terminal', 'uses_services_of_the_system'),
+    'mounts_in_a_namespace_of_its_own',  # last: it is another user then
+)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / 'jail').mkdir()
+    return tmp_path / 'jail'
+
+
+@pytest.fixture
+def victim(tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """Give all there is to attack, as JSON."""
+    places = {name: tmp_path / name / 'file' for name in ('.ssh', '.local', 'report', 'other')}
+    for place in places.values():
+        place.parent.mkdir()
+        place.write_text('for nobody else')
+    monkeypatch.setenv('GRADER_TOKEN', token := f'token of {os.getpid()}')
+    with (
+        socket.create_server(('127.0.0.1', 0)) as server,
+        socket.socket(socket.AF_UNIX) as abstract,
+        (tmp_path / 'open').open('w') as opened,
+        # Only of one who has not changed its environment is it what /proc shows.
+        subprocess.Popen([sys.executable, '-c', 'input()', token], stdin=subprocess.PIPE) as own,
+    ):
+        os.set_inheritable(opened.fileno(), True)
+        abstract.bind(f'\0{tmp_path}')
+        abstract.listen()
+        yield json.dumps(
+            {
+                'folder': str(folder),
+                'secrets': [str(places['.ssh']), str(places['.local'])],
+                'kept': [str(places['report']), str(places['other'])],
+                'lab': str(PROGRAM),
+                'token': token,
+                'grader': own.pid,
+                'port': server.getsockname()[1],
+                'name': str(tmp_path),
+            }
+        )
+        own.kill()
+
+
+def attack(sandbox: Sandbox, folder: Path, *words: str) -> str:
+    """Run attacks in a jail and return what they say."""
+    log = folder.with_name('log')
+    with Jail(sandbox, folder) as jail:
+        exit_code = jail.run([sys.executable, str(PROGRAM), *words], log=log, within_sec=30.0)
+    said = log.read_text()
+    assert exit_code == 0, said
+    return said
+
+
+@in_each_sandbox
+def test_no_attack_succeeds(sandbox: Sandbox, folder: Path, victim: str) -> None:
+    assert attack(sandbox, folder, victim, *SUCCEEDING, *OTHERS) == ''
+
+
+def test_attacks_succeed_without_a_jail(folder: Path, victim: str) -> None:
+    said = attack(find_sandbox('none'), folder, victim, *SUCCEEDING)
+    assert {line.partition(':')[0] for line in said.splitlines()} == set(SUCCEEDING)
+
+
+@in_each_sandbox
+def test_nothing_is_written_beside_the_folder(sandbox: Sandbox, folder: Path) -> None:
+    with Jail(sandbox, folder) as jail:
+        command = ['bash', '-c', 'touch ../beside /tmp/own /dev/shm/own ~/own here']
+        jail.run(command, log=folder.with_name('log'), within_sec=10.0)
+    assert sorted(path.name for path in folder.parent.iterdir()) == ['jail', 'log']
+    assert sorted(path.name for path in folder.rglob('*')) == ['here', 'home', 'own']
+    assert not Path('/tmp/own').exists()
+    assert not Path('/dev/shm/own').exists()
+
+
+@pytest.mark.parametrize(
+    'made',
+    [
+        'ln -s /etc/passwd left',
+        'mkfifo left',
+        'mkdir left',
+        'ln -s / left; cd left',
+        'head -c 2000 /dev/zero > left',
+        '',
+    ],
+)
+def test_what_is_left_is_read_only_if_it_is_a_file(folder: Path, made: str) -> None:
+    subprocess.run(made, shell=True, cwd=folder, check=True)
+    with pytest.raises(NotAFile, match=r'^left: '):
+        read_left(folder, 'left', most_bytes=1000)

@@ -1,0 +1,28 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The sandboxes that work on this machine, for tests that run in each of them."""
+
+from functools import cache
+
+from husky_grader.jail import find_sandbox, NoSandbox, Sandbox, SANDBOXES
+import pytest
+
+
+@cache
+def _found() -> dict[str, Sandbox]:
+    found = {}
+    for name in SANDBOXES:
+        try:
+            found[name] = find_sandbox(name)
+        except NoSandbox:
+            # This one needs nothing that has to be installed; why it fails is seen at once.
+            if name == 'kernel':
+                raise
+    return found
+
+
+in_each_sandbox = pytest.mark.parametrize(
+    'sandbox',
+    [each for name, each in _found().items() if name != 'none'],
+    ids=lambda each: each.name,
+)
