@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+import os
 from pathlib import Path
 import signal
 import subprocess
@@ -47,6 +48,7 @@ time.sleep(600)
 """
 GRADER = """
 import os, sys, time
+import os
 from pathlib import Path
 from husky_grader.jail import find_sandbox, Jail
 from husky_runtime.children import ChildProcess
@@ -57,6 +59,17 @@ with Jail(find_sandbox(name), Path(folder)) as jail:
         ChildProcess(jail.beside(sleeping), os.environ, log)
     print('ready', flush=True)
     jail.run(sleeping, log=Path(folder + '.log'), within_sec=600.0)
+"""
+
+ORDINARY = """
+import sys
+import os
+from pathlib import Path
+from husky_grader.jail import find_sandbox, Jail
+name, folder, log = sys.argv[1:]
+show = 'id -u; grep CapEff /proc/self/status; touch here; touch /usr/here'
+with Jail(find_sandbox(name), Path(folder)) as jail:
+    assert jail.run(['bash', '-c', show], log=Path(log), within_sec=20.0) == 1
 """
 
 
@@ -232,6 +245,22 @@ def test_nothing_outlives_a_grader_that_ends(
             timeout_sec=2.0,
             what=lambda: f'the end of {running(mark)}',
         )
+
+
+@in_each_sandbox
+def test_an_ordinary_user_has_a_jail_too(sandbox: Sandbox, tmp_path: Path) -> None:
+    folder, log = tmp_path / 'folder', tmp_path / 'log'
+    folder.mkdir()
+    # Root loses its rights in a namespace where it has another number.
+    ordinary = ['unshare', '--map-user=1000', '--map-group=1000'] if os.geteuid() == 0 else []
+    command = [*ordinary, *python(ORDINARY, sandbox.name, str(folder), str(log))]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, '')
+    user, rights, *rest = log.read_text().splitlines()
+    assert user != '0'
+    assert rights == 'CapEff:\t0000000000000000'
+    assert rest == ["touch: cannot touch '/usr/here': Read-only file system"]
+    assert (folder / 'here').is_file()
 
 
 def test_an_unknown_sandbox_is_refused(tmp_path: Path) -> None:

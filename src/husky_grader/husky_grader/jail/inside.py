@@ -190,14 +190,19 @@ def _end_without_reader() -> None:
     os._exit(_NO_JAIL)
 
 
-def _await(child: int) -> int:
-    """Wait for the command's end and return its exit code, or 128 and the signal that ended it."""
+def _await(command: int) -> int:
+    """Wait for the command's end and return its exit code."""
     _thread.start_new_thread(_end_without_reader, ())
     while True:
         ended, status = os.wait()  # an init gets the orphans of the others too
-        if ended == child:
-            code = os.waitstatus_to_exitcode(status)
-            return code if code >= 0 else 128 - code
+        if ended == command:
+            return _exit_code(status)
+
+
+def _exit_code(status: int) -> int:
+    """Return an exit code as a shell does, which is 128 and the signal where one ended it."""
+    code = os.waitstatus_to_exitcode(status)
+    return code if code >= 0 else 128 - code
 
 
 def main(
@@ -220,10 +225,12 @@ def main(
     :param user: whose number to take; None: it stays.
     :returns: the exit code.
     """
-    for number in (_SIGINT, _SIGTERM):  # they are for the command
+    for number in (_SIGINT, _SIGTERM):  # these are for the command
         _LIBC.signal(number, _SIG_IGN)
     try:
         if mounts:
+            if init := os.fork():  # the first process of the new process namespace
+                return _exit_code(os.waitpid(init, 0)[1])
             _enter_root(mounts)
         os.chdir(folder)
         with open('/proc/self/oom_score_adj', 'w') as score:  # if memory runs out, these go first

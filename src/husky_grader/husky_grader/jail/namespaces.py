@@ -74,7 +74,7 @@ class _Bwrap(_Cell):
 
 class _Kernel(_Cell):
     def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
-        words = ['unshare', '--kill-child', '--pid', '--ipc', '--mount', *_own_user(self.is_root)]
+        words = ['unshare', '--pid', '--ipc', '--mount', *_own_user(self.is_root)]
         last = inside(call, user=self.user, mounts=call.mounts, needs_landlock=True)
         return [*self._join(), *words, '--', *last], CLEAN
 

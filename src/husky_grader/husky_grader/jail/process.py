@@ -43,7 +43,6 @@ class JailedProcess:
         """
         self._cell, self._usage = cell, Usage(call.folder, call.limits)
         self.stopped = ''  # in words, which limit ended it
-        self._was_killed = False
         with contextlib.ExitStack() as opened:
             self._log = opened.enter_context(Log(log, int(call.limits.log_mb * MB)))
             reader, writer = os.pipe()
@@ -65,11 +64,10 @@ class JailedProcess:
         """Its exit status, minus the number of the signal that ended it; None while it runs."""
         if self._watch.is_alive():
             return None
-        if self._was_killed:
-            return -signal.SIGKILL
         code = self._child.exit_code
         # inside.py says it as a shell does: 128 and the number.
-        return 128 - code if code is not None and code > 128 else code
+        by_signal = code is not None and code - 128 in signal.valid_signals()
+        return 128 - code if by_signal else code
 
     def __enter__(self) -> JailedProcess:
         return self
@@ -106,7 +104,6 @@ class JailedProcess:
         while (first := self._cell.first_of(self._child)) and time.monotonic() < deadline_sec:
             with contextlib.suppress(psutil.NoSuchProcess):
                 first.kill()
-                self._was_killed = True
             self._child.wait(0.05)
         self._child.end(signal.SIGKILL)
 
