@@ -21,8 +21,10 @@ def _found() -> dict[str, Sandbox]:
     return found
 
 
-in_each_sandbox = pytest.mark.parametrize(
-    'sandbox',
-    [each for name, each in _found().items() if name != 'none'],
-    ids=lambda each: each.name,
-)
+def _each(*names: str) -> pytest.MarkDecorator:
+    found = [each for name, each in _found().items() if name in names]
+    return pytest.mark.parametrize('sandbox', found, ids=[each.name for each in found])
+
+
+in_each_sandbox = _each('bwrap', 'podman', 'docker', 'kernel')
+in_each_of_namespaces = _each('bwrap', 'kernel')  # with no service or set-up of the user's own

@@ -12,7 +12,7 @@ import sys
 import time
 
 from husky_grader.jail import find_sandbox, Jail, Limits, NoSandbox, Sandbox
-from playpen_testing.jails import in_each_sandbox
+from playpen_testing.jails import in_each_of_namespaces, in_each_sandbox
 from playpen_testing.waiting import wait_until
 import psutil
 import pytest
@@ -247,7 +247,7 @@ def test_nothing_outlives_a_grader_that_ends(
         )
 
 
-@in_each_sandbox
+@in_each_of_namespaces
 def test_an_ordinary_user_has_a_jail_too(sandbox: Sandbox, tmp_path: Path) -> None:
     folder, log = tmp_path / 'folder', tmp_path / 'log'
     folder.mkdir()

@@ -3,14 +3,16 @@
 """Find a sandbox that works on this machine."""
 
 from pathlib import Path
+import subprocess
 from tempfile import TemporaryDirectory
 
+from husky_grader.jail.containers import DOCKER, PODMAN
 from husky_grader.jail.jail import Jail
 from husky_grader.jail.namespaces import BWRAP, KERNEL
 from husky_grader.jail.sandbox import NoSandbox, Nothing, Sandbox, SandboxFails
 
 _NONE = Nothing()
-_SEPARATING: tuple[Sandbox, ...] = (BWRAP, KERNEL)
+_SEPARATING: tuple[Sandbox, ...] = (BWRAP, PODMAN, DOCKER, KERNEL)
 SANDBOXES = (*(sandbox.name for sandbox in _SEPARATING), _NONE.name)
 _TRIED_WITHIN_SEC = 30.0
 _RESTRICTED = Path('/proc/sys/kernel/apparmor_restrict_unprivileged_userns')
@@ -45,6 +47,9 @@ def _try(sandbox: Sandbox) -> None:
         folder.mkdir()
         with Jail(sandbox, folder) as jail:
             exit_code = jail.run(['true'], log=log, within_sec=_TRIED_WITHIN_SEC)
+            beside = subprocess.run(jail.beside(['true']), capture_output=True, text=True)
+        if beside.returncode != 0:
+            raise SandboxFails(beside.stderr.strip().replace('\n', ' '))
         if exit_code != 0:
             said = log.read_text(encoding='utf-8', errors='replace').strip().splitlines()
             raise SandboxFails(said[-1] if said else f'exit code {exit_code}')

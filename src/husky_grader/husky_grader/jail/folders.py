@@ -11,8 +11,11 @@ from typing import Literal, NamedTuple
 
 from husky_grader.jail.limits import Limits, MB
 
-INSIDE = Path(__file__).with_name('inside.py').resolve()  # the program that starts a command
-PYTHON = Path(sys.executable).resolve()  # by which it runs; it is none of .venv
+# The programs that start a command and hold a network, and the Python by which they run: not that
+# of .venv, which looks for more.
+INSIDE = Path(__file__).with_name('inside.py').resolve()
+LOOPBACK = Path(__file__).with_name('loopback.py').resolve()
+PYTHON = Path(sys.executable).resolve()
 
 # What programs need of the system.
 _SYSTEM = ('/usr', '/bin', '/sbin', '/lib', '/lib32', '/lib64', '/libx32')
@@ -53,16 +56,23 @@ def mounts_of(folder: Path, readable: Iterable[Path], limits: Limits) -> list[Mo
     :param folder: what may be written, at the same path as outside.
     :param readable: besides the system and the lab.
     """
-    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *_lab(), *readable}
-    ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
-    read = (way for way in ways if ways.isdisjoint(way.parents))
     own = (
         Mount('memory', str(limits.temporary_mb * MB), '/tmp'),
         Mount('memory', str(limits.shared_mb * MB), '/dev/shm'),
         Mount('write', str(folder.resolve()), str(folder.resolve())),
     )
-    mounts = (*(Mount('read', str(way.resolve()), str(way)) for way in read), *own)
-    return sorted(mounts, key=lambda mount: Path(mount.target).parts)
+    return sorted((*read_mounts(readable), *own), key=lambda mount: Path(mount.target).parts)
+
+
+def read_mounts(readable: Iterable[Path]) -> list[Mount]:
+    """Return what can only be read in a jail: the system, the lab, and more."""
+    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *_lab(), *readable}
+    ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
+    return [
+        Mount('read', str(way.resolve()), str(way))
+        for way in sorted(ways)
+        if ways.isdisjoint(way.parents)
+    ]
 
 
 def _lab() -> set[Path]:

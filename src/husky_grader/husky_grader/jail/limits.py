@@ -33,7 +33,7 @@ class Limits:
             if value is not None and value <= 0:
                 raise ValueError(f'{field.name}={value}: a limit is a number above 0')
 
-    def for_each_process(self) -> list[tuple[int, int]]:
+    def for_each_process(self, *, counts_tasks: bool) -> list[tuple[int, int]]:
         """
         Return the limits that the kernel keeps for each process: numbers of setrlimit(2), values.
 
@@ -42,9 +42,10 @@ class Limits:
         """
         kept = [
             (resource.RLIMIT_DATA, 2 * self.memory_mb * MB),
-            (resource.RLIMIT_NPROC, self.tasks),
             (resource.RLIMIT_FSIZE, self.file_mb * MB),
             (resource.RLIMIT_NOFILE, self.open_files),
             (resource.RLIMIT_CORE, 0),
         ]
-        return kept if self.cpu_sec is None else [*kept, (resource.RLIMIT_CPU, self.cpu_sec)]
+        kept += [(resource.RLIMIT_NPROC, self.tasks)] if counts_tasks else []
+        kept += [(resource.RLIMIT_CPU, self.cpu_sec)] if self.cpu_sec else []
+        return kept

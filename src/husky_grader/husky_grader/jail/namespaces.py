@@ -8,7 +8,7 @@ ordinary user gets the right to all this in a user namespace. Root has it anyway
 run as a user that nobody is.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 import os
@@ -19,11 +19,19 @@ import subprocess
 from husky_runtime.children import ChildProcess
 import psutil
 
-from husky_grader.jail.folders import PYTHON
-from husky_grader.jail.sandbox import Call, Cell, CLEAN, inside, OWN_NETWORK, SandboxFails
+from husky_grader.jail.folders import LOOPBACK, PYTHON
+from husky_grader.jail.sandbox import (
+    Call,
+    Cell,
+    CLEAN,
+    Entry,
+    FIRST_USER,
+    inside,
+    joining,
+    OWN_NETWORK,
+    SandboxFails,
+)
 
-_LOOPBACK = Path(__file__).with_name('loopback.py').resolve()
-_FIRST_USER = 2**30  # above it no system gives numbers to people or services
 _BWRAP_KINDS = {'read': '--ro-bind', 'write': '--bind'}
 
 
@@ -37,28 +45,17 @@ class _Cell:
 
     @property
     def user(self) -> int | None:
-        return _FIRST_USER + self.holder if self.is_root else None
-
-    def _join(self) -> list[str]:
-        own_user = [] if self.is_root else ['--user', '--preserve-credentials']
-        return ['nsenter', '--target', str(self.holder), '--net', *own_user, '--']
+        return FIRST_USER + self.holder if self.is_root else None
 
     def beside(self, command: Sequence[str]) -> list[str]:
-        # To join a user namespace takes back what die_with_parent has asked for.
-        return [*self._join(), 'setpriv', '--pdeathsig', 'KILL', '--', *command]
-
-    def first_of(self, child: ChildProcess) -> psutil.Process | None:
-        try:
-            return next(iter(psutil.Process(child.pid).children()), None)
-        except psutil.NoSuchProcess:
-            return None
+        return [*joining(self.holder), *command]
 
     def ending_all(self) -> AbstractContextManager[None]:
         return nullcontext()  # they have ended with their process namespace
 
 
 class _Bwrap(_Cell):
-    def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
+    def enter(self, call: Call) -> Entry:
         own_user = [] if self.is_root else ['--unshare-user', '--disable-userns']
         words = ['bwrap', '--die-with-parent', '--unshare-pid', '--unshare-ipc', *own_user]
         words += ['--proc', '/proc', '--dev', '/dev']
@@ -69,14 +66,21 @@ class _Bwrap(_Cell):
                 # By itself it makes the folders above so that only root can pass.
                 words += ['--dir', str(Path(target).parent), _BWRAP_KINDS[kind], source, target]
         words += ['--remount-ro', '/', '--', *inside(call, user=self.user)]
-        return [*self._join(), *words], CLEAN
+        return Entry([*joining(self.holder), *words], CLEAN, _first_child)
 
 
 class _Kernel(_Cell):
-    def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
+    def enter(self, call: Call) -> Entry:
         words = ['unshare', '--pid', '--ipc', '--mount', *_own_user(self.is_root)]
         last = inside(call, user=self.user, mounts=call.mounts, needs_landlock=True)
-        return [*self._join(), *words, '--', *last], CLEAN
+        return Entry([*joining(self.holder), *words, '--', *last], CLEAN, _first_child)
+
+
+def _first_child(child: ChildProcess) -> psutil.Process | None:
+    try:
+        return next(iter(psutil.Process(child.pid).children()), None)
+    except psutil.NoSuchProcess:
+        return None
 
 
 def _own_user(is_root: bool) -> list[str]:
@@ -107,7 +111,7 @@ def _network() -> Iterator[int]:
     """Start a process that holds a new network, until this one ends or is done with it."""
     words = ['unshare', '--net', *_own_user(os.geteuid() == 0), '--']
     with subprocess.Popen(
-        [*words, str(PYTHON), '-I', '-S', str(_LOOPBACK)],
+        [*words, str(PYTHON), '-I', '-S', str(LOOPBACK)],
         env=CLEAN,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,

@@ -41,7 +41,7 @@ class JailedProcess:
 
         :raises OSError: if the log cannot be written.
         """
-        self._cell, self._usage = cell, Usage(call.folder, call.limits)
+        self._entry, self._usage = cell.enter(call), Usage(call.folder, call.limits)
         self.stopped = ''  # in words, which limit ended it
         with contextlib.ExitStack() as opened:
             self._log = opened.enter_context(Log(log, int(call.limits.log_mb * MB)))
@@ -49,7 +49,11 @@ class JailedProcess:
             self._printed = opened.enter_context(os.fdopen(reader, 'rb', buffering=0))
             with os.fdopen(writer, 'w') as output:
                 self._child = ChildProcess(
-                    *cell.enter(call), output, answers, parent_death=signal.SIGKILL
+                    self._entry.command,
+                    self._entry.environment,
+                    output,
+                    answers,
+                    parent_death=signal.SIGKILL,
                 )
             self._opened = opened.pop_all()
         self._watch = threading.Thread(target=self._keep_watch, daemon=True)
@@ -66,8 +70,9 @@ class JailedProcess:
             return None
         code = self._child.exit_code
         # inside.py says it as a shell does: 128 and the number.
-        by_signal = code is not None and code - 128 in signal.valid_signals()
-        return 128 - code if by_signal else code
+        if code is not None and code - 128 in signal.valid_signals():
+            return 128 - code
+        return code
 
     def __enter__(self) -> JailedProcess:
         return self
@@ -100,17 +105,22 @@ class JailedProcess:
 
     def _kill(self) -> None:
         deadline_sec = time.monotonic() + _KILLED_WITHIN_SEC
-        # Not the child: it sees the end of all, when the first process in the jail has ended.
-        while (first := self._cell.first_of(self._child)) and time.monotonic() < deadline_sec:
-            with contextlib.suppress(psutil.NoSuchProcess):
-                first.kill()
-            self._child.wait(0.05)
+        # Not the child: it ends by itself when all else has ended.
+        while self._entry.first and self._child.exit_code is None:
+            if first := self._entry.first(self._child):
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    first.kill()
+            if self._child.wait(0.05) or time.monotonic() > deadline_sec:
+                break
         self._child.end(signal.SIGKILL)
 
     def _processes(self) -> list[psutil.Process]:
         with contextlib.suppress(psutil.NoSuchProcess):
-            first = self._cell.first_of(self._child) or psutil.Process(self._child.pid)
-            return [first, *first.children(recursive=True)]
+            if self._entry.first is None:
+                first: psutil.Process | None = psutil.Process(self._child.pid)
+            else:
+                first = self._entry.first(self._child)
+            return [first, *first.children(recursive=True)] if first else []
         return []
 
     def _keep_watch(self) -> None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a jail asks of a sandbox, and the one that separates nothing."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 import marshal
@@ -26,6 +26,9 @@ OWN_NETWORK = {'ROS_DOMAIN_ID': '0', _RANGE: 'SUBNET', 'FASTDDS_BUILTIN_TRANSPOR
 CLEAN = {'PATH': '/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin', 'LC_ALL': 'C'}
 
 
+FIRST_USER = 2**30  # above it no system gives numbers to people or services
+
+
 class NoSandbox(ValueError):
     """There is no sandbox, or not the one asked for; the message says what to do."""
 
@@ -45,6 +48,17 @@ class Call:
     limits: Limits
 
 
+@dataclass(frozen=True)
+class Entry:
+    """How a call gets into a sandbox."""
+
+    command: Sequence[str]
+    environment: Mapping[str, str]
+    # Returns the process whose end ends all that was started; None until it is there. Where there
+    # is no such function, there will be no such process.
+    first: Callable[[ChildProcess], psutil.Process | None] | None = None
+
+
 class Cell(Protocol):
     """An open sandbox."""
 
@@ -56,14 +70,11 @@ class Cell(Protocol):
     def user(self) -> int | None:
         """Return the number of the user as whom commands run; None: who calls."""
 
-    def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
-        """Return the command that runs another one inside, and its environment."""
+    def enter(self, call: Call) -> Entry:
+        """Return the command that runs another one inside."""
 
     def beside(self, command: Sequence[str]) -> list[str]:
         """Return the command that runs another one outside, but in the same network."""
-
-    def first_of(self, child: ChildProcess) -> psutil.Process | None:
-        """Return the process whose end ends all that a child has started; None: there is none."""
 
     def ending_all(self) -> AbstractContextManager[None]:
         """End what else was started meanwhile."""
@@ -83,15 +94,32 @@ class Sandbox(Protocol):
         """
 
 
+def joining(holder: int) -> list[str]:
+    """Return the words before a command that joins the network of a process, and ends with us."""
+    own_user = [] if os.geteuid() == 0 else ['--user', '--preserve-credentials']
+    join = ['nsenter', '--target', str(holder), '--net', *own_user, '--']
+    # To join a user namespace takes back what die_with_parent has asked for.
+    return [*join, 'setpriv', '--pdeathsig', 'KILL', '--']
+
+
 def inside(
-    call: Call, *, user: int | None, mounts: Sequence[Mount] = (), needs_landlock: bool = False
+    call: Call,
+    *,
+    user: int | None,
+    mounts: Sequence[Mount] = (),
+    needs_landlock: bool = False,
+    counts_tasks: bool = True,
 ) -> list[str]:
-    """Return the command that takes the last step into a jail; see inside.py."""
+    """
+    Return the command that takes the last step into a jail; see inside.py.
+
+    :param counts_tasks: whether the kernel counts the processes of the jail's user alone.
+    """
     plan = {
         'mounts': [tuple(mount) for mount in mounts],
         'writable': [mount.target for mount in call.mounts if mount.kind != 'read'],
         'needs_landlock': needs_landlock,
-        'limits': call.limits.for_each_process(),
+        'limits': call.limits.for_each_process(counts_tasks=counts_tasks),
         'user': user,
         'folder': str(call.folder),
         'environment': dict(call.environment),
@@ -118,14 +146,11 @@ class _Open:
     graph: Mapping[str, str]
     user = None
 
-    def enter(self, call: Call) -> tuple[list[str], Mapping[str, str]]:
-        return ['env', '-C', str(call.folder), *call.command], call.environment
+    def enter(self, call: Call) -> Entry:
+        return Entry(['env', '-C', str(call.folder), *call.command], call.environment)
 
     def beside(self, command: Sequence[str]) -> list[str]:
         return list(command)
-
-    def first_of(self, child: ChildProcess) -> psutil.Process | None:  # noqa: ARG002
-        return None
 
     def ending_all(self) -> AbstractContextManager[None]:
         return descendants_ended()
