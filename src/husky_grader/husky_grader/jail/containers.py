@@ -61,17 +61,26 @@ class _Cell:
         words += [*_volumes(call.mounts), _IMAGE]
         # Who else runs with the same number counts too, where there is no namespace of users.
         last = inside(call, user=None, counts_tasks=False)
-
-        def first(child: ChildProcess) -> psutil.Process | None:
-            return _process_of(self.program, name) if child.exit_code is None else None
-
-        return Entry([*words, *last], os.environ, first)
+        return Entry([*words, *last], os.environ, _First(self.program, name))
 
     def beside(self, command: Sequence[str]) -> list[str]:
         return [*joining(self.holder), *command]
 
     def ending_all(self) -> AbstractContextManager[None]:
         return nullcontext()  # they have ended with their container
+
+
+class _First:
+    """Finds the first process of a container, and asks no more when it is found."""
+
+    def __init__(self, program: str, container: str) -> None:
+        self._program, self._container = program, container
+        self._found: psutil.Process | None = None
+
+    def __call__(self, child: ChildProcess) -> psutil.Process | None:
+        if self._found is None and child.exit_code is None:
+            self._found = _process_of(self._program, self._container)
+        return self._found
 
 
 @dataclass(frozen=True)
@@ -155,11 +164,11 @@ def _make_image(program: str) -> None:
 
 def _process_of(program: str, container: str) -> psutil.Process | None:
     """Return the first process of a container; None if it does not run."""
-    said = _asked(program, 'inspect', '--format', '{{.State.Pid}}', container)
     try:
+        said = _asked(program, 'inspect', '--format', '{{.State.Pid}}', container)
         number = int(said.stdout)
         return psutil.Process(number) if number else None
-    except (ValueError, psutil.NoSuchProcess):
+    except (SandboxFails, ValueError, psutil.NoSuchProcess):
         return None
 
 

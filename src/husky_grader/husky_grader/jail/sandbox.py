@@ -24,8 +24,6 @@ _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 OWN_NETWORK = {'ROS_DOMAIN_ID': '0', _RANGE: 'SUBNET', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}
 # What starts a jail gets nothing of the grader's environment: a jailed program may read it.
 CLEAN = {'PATH': '/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin', 'LC_ALL': 'C'}
-
-
 FIRST_USER = 2**30  # above it no system gives numbers to people or services
 
 
@@ -33,8 +31,8 @@ class NoSandbox(ValueError):
     """There is no sandbox, or not the one asked for; the message says what to do."""
 
 
-class SandboxFails(Exception):
-    """A sandbox does not work here; the message says why."""
+class SandboxFails(NoSandbox):
+    """One sandbox does not work here; the message says why."""
 
 
 @dataclass(frozen=True)
