@@ -26,5 +26,6 @@ def _each(*names: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize('sandbox', found, ids=[each.name for each in found])
 
 
+in_each_way = _each('bwrap', 'podman', 'docker', 'kernel', 'none')
 in_each_sandbox = _each('bwrap', 'podman', 'docker', 'kernel')
 in_each_of_namespaces = _each('bwrap', 'kernel')  # with no service or set-up of the user's own

@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
 import time
 
 from husky_grader.jail import find_sandbox, Jail, Limits, NoSandbox, Sandbox
-from playpen_testing.jails import in_each_of_namespaces, in_each_sandbox
+from playpen_testing.jails import in_each_of_namespaces, in_each_sandbox, in_each_way
 from playpen_testing.waiting import wait_until
 import psutil
 import pytest
@@ -106,7 +107,7 @@ def has_said(log: Path, text: str) -> None:
     wait_until(lambda: text in log.read_text(), timeout_sec=10.0, what=f'{text} in {log.name}')
 
 
-@in_each_sandbox
+@in_each_way
 def test_an_exit_code_a_signal_and_a_missing_program_are_told(
     sandbox: Sandbox, tmp_path: Path
 ) -> None:
@@ -116,10 +117,10 @@ def test_an_exit_code_a_signal_and_a_missing_program_are_told(
         assert jail.run(['bash', '-c', 'kill -SEGV $$'], log=log, within_sec=10.0) == -11
         assert jail.run(['sleep', '600'], log=log, within_sec=0.3) is None
         assert jail.run(['no_such_program'], log=log, within_sec=10.0) == 127
-    assert 'no_such_program: No such file or directory' in log.read_text()
+    assert re.search('no_such_program.?: No such file or directory', log.read_text())
 
 
-@in_each_sandbox
+@in_each_way
 def test_input_and_variables_reach_the_command(
     sandbox: Sandbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,14 +132,14 @@ def test_input_and_variables_reach_the_command(
     assert log.read_text() == f'an answer a word {tmp_path}/folder/home\n'
 
 
-@in_each_sandbox
+@in_each_way
 def test_a_daemon_ends_with_the_run(sandbox: Sandbox, tmp_path: Path, mark: str) -> None:
     with jail_in(sandbox, tmp_path) as jail:
         exit_code = jail.run(python(DAEMON, mark), log=tmp_path / 'log', within_sec=10.0)
         assert (exit_code, running(mark)) == (0, [])
 
 
-@in_each_sandbox
+@in_each_way
 def test_what_may_close_closes_and_what_is_deaf_is_killed(
     sandbox: Sandbox, tmp_path: Path, mark: str
 ) -> None:
@@ -169,7 +170,7 @@ def test_a_fork_bomb_stays_in_its_jail(sandbox: Sandbox, tmp_path: Path, mark: s
     assert running(mark) == []
 
 
-@in_each_sandbox
+@in_each_way
 def test_memory_over_its_limit_ends_only_who_took_it(
     sandbox: Sandbox, tmp_path: Path, mark: str
 ) -> None:
@@ -183,7 +184,7 @@ def test_memory_over_its_limit_ends_only_who_took_it(
     assert f'[ended by the grader: it {eater.stopped}]' in (tmp_path / 'log').read_text()
 
 
-@in_each_sandbox
+@in_each_way
 def test_a_log_is_cut_in_its_middle(sandbox: Sandbox, tmp_path: Path) -> None:
     log, much = tmp_path / 'log', 'echo begin; yes | head -c 200000000; echo end'
     with jail_in(sandbox, tmp_path, Limits(log_mb=0.1)) as jail:
@@ -242,7 +243,7 @@ def test_nothing_outlives_a_grader_that_ends(
         grader.send_signal(signal.Signals[how])
         wait_until(
             lambda: running(mark) == [] and grader.poll() is not None,
-            timeout_sec=2.0,
+            timeout_sec=4.0,
             what=lambda: f'the end of {running(mark)}',
         )
 

@@ -23,7 +23,7 @@ SUCCEEDING = (
 )
 # Some do only as root, or on some computers.
 OTHERS = (
-    *('traces_the_grader', 'listens_to_all_packets', 'has_open_files', 'mounts'),
+    *('traces_who_watches', 'listens_to_all_packets', 'has_open_files', 'mounts'),
     *('writes_settings_of_the_kernel', 'types_at_the_terminal', 'uses_services_of_the_system'),
     'mounts_in_a_namespace_of_its_own',  # last: it is another user then
 )

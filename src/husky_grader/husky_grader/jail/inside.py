@@ -39,7 +39,7 @@ _EXECUTE, _WRITE_FILE, _READ_FILE, _READ_DIR, _TRUNCATE = 1 << 0, 1 << 1, 1 << 2
 _FILE_RIGHTS = (13, 14, 15, 15, 16)
 _SCOPE_ALL = 0b11  # abstract sockets and signals; from version 6 on
 
-_PR_SET_NO_NEW_PRIVS = 38  # <linux/prctl.h>
+_PR_SET_DUMPABLE, _PR_SET_NO_NEW_PRIVS = 4, 38  # <linux/prctl.h>
 _CAPABILITY_VERSION = 0x20080522  # <linux/capability.h>
 
 # <signal.h>; to import signal takes longer than all the rest
@@ -122,6 +122,8 @@ def _drop_rights(user: int | None) -> None:
     _checked(_LIBC.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 'no_new_privs')
     header, none = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION, 0), (ctypes.c_uint32 * 6)()
     _checked(_LIBC.capset(header, none), 'capset')
+    # The command has the same user: it must not trace, and so stop, this process.
+    _checked(_LIBC.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0), 'dumpable')
 
 
 def _restrict_files(writable: list[str], *, needed: bool) -> None:
