@@ -3,8 +3,9 @@
 """Grade waypoint files, or a run that the simulator has recorded."""
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import json
+import os
 from pathlib import Path
 import sys
 import time
@@ -20,6 +21,7 @@ from husky_grader.batch.tables import table, write_csv
 from husky_grader.grading import Grade, grade_file
 from husky_grader.playpen import default_course, default_rubric
 from husky_grader.report.files import as_json, summary, write_report
+from husky_grader.rubric.steps import Step
 from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
 
@@ -41,7 +43,18 @@ def _parser() -> argparse.ArgumentParser:
         '--controller', metavar='COMMAND', help='grade a node of yours: "ros2 run my_pkg my_node"'
     )
     parser.add_argument(
-        '--lab', metavar='FOLDER', help='grade a whole workspace, step by step of a rubric'
+        '--lab',
+        metavar='SUBMISSION',
+        nargs='+',
+        default=[],
+        help='grade workspaces, step by step of a rubric: folders, archives, exports; see '
+        'docs/grading.md',
+    )
+    parser.add_argument(
+        '--sandbox',
+        metavar='NAME',
+        default='auto',
+        help='where workspaces are built and run: auto, bwrap, podman, docker, kernel or none',
     )
     parser.add_argument(
         '--rubric', metavar='FILE', help='what a lab asks for (that of the lab sheet)'
@@ -75,13 +88,15 @@ def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(args)
     if sum(map(bool, (options.files, options.record, options.controller, options.lab))) != 1:
-        parser.error('give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER')
+        parser.error(
+            'give waypoint files, --record FILE, --controller COMMAND or --lab SUBMISSION'
+        )
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if not options.real_time_factor > 0.0:
         parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
     if options.rubric and not options.lab:
-        parser.error('--rubric needs --lab FOLDER, the workspace to grade by it')
+        parser.error('--rubric needs --lab SUBMISSION, the workspace to grade by it')
     if options.lab and (options.waypoints or options.answers):
         parser.error('--lab takes courses and answers from the rubric; see --rubric FILE')
     if options.jobs < 0:
@@ -110,7 +125,7 @@ def _grade(options: argparse.Namespace) -> int:
     if options.controller:
         return _grade_controller(options)
     if options.lab:
-        return _grade_lab(options)
+        return _grade_labs(options)
     if len(options.files) == 1:
         file, folder = options.files[0], Path(options.report)
         return _show_one(grade_file(file, folder, world=options.world), options)
@@ -126,18 +141,26 @@ def _grade_record(options: argparse.Namespace) -> int:
 
 
 def _grade_controller(options: argparse.Namespace) -> int:
+    from husky_grader.jail import find_sandbox, Jail
     from husky_grader.run.live import drive_live  # rclpy and the simulator take their time
 
     begun, folder = time.monotonic(), Path(options.report)
     waypoints = options.waypoints or str(default_course())
     route = plan_route(load_course(waypoints))
-    with WaypointTally(len(route.course.stops) - 1) as tally:
+    (folder / 'controller').mkdir(parents=True, exist_ok=True)
+    with (
+        Jail(find_sandbox('none'), folder / 'controller') as jail,
+        WaypointTally(len(route.course.stops) - 1) as tally,
+    ):
         live = drive_live(
             options.controller,
             waypoints,
             folder,
+            jail,
             world=options.world,
             answers=_answer_lines(options.answers),
+            environment=os.environ,
+            start_in=Path.cwd(),
             real_time_factor=options.real_time_factor,
             on_progress=tally.show,
         )
@@ -179,27 +202,46 @@ def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
     return ''
 
 
-def _grade_lab(options: argparse.Namespace) -> int:
-    from husky_grader.lab.lab import grade_lab
+def _grade_labs(options: argparse.Namespace) -> int:
     from husky_grader.lab.lab import table as lab_table
+    from husky_grader.lab_grading import choose_sandbox, grade_submission, LabGrade
     from husky_grader.rubric.rubric_file import load_rubric
+    from husky_grader.submission import find_submissions
 
-    rubric = load_rubric(options.rubric or default_rubric())
-    workspace = Path(options.lab)
-    if not workspace.is_dir():
-        raise ValueError(f'{workspace}: no such folder; give your workspace, with src in it')
-    steps = grade_lab(
-        workspace,
-        rubric,
-        Path(options.report),
-        real_time_factor=options.real_time_factor,
-        done=lambda step: print(f'{step.name}: done', file=sys.stderr, flush=True),
-    )
-    if options.json:
-        print((Path(options.report) / 'lab.json').read_text(encoding='utf-8'), end='')
-    else:
-        print(lab_table(steps))
-    return PASSED if all(step.is_full for step in steps) else NOT_PASSED
+    rubric, report = load_rubric(options.rubric or default_rubric()), Path(options.report)
+    submissions = find_submissions(options.lab)
+    sandbox = choose_sandbox(options.sandbox, submissions, _tell)
+    alone = len(submissions) == 1
+    width = max((len(each.id) for each in submissions), default=0)
+    grades: list[LabGrade] = []
+    for submission in submissions:
+        folder = report if alone else report / submission.id
+        grade = grade_submission(
+            submission,
+            rubric,
+            folder,
+            sandbox=sandbox,
+            real_time_factor=options.real_time_factor,
+            done=_teller(submission.id),
+        )
+        grades.append(grade)
+        if alone and grade.refused:
+            raise ValueError(grade.refused)
+        if alone and options.json:
+            print((folder / 'lab.json').read_text(encoding='utf-8'), end='')
+        elif not options.json:
+            print(lab_table(grade.steps) if alone else grade.line(width), flush=True)
+    if options.json and not alone:
+        print(json.dumps([grade.entry() for grade in grades], indent=2))
+    return PASSED if all(grade.is_full for grade in grades) else NOT_PASSED
+
+
+def _teller(name: str) -> Callable[[Step], None]:
+    return lambda step: _tell(f'{name}: {step.name}: done')
+
+
+def _tell(line: str) -> None:
+    print(printable(line), file=sys.stderr, flush=True)
 
 
 def _answer_lines(answers: str) -> str:

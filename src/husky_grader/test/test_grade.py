@@ -127,8 +127,8 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
 @pytest.mark.parametrize(
     ('arguments', 'expected'),
     [
-        ([], 'give waypoint files, --record FILE, --controller COMMAND or --lab FOLDER'),
-        (['--rubric', 'rubric.yaml', 'a.yaml'], '--rubric needs --lab FOLDER'),
+        ([], 'give waypoint files, --record FILE, --controller COMMAND or --lab SUBMISSION'),
+        (['--rubric', 'rubric.yaml', 'a.yaml'], '--rubric needs --lab SUBMISSION'),
         (['--lab', '.', '--answers', '1'], '--lab takes courses and answers from the rubric'),
         (['--record', 'x.record'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: line 1, column 1: no such file'),

@@ -10,7 +10,7 @@ import socket
 import subprocess
 import sys
 
-from husky_grader.jail import find_sandbox, Jail, NotAFile, read_left, Sandbox
+from husky_grader.jail import find_sandbox, Jail, Sandbox
 from playpen_testing.jails import in_each_sandbox
 import pytest
 
@@ -97,20 +97,3 @@ def test_nothing_is_written_beside_the_folder(sandbox: Sandbox, folder: Path) ->
     assert sorted(path.name for path in folder.rglob('*')) == ['here', 'home', 'own']
     assert not Path('/tmp/own').exists()
     assert not Path('/dev/shm/own').exists()
-
-
-@pytest.mark.parametrize(
-    'made',
-    [
-        'ln -s /etc/passwd left',
-        'mkfifo left',
-        'mkdir left',
-        'ln -s / left; cd left',
-        'head -c 2000 /dev/zero > left',
-        '',
-    ],
-)
-def test_what_is_left_is_read_only_if_it_is_a_file(folder: Path, made: str) -> None:
-    subprocess.run(made, shell=True, cwd=folder, check=True)
-    with pytest.raises(NotAFile, match=r'^left: '):
-        read_left(folder, 'left', most_bytes=1000)

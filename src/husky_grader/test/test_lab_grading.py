@@ -14,13 +14,13 @@ import sys
 import time
 
 from husky_grader.grade import main as grade
+from husky_grader.jail import find_sandbox, Jail
 from husky_grader.lab.build_step import build_step, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
 from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.live_steps import live_step
-from husky_grader.lab.runner import HostRunner
 from husky_grader.playpen import default_rubric
 from husky_grader.rubric.rubric_file import load_rubric
 from husky_grader.rubric.steps import (
@@ -61,9 +61,11 @@ BUILD = """
 from pathlib import Path
 import sys
 from husky_grader.lab.build_step import build_step
-from husky_grader.lab.runner import HostRunner
-report = Path(sys.argv[2])
-build_step(Path(sys.argv[1]), HostRunner(report / 'built'), report / 'build.log')
+from husky_grader.jail import find_sandbox, Jail
+workspace, report = map(Path, sys.argv[1:])
+(report / 'built').mkdir()
+with Jail(find_sandbox('none'), report / 'built') as jail:
+    build_step(workspace, jail, report / 'build.log')
 """
 PUBLISHER = """#!%s
 import time, rclpy
@@ -111,6 +113,11 @@ def workspace(tmp_path: Path) -> Path:
     return folder
 
 
+def open_jail(folder: Path) -> Jail:
+    """Return a jail that separates nothing, but ends what was started in it."""
+    return Jail(find_sandbox('none'), folder)
+
+
 def built(folder: Path, package: str, executable: str, program: str) -> Path:
     """Return a workspace with a package of one program, built into a folder beside it."""
     manifest = folder / 'workspace' / 'src' / package / 'package.xml'
@@ -126,7 +133,8 @@ def built(folder: Path, package: str, executable: str, program: str) -> Path:
 
 def found_of(step: PublisherStep | SubscriberStep, folder: Path, program: str) -> Finding:
     workspace = built(folder, step.package, step.executable, program)
-    return live_step(step, workspace, HostRunner(folder / 'built'), os.environ, folder / 'log')
+    with open_jail(folder / 'built') as jail:
+        return live_step(step, workspace, jail, os.environ, folder / 'log')
 
 
 @pytest.mark.parametrize(('period_sec', 'defects'), [(0.1, set()), (0.2, {'rate'})])
@@ -148,7 +156,7 @@ def test_a_pause_of_a_publisher_does_not_change_its_rate(
         ),
         (f'#!{sys.executable}\ndef main(:\n    pass\n', 'publisher line 2: SyntaxError: '),
         (f'#!{sys.executable}\nimport os\nos._exit(7)\n', 'it ended by itself (exit code 7)'),
-        ('#!/no/such/python\n', 'publisher cannot be started: No such file or directory'),
+        ('#!/no/such/python\n', 'publisher cannot be started: there is no such program'),
     ],
     ids=['another topic', 'a syntax error', 'an exit', 'no interpreter'],
 )
@@ -220,7 +228,7 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
 def test_an_empty_workspace_scores_nothing(tmp_path: Path) -> None:
     workspace = tmp_path / 'CSE461_07_03'
     (workspace / 'src').mkdir(parents=True)
-    grades = grade_lab(workspace, SHEET, tmp_path / 'report')
+    grades = grade_lab(workspace, SHEET, tmp_path / 'report', sandbox=find_sandbox('none'))
     assert {grade.name: grade.points for grade in grades if grade.points} == {}
 
 
@@ -231,7 +239,8 @@ def test_a_package_as_it_was_created_gets_no_more_than_that(tmp_path: Path) -> N
     create = ['ros2', 'pkg', 'create', 'topic_demo', '--build-type', 'ament_python']
     create += ['--dependencies', 'rclpy', 'std_msgs', '--node-name', 'publisher']
     subprocess.run(create, cwd=workspace / 'src', check=True, stdout=subprocess.DEVNULL)
-    grades = {grade.name: grade for grade in grade_lab(workspace, SHEET, tmp_path / 'report')}
+    steps = grade_lab(workspace, SHEET, tmp_path / 'report', sandbox=find_sandbox('none'))
+    grades = {grade.name: grade for grade in steps}
     points = {name: grade.points for name, grade in grades.items() if grade.points}
     assert points == {'workspace': 5.0, 'package topic_demo': 8.0}
     why = grades['package topic_demo'].why
@@ -252,8 +261,9 @@ def test_a_hidden_course_is_known_by_its_title_only(tmp_path: Path) -> None:
         limits=DriveLimits(time_sec=1.0),
     )
     workspace = built(tmp_path, 'my_driver', 'follow_path', FOLLOW_PATH % sys.executable)
-    drives = DriveRunner(HostRunner(tmp_path / 'built'), os.environ, real_time_factor=4.0)
-    found = drive_step(step, drives, workspace, tmp_path / 'report')
+    with open_jail(tmp_path / 'built') as jail:
+        drives = DriveRunner(jail, os.environ, real_time_factor=4.0)
+        found = drive_step(step, drives, workspace, tmp_path / 'report')
     report = json.loads((tmp_path / 'report' / 'staff' / 'drive' / 'report.json').read_text())
     assert found.score == max(report['score'] - 50.0, 0.0)
     assert found.why.startswith('course A: ')
@@ -296,7 +306,7 @@ def test_a_workspace_that_is_not_there_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert grade(['--lab', str(tmp_path / 'nothing')]) == 2
-    assert 'no such folder; give your workspace' in capsys.readouterr().err
+    assert 'nothing: no such file or folder' in capsys.readouterr().err
 
 
 def test_a_rubric_with_a_mistake_is_refused_before_anything(
@@ -339,7 +349,9 @@ def test_a_daemon_of_a_build_ends_with_the_build(workspace: Path, tmp_path: Path
     setup = workspace / 'src' / 'topic_demo' / 'setup.py'
     setup.write_text(setup.read_text() + daemon(pids))
     log = tmp_path / 'build.log'
-    found = build_step(workspace, HostRunner(report), log)
+    report.mkdir()
+    with open_jail(report) as jail:
+        found = build_step(workspace, jail, log)
     assert found.score == 100.0, found
     assert 'Finished <<< topic_demo' in log.read_text()
     assert running([int(pid) for pid in pids.read_text().split()]) == []
@@ -377,10 +389,11 @@ def test_a_hook_that_breaks_the_shell_is_told(
     monkeypatch.setattr('husky_grader.lab.build_step.SOURCE_WITHIN_SEC', 1.0)
     (tmp_path / 'install').mkdir()
     (tmp_path / 'install' / 'local_setup.bash').write_text(f'export KNOWN=1\n{hook}\n')
-    with pytest.raises(ValueError, match=why):
-        sourced(HostRunner(tmp_path))
+    with open_jail(tmp_path) as jail, pytest.raises(ValueError, match=why):
+        sourced(jail)
     (tmp_path / 'install' / 'local_setup.bash').write_text('export KNOWN="a\nb"\n')
-    assert sourced(HostRunner(tmp_path))['KNOWN'] == 'a\nb'
+    with open_jail(tmp_path) as jail:
+        assert sourced(jail)['KNOWN'] == 'a\nb'
 
 
 @pytest.mark.timeout(60)
@@ -389,5 +402,25 @@ def test_a_daemon_of_a_controller_ends_with_the_run(tmp_path: Path) -> None:
     program.write_text(daemon(pids))
     course = tmp_path / 'course.yaml'
     course.write_text('waypoints: [[0, 0], [-2, 0]]')
-    drive_live(f'{sys.executable} {program}', str(course), tmp_path / 'run')
+    with open_jail(tmp_path) as jail:
+        drive_live(f'{sys.executable} {program}', str(course), tmp_path / 'run', jail)
     assert running([int(pid) for pid in pids.read_text().split()]) == []
+
+
+@pytest.mark.timeout(120)
+def test_a_class_of_archives_has_a_line_each_and_costs_only_itself(
+    workspace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    handed_in = tmp_path / 'handed_in'
+    handed_in.mkdir()
+    shutil.rmtree(workspace / 'src' / 'my_driver')
+    shutil.make_archive(str(handed_in / 'good'), 'gztar', tmp_path, workspace.name)
+    (handed_in / 'hostile.zip').write_bytes(b'PK\x03\x04 and nothing else')
+    report = tmp_path / 'report'
+    assert grade(['--lab', str(handed_in), '--report', str(report)]) == 1
+    good, hostile = capsys.readouterr().out.splitlines()
+    assert good.startswith('good     ')
+    assert ' 65.0 of 100  driver package: a package with follow_path.py' in good
+    assert hostile.startswith('hostile  refused  ')
+    steps = json.loads((report / 'good' / 'lab.json').read_text())
+    assert steps['sandbox'] in ('bwrap', 'podman', 'docker', 'kernel')

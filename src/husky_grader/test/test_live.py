@@ -11,12 +11,17 @@ from pathlib import Path
 import subprocess
 import sys
 
-from husky_grader.run.live import drive_live, LiveRun
+from husky_grader.jail import find_sandbox, Jail
+from husky_grader.run.live import drive_live, LiveRun, Progress
 from husky_grader.run.told import Told
 import pytest
 
 COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n'
-FOLLOW_PATH = f'{sys.executable} -m husky_driver.follow_path --waypoints'
+FOLLOWS = """
+import sys
+from husky_driver.follow_path import main
+sys.exit(main(['follow_path', '--waypoints', 'course.yaml']))
+"""
 NODE = """
 import json, sys, rclpy
 from geometry_msgs.msg import Twist
@@ -91,18 +96,24 @@ def busy_machine() -> Iterator[None]:
             process.wait()
 
 
-def driven(program: str, course: str, folder: Path) -> LiveRun:
-    folder.mkdir()
-    student = folder / 'student.py'
-    student.write_text(program)
-    return drive_live(f'{sys.executable} {student}', course, folder)
+def drive_in_jail(
+    program: str, course: str, folder: Path, on_progress: Progress = lambda _: None
+) -> LiveRun:
+    """Drive in the sandbox that a teaching assistant gets here."""
+    theirs = folder / 'theirs'
+    theirs.mkdir(parents=True)
+    (theirs / 'student.py').write_text(program)
+    (theirs / 'course.yaml').write_text(COURSE)
+    command = f'{sys.executable} {theirs}/student.py'
+    with Jail(find_sandbox('auto'), theirs) as jail:
+        return drive_live(command, course, folder, jail, on_progress=on_progress)
 
 
 def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_path: Path) -> None:
     told: list[Told] = []
-    quiet = drive_live(f'{FOLLOW_PATH} {course}', course, tmp_path / 'a', on_progress=told.append)
+    quiet = drive_in_jail(FOLLOWS, course, tmp_path / 'a', told.append)
     with busy_machine():
-        busy = drive_live(f'{FOLLOW_PATH} {course}', course, tmp_path / 'b')
+        busy = drive_in_jail(FOLLOWS, course, tmp_path / 'b')
     assert quiet.pace == busy.pace == 'in lockstep: each odometry message waited for its command'
     assert quiet.record.rows.tobytes() == busy.record.rows.tobytes()
     assert quiet.ending == busy.ending
@@ -113,14 +124,14 @@ def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_pat
 def test_one_with_a_clock_of_its_own_drives_in_simulated_time(
     course: str, tmp_path: Path, program: str
 ) -> None:
-    run = driven(program, course, tmp_path / 'run')
+    run = drive_in_jail(program, course, tmp_path / 'run')
     assert run.pace == 'by its own clock, at 1 x real time at most'
     x = run.record.column(0, 'x')
     assert 0.8 < abs(x[-1] - x[0]) < 1.3, 'it should be half a metre a second for two seconds'
 
 
 def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Path) -> None:
-    driven(LOOKS_ROUND, course, tmp_path / 'run')
+    drive_in_jail(LOOKS_ROUND, course, tmp_path / 'run')
     log = (tmp_path / 'run' / 'controller.log').read_text()
     assert 'seen ' in log, log
     topics, services = json.loads(log.partition('seen ')[2].splitlines()[0])

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 import subprocess
 
+from husky_grader.jail import find_sandbox
 from husky_grader.lab.lab import grade_lab, StepGrade
 from husky_grader.rubric.rubric_file import load_rubric
 from husky_grader.rubric.steps import PublisherStep, Rubric, ServiceStep
@@ -70,7 +71,9 @@ def graded(folder: Path, program: str, rubric: Rubric = RUBRIC) -> dict[str, Ste
     create += ['--dependencies', 'rclpy', 'geometry_msgs', 'std_srvs']
     subprocess.run(create, cwd=source, check=True, stdout=subprocess.DEVNULL)
     (source / 'force_sensor' / 'force_sensor' / 'force_sensor.py').write_text(program)
-    grades = grade_lab(folder / 'workspace', rubric, folder / 'report')
+    grades = grade_lab(
+        folder / 'workspace', rubric, folder / 'report', sandbox=find_sandbox('auto')
+    )
     return {grade.name: grade for grade in grades}
 
 

@@ -10,7 +10,6 @@ A jail in which a student's build and nodes run as somebody else.
 
 from husky_grader.jail.find import find_sandbox, SANDBOXES
 from husky_grader.jail.jail import Jail
-from husky_grader.jail.left import NotAFile, read_left
 from husky_grader.jail.limits import Limits
 from husky_grader.jail.process import JailedProcess
 from husky_grader.jail.sandbox import NoSandbox, Sandbox
@@ -21,8 +20,6 @@ __all__ = [
     'JailedProcess',
     'Limits',
     'NoSandbox',
-    'NotAFile',
     'Sandbox',
     'find_sandbox',
-    'read_left',
 ]

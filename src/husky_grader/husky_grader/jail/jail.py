@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, ExitStack
 from pathlib import Path
 
 from husky_grader.jail.folders import environment_for, give, home_of, mounts_of
@@ -58,6 +58,11 @@ class Jail:
         self._stack.close()
 
     @property
+    def folder(self) -> Path:
+        """What the programs may write."""
+        return self._folder
+
+    @property
     def graph(self) -> Mapping[str, str]:
         """The variables by which trusted nodes beside the jail and jailed ones find each other."""
         return self._cell.graph
@@ -105,8 +110,24 @@ class Jail:
 
         :returns: its exit code, minus the number of the signal that ended it; None: too late.
         """
-        with self._cell.ending_all(), self.start(command, environment, log=log) as process:
+        with self.started(command, environment, log=log) as process:
             return process.exit_code if process.wait(within_sec) else None
+
+    @contextmanager
+    def started(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str] | None = None,
+        *,
+        log: Path,
+        answers: str = '',
+    ) -> Iterator[JailedProcess]:
+        """Start a command, and at the end of the context end all that it has started."""
+        with (
+            self._cell.ending_all(),
+            self.start(command, environment, log=log, answers=answers) as process,
+        ):
+            yield process
 
     def beside(self, command: Sequence[str]) -> list[str]:
         """

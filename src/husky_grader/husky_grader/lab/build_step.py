@@ -7,30 +7,30 @@ import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests
 from husky_grader.lab.finding import Finding, nothing
-from husky_grader.lab.runner import Runner
 from husky_grader.run.diagnosis import crash
 
 BUILD_WITHIN_SEC = 300.0
 SOURCE_WITHIN_SEC = 60.0
+NO_PROGRAM = 127  # as a shell says it
 
 
 class ProgramMissing(ValueError):
     """There is no such executable; the message says what there is."""
 
 
-def build_step(workspace: Path, runner: Runner, log: Path) -> Finding:
-    """Build the workspace with colcon, into the runner's folder, so that nothing of it changes."""
+def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
+    """Build the workspace with colcon, into the jail's folder, so that nothing of it changes."""
     if not find_manifests(workspace):
         return nothing('there is no package in src: ros2 pkg create makes one')
-    command = ['colcon', '--log-base', str(runner.folder / 'log'), 'build', '--continue-on-error']
+    command = ['colcon', '--log-base', str(jail.folder / 'log'), 'build', '--continue-on-error']
     command += ['--base-paths', str(workspace / 'src')]
-    command += ['--build-base', str(runner.folder / 'build')]
-    command += ['--install-base', str(runner.folder / 'install')]
-    try:
-        exit_code = runner.run(command, runner.environment, log, BUILD_WITHIN_SEC)
-    except FileNotFoundError:
+    command += ['--build-base', str(jail.folder / 'build')]
+    command += ['--install-base', str(jail.folder / 'install')]
+    exit_code = jail.run(command, log=log, within_sec=BUILD_WITHIN_SEC)
+    if exit_code == NO_PROGRAM:
         return nothing('colcon is not installed here')
     if exit_code is None:
         return nothing(f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
@@ -45,19 +45,19 @@ def _first_error(text: str, log: str) -> str:
     return next(lines, f'see {log}')
 
 
-def sourced(runner: Runner) -> Mapping[str, str]:
+def sourced(jail: Jail) -> Mapping[str, str]:
     """
     Return the environment after sourcing what was built.
 
     :raises ValueError: when nothing was built, or sourcing fails or takes too long.
     """
-    if not (runner.folder / 'install' / 'local_setup.bash').is_file():
+    if not (jail.folder / 'install' / 'local_setup.bash').is_file():
         raise ValueError('nothing was built')
     script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
-    command = ['bash', '-c', script, str(runner.folder)]
+    command = ['bash', '-c', script, str(jail.folder)]
     with TemporaryDirectory() as place:  # not in a report: it has the grader's own variables, too
         log = Path(place) / 'environment'
-        exit_code = runner.run(command, runner.environment, log, SOURCE_WITHIN_SEC)
+        exit_code = jail.run(command, log=log, within_sec=SOURCE_WITHIN_SEC)
         told = os.fsdecode(log.read_bytes())
     if exit_code is None:
         raise ValueError(

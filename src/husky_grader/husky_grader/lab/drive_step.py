@@ -14,9 +14,9 @@ from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 
+from husky_grader.jail import Jail
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.live_steps import command_of
-from husky_grader.lab.runner import Runner
 from husky_grader.report.files import write_report
 from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveStep
 from husky_grader.run.live import drive_live
@@ -31,7 +31,7 @@ FOR_STAFF = 'staff'
 class DriveRunner:
     """Runs a program with the simulator."""
 
-    runner: Runner
+    jail: Jail
     environment: Mapping[str, str]
     real_time_factor: float = 1.0
 
@@ -40,12 +40,13 @@ class DriveRunner:
     ) -> Report:
         """Let a program drive a course, and write the report on it into a folder."""
         route = plan_route(load_course(course.file))
-        command = command_of(step, workspace, self.runner.folder)
+        command = command_of(step, workspace, self.jail.folder)
         with self._lent(course.file) as given:
             live = drive_live(
                 shlex.join(part.replace(COURSE, given) for part in command),
                 str(course.file),
                 folder,
+                self.jail,
                 answers=''.join(f'{answer.replace(COURSE, given)}\n' for answer in step.answers),
                 environment=self.environment,
                 real_time_factor=self.real_time_factor,
@@ -61,7 +62,7 @@ class DriveRunner:
     def _lent(self, file: Path) -> Iterator[str]:
         """Give the name of a copy that programs can read."""
         # In a new folder: a link that a build has left there would lead the copy elsewhere.
-        with TemporaryDirectory(dir=self.runner.folder) as place:
+        with TemporaryDirectory(dir=self.jail.folder) as place:
             Path(place).chmod(0o755)
             yield shutil.copyfile(file, f'{place}/{COURSE_FILE}')
 

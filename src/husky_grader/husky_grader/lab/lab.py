@@ -11,12 +11,12 @@ import shutil
 from husky_course.files import replacing
 from husky_course.printable import printable
 
+from husky_grader.jail import Jail, Sandbox
 from husky_grader.lab.build_step import build_step, ProgramMissing, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
 from husky_grader.lab.file_steps import package_step, PackageMissing, workspace_step
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.live_steps import live_step
-from husky_grader.lab.runner import HostRunner, Runner
 from husky_grader.rubric.steps import (
     BuildStep,
     DriveStep,
@@ -54,7 +54,7 @@ def grade_lab(
     rubric: Rubric,
     folder: Path,
     *,
-    runner: Runner | None = None,
+    sandbox: Sandbox,
     real_time_factor: float = 1.0,
     done: Callable[[Step], None] = lambda _step: None,
 ) -> list[StepGrade]:
@@ -62,21 +62,22 @@ def grade_lab(
     Grade step after step; a step that cannot be tried for want of another gets nothing.
 
     :param folder: of the report; lab.json is written there.
-    :param runner: runs what students wrote; as the grader itself, in the folder, if left out.
+    :param sandbox: in which what students wrote is built and run.
     """
     workspace, folder = workspace.resolve(), folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    if runner is None:
-        shutil.rmtree(folder / BUILT, ignore_errors=True)
-        runner = HostRunner(folder / BUILT)
-    grading = _Grading(workspace, folder, runner, real_time_factor)
+    shutil.rmtree(folder / BUILT, ignore_errors=True)
+    (folder / BUILT).mkdir()
     findings = {}
-    for step in rubric.steps:
-        findings[step.name] = grading.find(step)
-        done(step)
+    with Jail(sandbox, folder / BUILT, readable=[workspace]) as jail:
+        grading = _Grading(workspace, folder, jail, real_time_factor)
+        for step in rubric.steps:
+            findings[step.name] = grading.find(step)
+            done(step)
     grades = list(_with_needs(rubric.steps, findings))
     content = {
         'rubric': rubric.title,
+        'sandbox': sandbox.name,
         'score': sum(grade.points for grade in grades),
         'steps': [asdict(grade) for grade in grades],
     }
@@ -88,12 +89,10 @@ def grade_lab(
 class _Grading:
     """Finds out about the steps, in their order: the programs run when the workspace was built."""
 
-    def __init__(
-        self, workspace: Path, folder: Path, runner: Runner, real_time_factor: float
-    ) -> None:
+    def __init__(self, workspace: Path, folder: Path, jail: Jail, real_time_factor: float) -> None:
         self._workspace = workspace
         self._folder = folder
-        self._runner = runner
+        self._jail = jail
         self._real_time_factor = real_time_factor
         self._environment: Mapping[str, str] = {}
         self._not_sourced = 'nothing was built'
@@ -116,9 +115,9 @@ class _Grading:
         raise TypeError(f'{step.kind}: a step of this kind cannot be graded')
 
     def _build(self, log: Path) -> Finding:
-        found = build_step(self._workspace, self._runner, log)
+        found = build_step(self._workspace, self._jail, log)
         try:
-            self._environment, self._not_sourced = sourced(self._runner), ''
+            self._environment, self._not_sourced = sourced(self._jail), ''
         except ValueError as error:
             self._not_sourced = str(error)
         return found
@@ -128,9 +127,9 @@ class _Grading:
             return nothing(self._not_sourced)
         try:
             if isinstance(step, DriveStep):
-                drives = DriveRunner(self._runner, self._environment, self._real_time_factor)
+                drives = DriveRunner(self._jail, self._environment, self._real_time_factor)
                 return drive_step(step, drives, self._workspace, self._folder)
-            return live_step(step, self._workspace, self._runner, self._environment, log)
+            return live_step(step, self._workspace, self._jail, self._environment, log)
         except (PackageMissing, ProgramMissing) as error:
             return nothing(str(error))
 

@@ -3,53 +3,73 @@
 """The steps that are judged on a running program: publisher, subscriber and service."""
 
 from collections.abc import Mapping
-from contextlib import ExitStack
 import json
+import os
 from pathlib import Path
+import pickle
 import signal
+import sys
+from tempfile import TemporaryDirectory
 
-from husky_runtime.domains import DomainError, OwnDomain
+from husky_runtime.children import ChildProcess, tail_of
 
-from husky_grader.lab.build_step import find_executable
+from husky_grader.jail import Jail, JailedProcess
+from husky_grader.lab.build_step import find_executable, NO_PROGRAM
 from husky_grader.lab.file_steps import find_package
 from husky_grader.lab.finding import Finding, nothing
-from husky_grader.lab.observer import observe
-from husky_grader.lab.runner import Runner
+from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.rubric.steps import ProgramStep
 from husky_grader.run.diagnosis import crash, shortened
 from husky_grader.run.printed import read_printed
+
+POLL_SEC = 0.05
 
 
 def live_step(
     step: ProgramStep,
     workspace: Path,
-    runner: Runner,
+    jail: Jail,
     environment: Mapping[str, str],
     log: Path,
 ) -> Finding:
     """
-    Run a program in a DDS domain of its own, and find out what it does.
+    Run a program, and find out what it does.
 
     :raises PackageMissing: when the package is not there.
     :raises ProgramMissing: when the program is not there.
-    :raises ValueError: when no DDS domain is free.
+    :raises RuntimeError: when the grader's own node fails.
     """
-    command = command_of(step, workspace, runner.folder)
-    with ExitStack() as stack:
-        try:
-            domain = stack.enter_context(OwnDomain()).number
-        except DomainError as error:
-            raise ValueError(str(error)) from None
-        theirs = {**environment, 'ROS_DOMAIN_ID': str(domain), 'PYTHONUNBUFFERED': '1'}
-        try:
-            program = stack.enter_context(runner.start(command, theirs, log))
-        except OSError as error:
-            return nothing(f'{step.executable} cannot be started: {error.strerror}')
-        found = observe(step, domain, lambda: program.exit_code is not None, log)
+    command = command_of(step, workspace, jail.folder)
+    theirs = {**environment, 'PYTHONUNBUFFERED': '1'}
+    with jail.started(command, theirs, log=log) as program:
+        found = _observe(step, jail, program, log)
         exit_code = program.exit_code
+    if exit_code == NO_PROGRAM and found.score == 0.0:
+        return nothing(
+            f'{step.executable} cannot be started: there is no such program as its first line says'
+        )
     if exit_code is not None and found.score == 0.0:
         return nothing(how_it_ended(exit_code, read_printed(log)))
     return found
+
+
+def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -> Finding:
+    """Let the grader's own node find it out, a process in the network of the program."""
+    with TemporaryDirectory() as name:
+        place = Path(name)
+        (place / STEP_FILE).write_bytes(pickle.dumps(step))
+        command = [sys.executable, '-m', 'husky_grader.lab.observer', name, str(log)]
+        observer_log = place / 'log'
+        with (
+            observer_log.open('w') as stream,
+            ChildProcess(jail.beside(command), {**os.environ, **jail.graph}, stream) as observer,
+        ):
+            while not observer.wait(POLL_SEC):
+                if program.exit_code is not None:
+                    (place / OVER_FILE).touch()
+        if not (place / FINDING_FILE).is_file():
+            raise RuntimeError(f'the node of the grader failed: {tail_of(observer_log, 1)}')
+        return Finding(**json.loads((place / FINDING_FILE).read_text(encoding='utf-8')))
 
 
 def command_of(step: ProgramStep, workspace: Path, built: Path) -> list[str]:

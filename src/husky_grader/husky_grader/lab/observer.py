@@ -3,17 +3,20 @@
 """
 The grader's own node in the graph of a student's program: it listens, sends and calls.
 
-It needs the step of the rubric, the DDS domain and the log of the program, and gives plain
-values: so it may run in another process than the rest of the grading.
+A process of its own, in the network of the program: `python3 -m husky_grader.lab.observer FOLDER
+LOG`. The files in the folder are those of `observed`; the log is what the program prints.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import asdict, replace
+import json
 from pathlib import Path
+import pickle
 import random
+import sys
 import time
 from typing import Any
 
@@ -27,6 +30,7 @@ from rosidl_runtime_py.utilities import get_message, get_service
 from husky_grader.lab.file_steps import asked
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.messages import complaint, rate_hz
+from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.rubric.forms import ANYTHING, Form, with_token
 from husky_grader.rubric.interfaces import filled
 from husky_grader.rubric.steps import (
@@ -57,15 +61,14 @@ Over = Callable[[], bool]
 """Tells whether the student's program has ended."""
 
 
-def observe(step: ProgramStep, domain: int, over: Over, log: Path) -> Finding:
+def observe(step: ProgramStep, over: Over, log: Path) -> Finding:
     """
     Find out what a running program does of what a step asks.
 
-    :param domain: the DDS domain of the program.
     :param log: what it prints.
     :raises TypeError: when the step is of another kind.
     """
-    with _observer(domain, over) as observer:
+    with _observer(over) as observer:
         if isinstance(step, PublisherStep):
             return _publisher(step, observer)
         if isinstance(step, SubscriberStep):
@@ -95,9 +98,9 @@ class _Observer:
 
 
 @contextmanager
-def _observer(domain: int, over: Over) -> Iterator[_Observer]:
+def _observer(over: Over) -> Iterator[_Observer]:
     context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+    rclpy.init(args=[], context=context, signal_handler_options=SignalHandlerOptions.NO)
     try:
         node = Node(NAME, context=context, enable_rosout=False, start_parameter_services=False)
         observer = _Observer(node, over)
@@ -214,3 +217,18 @@ def _why_no_service(call: ServiceCall, offered: Mapping[str, Sequence[str]]) -> 
     return (
         f'it offers {near}; {asked(call.service)}' if near else f'it does not offer {call.service}'
     )
+
+
+def main() -> int:
+    """Find it out, and write down the finding."""
+    folder, log = map(Path, sys.argv[1:])
+    step = pickle.loads((folder / STEP_FILE).read_bytes())  # noqa: S301  # the grader's own
+    found = observe(step, (folder / OVER_FILE).exists, log)
+    part = folder / 'part'
+    part.write_text(json.dumps(asdict(found)), encoding='utf-8')
+    part.replace(folder / FINDING_FILE)
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,27 +1,26 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Run somebody's own controller: it and the simulator are processes in a domain of their own.
+Run somebody's own controller in a jail, and the simulator beside it, in the same network.
 
 The result is the simulator's record, in simulated time.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 import os
 from pathlib import Path
 import shlex
+import shutil
 import signal
 import sys
 import time
 
 from husky_course.record import FILE_NAME, read_record, Record
 from husky_runtime.children import ChildProcess, tail_of
-from husky_runtime.descendants import descendants_ended
-from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.shared_memory import clean_shared_memory
 
+from husky_grader.jail import Jail, JailedProcess
 from husky_grader.run.diagnosis import reasons
 from husky_grader.run.printed import read_printed, shown
 from husky_grader.run.told import listen, Told
@@ -30,7 +29,6 @@ from husky_grader.scoring.report import Report
 SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first word
 CLOSED_WITHIN_SEC = 5.0  # wall time, for a simulator and its record
 SILENCE_SEC = 20.0  # wall time: a simulator that tells no news for so long has died
-RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
 POLL_SEC = 0.05
 
@@ -67,11 +65,13 @@ def drive_live(
     command: str,
     waypoints: str,
     folder: Path,
+    jail: Jail,
     *,
     world: str = '',
     answers: str = '',
     real_time_factor: float = 1.0,
     environment: Mapping[str, str] | None = None,
+    start_in: Path | None = None,
     on_progress: Progress = lambda _: None,
 ) -> LiveRun:
     """
@@ -81,7 +81,9 @@ def drive_live(
     :param answers: what is typed into the controller, for one that asks.
     :param real_time_factor: simulated seconds a second, for a controller that has a clock of its
         own; one that answers each odometry message is waited for instead.
-    :param environment: of the controller; the grader's own when left out.
+    :param jail: where the controller runs; the simulator runs beside it.
+    :param environment: of the controller, besides that of the jail.
+    :param start_in: the folder in which the controller starts; that of the jail when left out.
     :param on_progress: called about twice a second.
     :raises LiveRunFailed: when the simulator or the command cannot be started.
     """
@@ -92,37 +94,25 @@ def drive_live(
     trial = [sys.executable, '-m', 'husky_grader.run.trial']
     trial += ['--waypoints', waypoints, '--record', str(record), '--told', str(told)]
     trial += ['--real-time-factor', f'{real_time_factor:g}', '--world', world]
+    theirs = {CHECK_FIELDS: '1', 'PYTHONUNBUFFERED': '1', **(environment or {})}
     with (
-        _own_domain() as graph,
-        descendants_ended(),
         (folder / 'simulator.log').open('w') as log,
-        ChildProcess(trial, {**os.environ, **graph}, log) as simulator,
+        ChildProcess(jail.beside(trial), {**os.environ, **jail.graph}, log) as simulator,
     ):
         _await_simulator(simulator, told, folder)
-        theirs = {CHECK_FIELDS: '1', **(environment or os.environ), **graph}
-        with _started(command, theirs, folder, answers) as controller:
+        words = _on_simulated_time(_words(command))
+        if start_in is not None:
+            words = ['env', '-C', str(start_in), *words]
+        printed_in = folder / 'controller.log'
+        with jail.started(words, theirs, log=printed_in, answers=answers) as controller:
             last = _watch(simulator, controller, told, folder, on_progress)
             exit_code = controller.exit_code
+    clean_shared_memory()
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')
     printed = read_printed(folder / 'controller.log')
     notes = reasons(printed, read_printed(folder / 'simulator.log'), last.notes, exit_code)
     return LiveRun(read_record(record), last.ending, last.pace, notes, shown(printed))
-
-
-@contextmanager
-def _own_domain() -> Iterator[dict[str, str]]:
-    """Take a DDS domain of this run alone; give its environment."""
-    try:
-        domain = OwnDomain()
-    except DomainError as error:
-        raise LiveRunFailed(str(error)) from None
-    with domain:
-        graph = {'ROS_DOMAIN_ID': str(domain.number), 'PYTHONUNBUFFERED': '1'}
-        try:
-            yield {**graph, RANGE: os.environ.get(RANGE, 'LOCALHOST')}
-        finally:
-            clean_shared_memory()
 
 
 def _await_simulator(simulator: ChildProcess, told: Path, folder: Path) -> None:
@@ -134,15 +124,14 @@ def _await_simulator(simulator: ChildProcess, told: Path, folder: Path) -> None:
             raise LiveRunFailed(f'the simulator did not start: {why or "it says nothing"}')
 
 
-def _started(
-    command: str, environment: Mapping[str, str], folder: Path, answers: str
-) -> ChildProcess:
+def _words(command: str) -> list[str]:
     try:
-        with (folder / 'controller.log').open('w') as log:
-            words = _on_simulated_time(shlex.split(command))
-            return ChildProcess(words, environment, log, answers, parent_death=signal.SIGKILL)
-    except (OSError, IndexError, ValueError) as error:
+        words = shlex.split(command)
+    except ValueError as error:
         raise LiveRunFailed(f'{command!r} cannot be started: {error}') from None
+    if not words or shutil.which(words[0]) is None:
+        raise LiveRunFailed(f'{command!r} cannot be started: there is no such program')
+    return words
 
 
 def _on_simulated_time(words: list[str]) -> list[str]:
@@ -154,7 +143,7 @@ def _on_simulated_time(words: list[str]) -> list[str]:
 
 def _watch(
     simulator: ChildProcess,
-    controller: ChildProcess,
+    controller: JailedProcess,
     told: Path,
     folder: Path,
     on_progress: Progress,
