@@ -101,12 +101,15 @@ def grade_submission(
     if workspace.kind != 'workspace':
         why = f'{submission.place}: a waypoint file; a workspace with packages is asked for'
         return LabGrade(submission, refused=why)
-    steps = grade_lab(
-        workspace.path,
-        rubric,
-        folder,
-        sandbox=sandbox,
-        real_time_factor=real_time_factor,
-        done=done,
-    )
+    try:
+        steps = grade_lab(
+            workspace.path,
+            rubric,
+            folder,
+            sandbox=sandbox,
+            real_time_factor=real_time_factor,
+            done=done,
+        )
+    except ValueError as error:  # it must not stop the others
+        return LabGrade(submission, refused=f'{submission.place}: cannot be graded: {error}')
     return LabGrade(submission, steps)

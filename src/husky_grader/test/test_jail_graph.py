@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from husky_grader.jail import Jail, Sandbox
+from husky_grader.jail import find_sandbox, Jail, Sandbox
 from playpen_testing.jails import in_each_sandbox
 from playpen_testing.waiting import wait_until
 import pytest
@@ -63,9 +63,9 @@ def test_no_message_is_lost_between_a_jail_and_beside_it(
     assert asks.stdout == f'{MESSAGES} answers\n', asks.stderr + log.read_text()
 
 
-@in_each_sandbox
 @pytest.mark.timeout(180)
-def test_a_workspace_is_built_and_its_programs_run(sandbox: Sandbox, tmp_path: Path) -> None:
+def test_a_workspace_is_built_and_its_programs_run(tmp_path: Path) -> None:
+    sandbox = find_sandbox('kernel')  # lab gradings do it in the one that auto finds
     folder, log = tmp_path / 'jail', tmp_path / 'log'
     ignore = shutil.ignore_patterns('test', '__pycache__', '*.egg-info')
     shutil.copytree(SOURCE / 'topic_demo', folder / 'src' / 'topic_demo', ignore=ignore)

@@ -54,6 +54,17 @@ for _ in range(20):
     time.sleep(0.1)
 """
 )
+ANSWERS_LATE = (
+    NODE
+    + """
+import time
+def on_odometry(_):
+    time.sleep(1.0)
+    publisher.publish(message)
+node.create_subscription(Odometry, 'odometry/filtered', on_odometry, 10)
+rclpy.spin(node)
+"""
+)
 LOOKS_ROUND = (
     NODE
     + """
@@ -137,3 +148,12 @@ def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Pa
     topics, services = json.loads(log.partition('seen ')[2].splitlines()[0])
     assert set(topics) <= OF_A_ROBOT
     assert [name for name in services if not name.startswith('/student/')] == []
+
+
+def test_one_that_answers_late_has_an_end(
+    course: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr('husky_grader.run.live.WALL_SEC', 5.0)
+    run = drive_in_jail(ANSWERS_LATE, course, tmp_path / 'run')
+    assert run.ending == 'it took 5 s on the clock'
+    assert 0.0 < run.record.duration_sec < 1.0

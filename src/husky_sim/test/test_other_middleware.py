@@ -72,7 +72,7 @@ class Stand:
     def step(self) -> None:
         """Advance one period, and wait until every message of it was received."""
         self.simulator.pause(True)
-        self.simulator.step()
+        self.simulator.advance()
         now_ns, deadline = self.simulator.simulation.time_ns, time.monotonic() + 10.0
         stamped = [topic for topic, kind in TOPICS.items() if kind is not Twist]
         while missing := [t for t in stamped if stamp_ns(self.received[t]) != now_ns]:

@@ -16,7 +16,7 @@ from husky_grader.lab.build_step import build_step, ProgramMissing, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
 from husky_grader.lab.file_steps import package_step, PackageMissing, workspace_step
 from husky_grader.lab.finding import Finding, nothing
-from husky_grader.lab.live_steps import live_step
+from husky_grader.lab.live_steps import live_step, ObserverFailed
 from husky_grader.rubric.steps import (
     BuildStep,
     DriveStep,
@@ -27,6 +27,7 @@ from husky_grader.rubric.steps import (
     WorkspaceStep,
 )
 from husky_grader.run.diagnosis import shortened
+from husky_grader.run.live import LiveRunFailed
 from husky_grader.run.printed import read_printed, shown
 
 BUILT = 'built'
@@ -130,7 +131,7 @@ class _Grading:
                 drives = DriveRunner(self._jail, self._environment, self._real_time_factor)
                 return drive_step(step, drives, self._workspace, self._folder)
             return live_step(step, self._workspace, self._jail, self._environment, log)
-        except (PackageMissing, ProgramMissing) as error:
+        except (PackageMissing, ProgramMissing, LiveRunFailed, ObserverFailed) as error:
             return nothing(str(error))
 
 

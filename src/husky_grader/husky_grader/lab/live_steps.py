@@ -25,6 +25,10 @@ from husky_grader.run.printed import read_printed
 POLL_SEC = 0.05
 
 
+class ObserverFailed(ValueError):
+    """The grader's own node failed; the message says why."""
+
+
 def live_step(
     step: ProgramStep,
     workspace: Path,
@@ -37,7 +41,7 @@ def live_step(
 
     :raises PackageMissing: when the package is not there.
     :raises ProgramMissing: when the program is not there.
-    :raises RuntimeError: when the grader's own node fails.
+    :raises ObserverFailed: when the grader's own node fails.
     """
     command = command_of(step, workspace, jail.folder)
     theirs = {**environment, 'PYTHONUNBUFFERED': '1'}
@@ -68,7 +72,7 @@ def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -
                 if program.exit_code is not None:
                     (place / OVER_FILE).touch()
         if not (place / FINDING_FILE).is_file():
-            raise RuntimeError(f'the node of the grader failed: {tail_of(observer_log, 1)}')
+            raise ObserverFailed(f'the node of the grader failed: {tail_of(observer_log, 1)}')
         return Finding(**json.loads((place / FINDING_FILE).read_text(encoding='utf-8')))
 
 

@@ -15,7 +15,7 @@ from collections import deque
 from enum import Enum
 import time
 
-from husky_sim.ros import Pace, Periods, POLL_SEC
+from husky_sim.simulator_node import Pace, Periods, POLL_SEC
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 

@@ -30,6 +30,7 @@ SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first word
 CLOSED_WITHIN_SEC = 5.0  # wall time, for a simulator and its record
 SILENCE_SEC = 20.0  # wall time: a simulator that tells no news for so long has died
 CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
+WALL_SEC = 600.0  # for a whole run: one that answers each message late would take hours
 POLL_SEC = 0.05
 
 Progress = Callable[[Told], object]
@@ -149,8 +150,12 @@ def _watch(
     on_progress: Progress,
 ) -> Told:
     """Wait until the simulator says that the run is over; return what it told last."""
-    heard, heard_sec, gone = None, time.monotonic(), False
+    begun_sec = time.monotonic()
+    heard, heard_sec, gone, late = None, begun_sec, False, False
     while not simulator.wait(POLL_SEC):
+        if not late and time.monotonic() - begun_sec > WALL_SEC:
+            late = True
+            simulator.send(signal.SIGINT)
         if controller.exit_code is not None and not gone:
             gone = True
             simulator.send(signal.SIGUSR1)
@@ -163,4 +168,4 @@ def _watch(
     last = listen(told)
     if last is None or not last.ending:
         raise LiveRunFailed(f'the simulator died; see {folder / "simulator.log"}')
-    return last
+    return replace(last, ending=f'it took {WALL_SEC:g} s on the clock') if late else last

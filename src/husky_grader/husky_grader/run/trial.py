@@ -22,7 +22,7 @@ from husky_runtime.command_line import BAD_INPUT
 from husky_runtime.domains import DomainError
 from husky_runtime.executor import future_of_signal, spin
 from husky_sim.errors import SimulatorError
-from husky_sim.ros import Pace, Periods, SimulatorNode, Trial
+from husky_sim.simulator_node import Pace, Periods, SimulatorNode, Trial
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.parameter import Parameter
