@@ -103,9 +103,9 @@ class Measured(SimulatorNode):
         self._finished = finished
         self._end_sec = time.perf_counter() + seconds
 
-    def _advance(self) -> None:
+    def advance(self) -> None:
         self.begun.append((time.perf_counter(), time.process_time()))
-        super()._advance()
+        super().advance()
         if self.begun[-1][0] > self._end_sec and not self._finished.done():
             self._finished.set_result(None)
 
