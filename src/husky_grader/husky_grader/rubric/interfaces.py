@@ -68,8 +68,19 @@ def filled(message: Any, values: Mapping[str, Any]) -> Any:
 
     :raises ValueError: when it lacks such a field, or a value does not fit.
     """
+    _check_truths(message, values)
     try:
         set_message_fields(message, values)
     except (AttributeError, TypeError, ValueError, AssertionError) as error:
         raise ValueError(' '.join(str(error).split())) from None
     return message
+
+
+def _check_truths(message: Any, values: Mapping[str, Any]) -> None:
+    """Refuse what is no truth value in the place of one: a sourced ROS takes any text for true."""
+    for name, value in values.items():
+        field = getattr(message, name, None)
+        if isinstance(field, bool) and not isinstance(value, bool):
+            raise ValueError(f'{name}: {value!r} is refused: true and false are allowed')
+        if isinstance(value, Mapping):
+            _check_truths(field, value)
