@@ -115,7 +115,8 @@ def main(args: Sequence[str] | None = None) -> int:
         _drop_output()
         return BAD_INPUT
     except KeyboardInterrupt:
-        print('\ninterrupted; the same command goes on where it was', file=sys.stderr)
+        goes_on = '; the same command goes on where it was' if len(options.files) > 1 else ''
+        print(f'\ninterrupted{goes_on}', file=sys.stderr)
         return INTERRUPTED
 
 
@@ -203,14 +204,15 @@ def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
 
 
 def _grade_labs(options: argparse.Namespace) -> int:
+    from husky_grader.jail import find_sandbox
     from husky_grader.lab.lab import table as lab_table
-    from husky_grader.lab_grading import choose_sandbox, grade_submission, LabGrade
+    from husky_grader.lab_grading import grade_submission, LabGrade
     from husky_grader.rubric.rubric_file import load_rubric
     from husky_grader.submission import find_submissions
 
     rubric, report = load_rubric(options.rubric or default_rubric()), Path(options.report)
     submissions = find_submissions(options.lab)
-    sandbox = choose_sandbox(options.sandbox, submissions, _tell)
+    sandbox = find_sandbox(options.sandbox)
     alone = len(submissions) == 1
     width = max((len(each.id) for each in submissions), default=0)
     grades: list[LabGrade] = []

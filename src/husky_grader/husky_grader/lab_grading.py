@@ -9,7 +9,7 @@ from typing import Any
 
 from husky_course.printable import printable
 
-from husky_grader.jail import find_sandbox, NoSandbox, Sandbox
+from husky_grader.jail import Sandbox
 from husky_grader.lab.lab import grade_lab, StepGrade
 from husky_grader.rubric.steps import Rubric, Step
 from husky_grader.submission import Refused, Submission, unpack
@@ -57,26 +57,6 @@ class LabGrade:
         lacking = next((f'{s.name}: {s.why}' for s in self.steps if not s.is_full), '')
         sum_of = f'{self.points:6.1f} of {self.most:g}'
         return printable(f'{self.submission.id:<{width}}  {sum_of}  {lacking}').rstrip()
-
-
-def choose_sandbox(
-    wanted: str, submissions: Sequence[Submission], tell: Callable[[str], object]
-) -> Sandbox:
-    """
-    Return the sandbox to grade in.
-
-    Where none works, one folder is taken for the user's own work, and is run without.
-
-    :param tell: called with a line about that.
-    :raises NoSandbox: when none works, or not the one that is wanted.
-    """
-    try:
-        return find_sandbox(wanted)
-    except NoSandbox as error:
-        if wanted != 'auto' or [each.kind for each in submissions] != ['folder']:
-            raise
-        tell(f'{submissions[0].place} is run with all your rights: {error}')
-        return find_sandbox('none')
 
 
 def grade_submission(

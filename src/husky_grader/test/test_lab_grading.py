@@ -424,3 +424,17 @@ def test_a_class_of_archives_has_a_line_each_and_costs_only_itself(
     assert hostile.startswith('hostile  refused  ')
     steps = json.loads((report / 'good' / 'lab.json').read_text())
     assert steps['sandbox'] in ('bwrap', 'podman', 'docker', 'kernel')
+
+
+def test_without_a_sandbox_nothing_that_was_handed_in_runs(
+    workspace: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv('PATH', '')
+    assert grade(['--lab', str(workspace), '--report', str(tmp_path / 'report')]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith('no sandbox works here (bwrap: ')
+    assert line.endswith('--sandbox none runs what was handed in with all your rights')
+    assert not (tmp_path / 'report').exists()
