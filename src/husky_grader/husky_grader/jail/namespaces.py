@@ -58,6 +58,8 @@ class _Bwrap(_Cell):
     def enter(self, call: Call) -> Entry:
         own_user = [] if self.is_root else ['--unshare-user', '--disable-userns']
         words = ['bwrap', '--die-with-parent', '--unshare-pid', '--unshare-ipc', *own_user]
+        # inside.py is the init: an init of bwrap's may end after bwrap, and with it the others.
+        words += ['--as-pid-1']
         words += ['--proc', '/proc', '--dev', '/dev']
         for kind, source, target in call.mounts:
             if kind == 'memory':
