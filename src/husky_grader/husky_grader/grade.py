@@ -18,6 +18,7 @@ from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 
 from husky_grader.batch.tables import table, write_csv
+from husky_grader.graded import Graded
 from husky_grader.grading import Grade, grade_file
 from husky_grader.playpen import default_course, default_rubric
 from husky_grader.report.files import as_json, summary, write_report
@@ -206,7 +207,7 @@ def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
 def _grade_labs(options: argparse.Namespace) -> int:
     from husky_grader.jail import find_sandbox
     from husky_grader.lab.lab import table as lab_table
-    from husky_grader.lab_grading import grade_submission, LabGrade
+    from husky_grader.lab_grading import grade_submission
     from husky_grader.rubric.rubric_file import load_rubric
     from husky_grader.submission import find_submissions
 
@@ -215,7 +216,7 @@ def _grade_labs(options: argparse.Namespace) -> int:
     sandbox = find_sandbox(options.sandbox)
     alone = len(submissions) == 1
     width = max((len(each.id) for each in submissions), default=0)
-    grades: list[LabGrade] = []
+    grades: list[Graded] = []
     for submission in submissions:
         folder = report if alone else report / submission.id
         grade = grade_submission(

@@ -6,8 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 import subprocess
 
+from husky_grader.graded import StepGrade
 from husky_grader.jail import find_sandbox
-from husky_grader.lab.lab import grade_lab, StepGrade
+from husky_grader.lab.lab import grade_lab
 from husky_grader.rubric.rubric_file import load_rubric
 from husky_grader.rubric.steps import PublisherStep, Rubric, ServiceStep
 import pytest

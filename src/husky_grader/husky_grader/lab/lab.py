@@ -3,7 +3,7 @@
 """Grade a student's whole workspace: every step of a rubric, with points and reasons."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 import json
 from pathlib import Path
 import shutil
@@ -11,6 +11,7 @@ import shutil
 from husky_course.files import replacing
 from husky_course.printable import printable
 
+from husky_grader.graded import StepGrade
 from husky_grader.jail import Jail, Sandbox
 from husky_grader.lab.build_step import build_step, ProgramMissing, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
@@ -32,22 +33,6 @@ from husky_grader.run.printed import read_printed, shown
 
 BUILT = 'built'
 MAX_WHY = 1000  # characters
-
-
-@dataclass(frozen=True)
-class StepGrade:
-    """One step of the lab: what it was worth, what it got, and what to do about the rest."""
-
-    name: str
-    most: float
-    points: float
-    why: str
-    printed: str = ''  # by its program or the build, shortened
-
-    @property
-    def is_full(self) -> bool:
-        """Whether it got every point."""
-        return self.points >= self.most
 
 
 def grade_lab(
