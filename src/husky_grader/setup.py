@@ -14,6 +14,7 @@ setup(
     ],
     install_requires=[
         'setuptools',
+        'distributed',
         'jinja2',
         'markupsafe',
         'numpy',

@@ -3,7 +3,7 @@
 """Grade waypoint files, or a run that the simulator has recorded."""
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 import json
 import os
 from pathlib import Path
@@ -17,16 +17,20 @@ from husky_course.waypoints import load_course
 from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 
-from husky_grader.batch.tables import table, write_csv
-from husky_grader.graded import Graded
+from husky_grader.grade_class import (
+    grade_files,
+    grade_labs,
+    NOT_PASSED,
+    PASSED,
+    wrong_of_class,
+)
 from husky_grader.grading import Grade, grade_file
-from husky_grader.playpen import default_course, default_rubric
+from husky_grader.playpen import default_course
 from husky_grader.report.files import as_json, summary, write_report
-from husky_grader.rubric.steps import Step
 from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
 
-PASSED, NOT_PASSED, INTERRUPTED = 0, 1, 130
+INTERRUPTED = 130
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -80,7 +84,23 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument('--json', action='store_true', help='print the result as JSON')
     parser.add_argument('--world', metavar='FILE', default='', help='MJCF world (the playpen)')
     parser.add_argument(
-        '--jobs', metavar='N', type=int, default=0, help='files at a time (as many as cores)'
+        '--jobs', metavar='N', type=int, default=0, help='how many at a time (as many as cores)'
+    )
+    parser.add_argument(
+        '--shard', metavar='I/N', default='', help='grade only the I-th of N shares of a class'
+    )
+    parser.add_argument(
+        '--collect',
+        metavar='DIR',
+        nargs='+',
+        default=[],
+        help='take results from the reports of other calls, as of shards; the rest is graded',
+    )
+    parser.add_argument(
+        '--executor',
+        metavar='NAME',
+        default='',
+        help='where a class is graded: dask:tcp://HOST:PORT (worker processes here)',
     )
     return parser
 
@@ -102,6 +122,8 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('--lab takes courses and answers from the rubric; see --rubric FILE')
     if options.jobs < 0:
         parser.error(f'--jobs {options.jobs}: give a number above 0')
+    if wrong := wrong_of_class(options):
+        parser.error(wrong)
     try:
         status = _grade(options)
         sys.stdout.flush()
@@ -116,7 +138,8 @@ def main(args: Sequence[str] | None = None) -> int:
         _drop_output()
         return BAD_INPUT
     except KeyboardInterrupt:
-        goes_on = '; the same command goes on where it was' if len(options.files) > 1 else ''
+        many = len(options.files) > 1 or options.lab
+        goes_on = '; the same command goes on where it was' if many else ''
         print(f'\ninterrupted{goes_on}', file=sys.stderr)
         return INTERRUPTED
 
@@ -127,11 +150,11 @@ def _grade(options: argparse.Namespace) -> int:
     if options.controller:
         return _grade_controller(options)
     if options.lab:
-        return _grade_labs(options)
+        return grade_labs(options)
     if len(options.files) == 1:
         file, folder = options.files[0], Path(options.report)
         return _show_one(grade_file(file, folder, world=options.world), options)
-    return _grade_many(options)
+    return grade_files(options)
 
 
 def _grade_record(options: argparse.Namespace) -> int:
@@ -204,49 +227,6 @@ def _write(folder: Path, report: Report, run: Run, route: Route) -> str:
     return ''
 
 
-def _grade_labs(options: argparse.Namespace) -> int:
-    from husky_grader.jail import find_sandbox
-    from husky_grader.lab.lab import table as lab_table
-    from husky_grader.lab_grading import grade_submission
-    from husky_grader.rubric.rubric_file import load_rubric
-    from husky_grader.submission import find_submissions
-
-    rubric, report = load_rubric(options.rubric or default_rubric()), Path(options.report)
-    submissions = find_submissions(options.lab)
-    sandbox = find_sandbox(options.sandbox)
-    alone = len(submissions) == 1
-    width = max((len(each.id) for each in submissions), default=0)
-    grades: list[Graded] = []
-    for submission in submissions:
-        folder = report if alone else report / submission.id
-        grade = grade_submission(
-            submission,
-            rubric,
-            folder,
-            sandbox=sandbox,
-            real_time_factor=options.real_time_factor,
-            done=_teller(submission.id),
-        )
-        grades.append(grade)
-        if alone and grade.refused:
-            raise ValueError(grade.refused)
-        if alone and options.json:
-            print((folder / 'lab.json').read_text(encoding='utf-8'), end='')
-        elif not options.json:
-            print(lab_table(grade.steps) if alone else grade.line(width), flush=True)
-    if options.json and not alone:
-        print(json.dumps([grade.entry() for grade in grades], indent=2))
-    return PASSED if all(grade.is_full for grade in grades) else NOT_PASSED
-
-
-def _teller(name: str) -> Callable[[Step], None]:
-    return lambda step: _tell(f'{name}: {step.name}: done')
-
-
-def _tell(line: str) -> None:
-    print(printable(line), file=sys.stderr, flush=True)
-
-
 def _answer_lines(answers: str) -> str:
     return answers.replace(',', '\n') + '\n'
 
@@ -265,54 +245,6 @@ def _show_one(grade: Grade, options: argparse.Namespace, unwritten: str = '') ->
         print(printable(unwritten), file=sys.stderr)
         return BAD_INPUT
     return PASSED if grade.passed else NOT_PASSED
-
-
-def _grade_many(options: argparse.Namespace) -> int:
-    from husky_grader.batch.batch_grader import BatchGrader
-
-    folder = Path(options.report)
-    folder.mkdir(parents=True, exist_ok=True)
-    tally = Tally(len(options.files), sys.stderr, 'the workers start', bar=sys.stderr.isatty())
-    batch = BatchGrader(
-        options.files,
-        folder,
-        world=options.world,
-        jobs=options.jobs,
-        done=lambda number, grade: tally.add(f'{batch.names[number]} {grade.score:.1f}'),
-    )
-    try:
-        grades = batch.grade()
-    finally:
-        tally.close()
-    if options.json:
-        entries = [
-            {'file': grade.file, 'refused': grade.refused or None, 'report': grade.report}
-            for grade in grades
-        ]
-        print(json.dumps(entries, indent=2))
-    else:
-        print(table(batch.names, grades))
-    if missing := _write_grades(folder, grades, batch.unsealed):
-        print(printable(missing), file=sys.stderr)
-        return BAD_INPUT
-    if not options.json:
-        print(printable(f'grades: {folder / "grades.csv"}'))
-    return PASSED if all(grade.passed for grade in grades) else NOT_PASSED
-
-
-def _write_grades(folder: Path, grades: Sequence[Grade], unsealed: str) -> str:
-    """Write the table; return in one line what could not be written."""
-    lost = [grade.refused for grade in grades if grade.unwritten]
-    try:
-        write_csv(folder / 'grades.csv', grades)
-    except OSError as error:
-        lost.append(f'grades.csv: {error.strerror}')
-    if unsealed:
-        lost.append(f'what was graded cannot be remembered: {unsealed}')
-    if not lost:
-        return ''
-    more = f' (and {len(lost) - 1} more)' if len(lost) > 1 else ''
-    return f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest'
 
 
 def _drop_output() -> None:

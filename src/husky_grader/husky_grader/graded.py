@@ -60,6 +60,10 @@ class Graded:
             'steps': [asdict(step) for step in self.steps],
         }
 
+    def said(self) -> str:
+        """Return it as progress tells it."""
+        return f'{self.submission.id} ' + ('refused' if self.refused else f'{self.points:.1f}')
+
     def line(self, width: int) -> str:
         """Return the line of a table: the name, the points and the first thing to do better."""
         if self.refused:

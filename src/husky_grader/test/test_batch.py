@@ -12,14 +12,16 @@ import subprocess
 import sys
 import time
 
-from husky_grader.batch.batch_grader import BatchGrader, workers
-from husky_grader.batch.cache import key_of
+from husky_grader.batch.batch import Batch, How
 from husky_grader.batch.tables import names_of
+from husky_grader.batch.workers import workers
+from husky_grader.file_job import FileJob
 from husky_grader.grade import main as grade
 from husky_grader.grading import Grade
 import pytest
 
 HOURS = ''.join(f'  - {{x: -{k}.0, y: 0, dwell: 600}}\n' for k in (1, 2, 1, 2, 1, 2))
+ONE = How(jobs=1)
 SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-1, 0]]\n'
 
 
@@ -45,6 +47,13 @@ def files(tmp_path: Path) -> list[str]:
     return [str(tmp_path / name / 'path.yaml') for name in texts]
 
 
+def graded(files: list[str], folder: Path, how: How = ONE) -> list[Grade]:
+    """Grade files as `grade` does."""
+    jobs = [FileJob(file, name) for file, name in zip(files, names_of(files), strict=True)]
+    outcomes = Batch(jobs, folder, how=how).run()
+    return [job.grade(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
+
+
 def test_a_broken_file_does_not_stop_the_others(
     files: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -67,15 +76,14 @@ def test_a_broken_file_does_not_stop_the_others(
 def test_what_was_graded_is_not_graded_again_until_it_changes(
     files: list[str], tmp_path: Path
 ) -> None:
-    batch = BatchGrader(files[:1], tmp_path / 'report')
-    (first,) = batch.grade()
+    (first,) = graded(files[:1], tmp_path / 'report')
     report = tmp_path / 'report' / 'path' / 'report.json'
     written = report.stat().st_mtime_ns
-    (second,) = BatchGrader(files[:1], tmp_path / 'report').grade()
+    (second,) = graded(files[:1], tmp_path / 'report')
     assert second.report == first.report
     assert report.stat().st_mtime_ns == written
     Path(files[0]).write_text(SHORT.replace('-1', '-1.5'))
-    (third,) = BatchGrader(files[:1], tmp_path / 'report').grade()
+    (third,) = graded(files[:1], tmp_path / 'report')
     assert third.report is not None
     assert third.report['path_length_m'] == pytest.approx(1.5)
 
@@ -84,7 +92,7 @@ def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / 'pipe.yaml')  # whoever opens it waits for ever
     (tmp_path / 'zero.yaml').symlink_to('/dev/zero')  # whoever reads it never ends
     files = [str(tmp_path / name) for name in ('pipe.yaml', 'zero.yaml', 'none.yaml')]
-    results = BatchGrader(files, tmp_path / 'report', jobs=1).grade()
+    results = graded(files, tmp_path / 'report')
     assert all('line 1, column 1: not a file' in result.refused for result in results[:2])
     assert 'no such file' in results[2].refused
 
@@ -120,18 +128,10 @@ def test_a_class_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> Non
 def test_a_file_on_which_the_grader_hangs_costs_only_itself(
     files: list[str], tmp_path: Path
 ) -> None:
-    seen: list[tuple[int, Grade]] = []
-    batch = BatchGrader(
-        [files[2], files[0]],
-        tmp_path,
-        jobs=1,
-        stalled_cpu_sec=0.001,  # of its own processor time, and no second of the run has passed
-        done=lambda number, grade: seen.append((number, grade)),
-    )
-    results = batch.grade()
-    why = 'the grader hung: 0.001 s of processor time without a second of simulated time'
+    # Of its own processor time, and no second of the run has passed.
+    results = graded([files[2], files[0]], tmp_path, How(jobs=1, stalled_cpu_sec=0.001))
+    why = 'the grader hung: 0.001 s of processor time without progress'
     assert [result.refused for result in results] == [why] * 2
-    assert len(seen) == 2
 
 
 def test_a_class_that_is_killed_hard_leaves_no_worker(tmp_path: Path) -> None:
@@ -203,28 +203,28 @@ def test_every_file_has_a_folder_of_its_own() -> None:
 @pytest.mark.parametrize('forged', ['{}', '[]', 'same', 'seal'])
 def test_a_forged_report_is_graded_again(forged: str, files: list[str], tmp_path: Path) -> None:
     folder = tmp_path / 'report' / 'path'
-    (true,) = BatchGrader(files[2:], tmp_path / 'report').grade()
+    (true,) = graded(files[2:], tmp_path / 'report')
     assert true.report is not None
     assert not true.passed
     content = {**true.report, 'passed': True, 'score': 100.0, 'collisions': []}
     text = forged if forged in ('{}', '[]') else json.dumps(content, indent=2) + '\n'
     (folder / 'report.json').write_text(text)
     if forged == 'seal':  # as one who knows all but the secret would make it
-        key = key_of(files[2]).encode()
+        key = FileJob(files[2], 'path').key().encode()
         seal = hmac.new(b'', key + b'\n' + text.encode(), 'sha256').hexdigest()
         (folder / '.graded').write_text(seal)
-    (again,) = BatchGrader(files[2:], tmp_path / 'report').grade()
+    (again,) = graded(files[2:], tmp_path / 'report')
     assert again.score == true.score
     assert not again.passed
 
 
 def test_the_secret_is_only_the_users(files: list[str], tmp_path: Path, state: Path) -> None:
-    (first,) = BatchGrader(files[:1], tmp_path / 'report').grade()
+    (first,) = graded(files[:1], tmp_path / 'report')
     (secret,) = (path for path in state.rglob('*') if path.is_file())
     assert secret.stat().st_mode & 0o777 == 0o600
     before = secret.read_bytes()
     secret.chmod(0o644)  # others may have read it
-    (second,) = BatchGrader(files[:1], tmp_path / 'report').grade()
+    (second,) = graded(files[:1], tmp_path / 'report')
     assert second.score == first.score
     assert secret.read_bytes() != before
     assert secret.stat().st_mode & 0o777 == 0o600
@@ -237,7 +237,7 @@ def test_where_no_secret_can_be_kept_everything_is_graded_again(
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'file'))
     times = []
     for _ in range(2):
-        (result,) = BatchGrader(files[:1], tmp_path / 'report').grade()
+        (result,) = graded(files[:1], tmp_path / 'report')
         assert result.passed
         times.append((tmp_path / 'report' / 'path' / 'report.json').stat().st_mtime_ns)
     assert times[0] != times[1]

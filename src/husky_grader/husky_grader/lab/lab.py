@@ -3,12 +3,10 @@
 """Grade a student's whole workspace: every step of a rubric, with points and reasons."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, replace
-import json
+from dataclasses import replace
 from pathlib import Path
 import shutil
 
-from husky_course.files import replacing
 from husky_course.printable import printable
 
 from husky_grader.graded import StepGrade
@@ -47,7 +45,7 @@ def grade_lab(
     """
     Grade step after step; a step that cannot be tried for want of another gets nothing.
 
-    :param folder: of the report; lab.json is written there.
+    :param folder: of the report.
     :param sandbox: in which what students wrote is built and run.
     """
     workspace, folder = workspace.resolve(), folder.resolve()
@@ -60,16 +58,7 @@ def grade_lab(
         for step in rubric.steps:
             findings[step.name] = grading.find(step)
             done(step)
-    grades = list(_with_needs(rubric.steps, findings))
-    content = {
-        'rubric': rubric.title,
-        'sandbox': sandbox.name,
-        'score': sum(grade.points for grade in grades),
-        'steps': [asdict(grade) for grade in grades],
-    }
-    with replacing(folder / 'lab.json') as part:
-        part.write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
-    return grades
+    return list(_with_needs(rubric.steps, findings))
 
 
 class _Grading:

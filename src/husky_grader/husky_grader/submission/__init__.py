@@ -5,7 +5,15 @@
 from husky_grader.submission.find import find_submissions
 from husky_grader.submission.limits import Limits, Refused
 from husky_grader.submission.submission import Submission
-from husky_grader.submission.unpack import unpack
+from husky_grader.submission.unpack import digest_of, unpack
 from husky_grader.submission.workspace import Workspace
 
-__all__ = ['Limits', 'Refused', 'Submission', 'Workspace', 'find_submissions', 'unpack']
+__all__ = [
+    'Limits',
+    'Refused',
+    'Submission',
+    'Workspace',
+    'digest_of',
+    'find_submissions',
+    'unpack',
+]

@@ -5,6 +5,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass, replace
+import hashlib
 import io
 from pathlib import Path
 import shutil
@@ -64,6 +65,31 @@ def unpack(submission: Submission, folder: Path, limits: Limits = _DEFAULT) -> W
         shutil.rmtree(staging, ignore_errors=True)
     notes = map(printable, (*handed.notes, *workspace.notes))
     return replace(workspace, notes=tuple(notes))
+
+
+def digest_of(submission: Submission, limits: Limits = _DEFAULT) -> str:
+    """
+    Return a hash of what was handed in: of what `unpack` takes, or refuses.
+
+    :raises OSError: when the folder for temporary files cannot be written.
+    """
+    digest = hashlib.sha256()
+    try:
+        if submission.refused:
+            raise Refused(submission.refused)
+        meter = Meter(limits)
+        with ExitStack() as stack:
+            handed = _handed_in(submission, meter, stack)
+            digest.update(repr(handed.name).encode())
+            for entry in handed.entries:
+                digest.update(repr((entry.path, entry.what, entry.executable)).encode())
+                content = hashlib.sha256()
+                for chunk in entry.chunks() if entry.what == FILE else ():
+                    content.update(chunk)
+                digest.update(content.digest())
+    except Refused as error:
+        digest.update(f'refused: {error}'.encode(errors='surrogateescape'))
+    return digest.hexdigest()
 
 
 @dataclass(frozen=True)

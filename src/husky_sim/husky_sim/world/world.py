@@ -11,6 +11,7 @@ outermost body around it (or after itself where it lies in the world body).
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+import hashlib
 import math
 from pathlib import Path
 import warnings
@@ -45,6 +46,13 @@ class World:
     names: tuple[str, ...]  # of owners: first the robots, then the obstacles
     owners: Indices  # of every geom: its place in names, or negative
     steps_per_period: int
+
+    @property
+    def digest(self) -> str:
+        """Return a hash of what MuJoCo has made of all files that the world consists of."""
+        content = np.empty(mujoco.mj_sizeModel(self.model), np.uint8)
+        mujoco.mj_saveModel(self.model, None, content)
+        return hashlib.sha256(content.tobytes()).hexdigest()
 
     def part(self, geom: int) -> str:
         """Return the name of a robot's part, without the robot's name before it."""

@@ -1,15 +1,13 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Reports of earlier calls, so that no file is graded twice.
+Results of earlier calls and of other machines, so that nothing is graded twice.
 
-A report is taken only with a seal that needs the grader's secret: an HMAC (RFC 2104) over all
-that the grade depends on and the report itself. The secret is a file that only the user can read;
-where it cannot be kept, everything is graded again.
+A result is taken only with a seal that needs the grader's secret: an HMAC (RFC 2104) over its key
+and the result itself. The secret is a file that only the user can read, or in a variable of the
+environment, by which several machines share one; where there is none, everything is graded again.
 """
 
-from functools import lru_cache
-import hashlib
 import hmac
 import json
 import os
@@ -18,44 +16,45 @@ import secrets
 import stat
 from typing import Any
 
-import husky_course
-import husky_driver
-import husky_grader
-from husky_grader.report.files import is_report
-import husky_sim
+from husky_grader.batch.job import Job
 
 SEAL_FILE = '.graded'
 SECRET_BYTES = 32
-PROGRAM_ENDINGS = ('.py', '.css', '.jinja')
+SECRET_VARIABLE = 'HUSKY_GRADING_SECRET'
 MOST_BYTES = 64_000_000  # of a report, whose run may have been a day long
 
 
-class Cache:
-    """Seals reports, and loads those whose seal is right."""
+class Seals:
+    """Seals results, and loads those whose seal is right."""
 
     def __init__(self) -> None:
-        self._secret = _secret()
+        """
+        Take the secret.
 
-    def load(self, folder: Path, key: str) -> dict[str, Any] | None:
-        """Return the report in a folder if it was sealed with this key."""
+        :raises ValueError: if that of the environment is too short to be one.
+        """
+        self._secret = _shared_secret() or _secret()
+
+    def load(self, folder: Path, job: Job, key: str) -> dict[str, Any] | None:
+        """Return the result in a folder if it was sealed with this key."""
         try:
-            text = _content(folder / 'report.json')
+            text = _content(folder / job.result_file)
             seal = _content(folder / SEAL_FILE).decode('ascii')
             if self._secret is None or not hmac.compare_digest(seal, self._seal(key, text)):
                 return None
-            report = json.loads(text)
+            result = json.loads(text)
         except (OSError, ValueError, TypeError, RecursionError):
             return None
-        return report if is_report(report) else None
+        return result if job.is_result(result) else None
 
-    def seal(self, folder: Path, key: str) -> None:
+    def seal(self, folder: Path, job: Job, key: str) -> None:
         """
-        Seal the report in a folder.
+        Seal the result in a folder.
 
         :raises OSError: when it cannot be written.
         """
         if self._secret is not None:
-            text = (folder / 'report.json').read_bytes()
+            text = (folder / job.result_file).read_bytes()
             (folder / SEAL_FILE).write_text(self._seal(key, text), encoding='ascii')
 
     def _seal(self, key: str, text: bytes) -> str:
@@ -75,6 +74,16 @@ def _content(file: Path) -> bytes:
         if not stat.S_ISREG(about.st_mode) or about.st_size > MOST_BYTES:
             raise OSError(f'{file} is no file of ours')
         return stream.read(MOST_BYTES)
+
+
+def _shared_secret() -> bytes:
+    secret = os.environ.get(SECRET_VARIABLE, '').encode()
+    if 0 < len(secret) < SECRET_BYTES:
+        raise ValueError(
+            f'{SECRET_VARIABLE} has {len(secret)} characters; give {SECRET_BYTES} or more, as '
+            '"openssl rand -hex 32" prints them'
+        )
+    return secret
 
 
 def _secret() -> bytes | None:
@@ -109,36 +118,3 @@ def _make_secret(file: Path) -> bytes:
         stream.write(secrets.token_bytes(SECRET_BYTES))
     part.replace(file)
     return file.read_bytes()
-
-
-def key_of(file: str, world: str = '') -> str:
-    """Return a hash of all that a grade depends on: the file, the world and the programs."""
-    digest = _digest_of_programs(world).copy()
-    _add(digest, Path(file))
-    return digest.hexdigest()
-
-
-@lru_cache(maxsize=1)
-def _digest_of_programs(world: str) -> Any:
-    digest = hashlib.sha256()
-    for path in _programs_and_worlds(world):
-        _add(digest, path)
-    return digest
-
-
-def _add(digest: Any, path: Path) -> None:
-    """Add the content of a file; of a device or a pipe, which may never end, only a mark."""
-    try:
-        digest.update(path.read_bytes() if path.is_file() else b'?')
-    except (OSError, ValueError):
-        digest.update(b'?')
-
-
-def _programs_and_worlds(world: str) -> list[Path]:
-    from husky_sim.world import default_worlds  # MuJoCo takes its time
-
-    paths: list[Path] = [Path(world)] if world else []
-    for package in (husky_course, husky_driver, husky_grader, husky_sim):
-        folder = Path(package.__path__[0])
-        paths += sorted(path for path in folder.rglob('*') if path.suffix in PROGRAM_ENDINGS)
-    return [*paths, *sorted(default_worlds().glob('*.xml'))]

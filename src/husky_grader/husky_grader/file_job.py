@@ -1,0 +1,39 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The job of grading one waypoint file."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from husky_grader.batch.job import Outcome
+from husky_grader.batch.key import key_of, world_digest
+from husky_grader.grading import Grade, grade_file
+from husky_grader.report.files import is_report
+
+
+@dataclass(frozen=True)
+class FileJob:
+    """Drives the course of a file; see `batch.job.Job`."""
+
+    file: str
+    name: str
+    world: str = ''
+
+    result_file = 'report.json'
+    scratch = ''
+
+    def key(self) -> str:
+        return key_of([Path(self.file)], {'world': world_digest(self.world)})
+
+    def is_result(self, content: object) -> bool:
+        return is_report(content)
+
+    def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
+        grade = grade_file(self.file, folder, world=self.world, each_second=alive)
+        return Outcome(grade.report, grade.refused)
+
+    def grade(self, outcome: Outcome) -> Grade:
+        """Return an outcome as the result of the file."""
+        content, refused = outcome.content, outcome.refused
+        return Grade(self.file, content, refused, refused=refused, unwritten=outcome.unwritten)

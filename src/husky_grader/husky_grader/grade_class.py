@@ -1,0 +1,216 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Grade a class: many waypoint files, or what was handed in for a lab."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+import json
+from pathlib import Path
+import sys
+from typing import TYPE_CHECKING
+
+from husky_course.printable import printable
+from husky_driver.ros import Tally
+from husky_runtime.command_line import BAD_INPUT
+
+from husky_grader.batch.dask_cluster import ADDRESS
+from husky_grader.batch.shards import parse_shard
+from husky_grader.batch.tables import names_of, table, write_csv
+from husky_grader.playpen import default_rubric
+from husky_grader.submission.names import folder_names
+
+if TYPE_CHECKING:  # they take their time
+    from husky_grader.batch.batch import How
+    from husky_grader.jail import Sandbox
+    from husky_grader.rubric.steps import Rubric
+    from husky_grader.submission import Submission
+
+PASSED, NOT_PASSED = 0, 1
+OF_THE_CLASS = ('grades.csv',)  # what lies beside the folders of the submissions
+
+
+def wrong_of_class(options: argparse.Namespace) -> str:
+    """Return what is wrong with the options that only a class has; nothing if they are right."""
+    one_run = options.record or options.controller
+    for option in ('shard', 'collect', 'executor'):
+        if getattr(options, option) and one_run:
+            return f'--{option} is for a class: give waypoint files, or --lab SUBMISSION...'
+    if options.shard and options.collect:
+        return '--shard grades a share, --collect puts shares together; give one of them'
+    if options.executor and not options.executor.startswith(ADDRESS):
+        return f'--executor {options.executor}: give {ADDRESS}tcp://HOST:PORT, or leave it out'
+    if options.shard:
+        try:
+            parse_shard(options.shard)
+        except ValueError as error:
+            return str(error)
+    missing = [folder for folder in options.collect if not Path(folder).is_dir()]
+    if missing:
+        return f'--collect {missing[0]}: no such folder; give the --report of other calls'
+    return ''
+
+
+def grade_files(options: argparse.Namespace) -> int:
+    """Grade waypoint files; return the exit code."""
+    from husky_grader.batch.batch import Batch
+    from husky_grader.file_job import FileJob
+
+    folder = Path(options.report)
+    folder.mkdir(parents=True, exist_ok=True)
+    files = _places(options.files, options)
+    every = [
+        FileJob(file, name, options.world)
+        for file, name in zip(files, names_of(files), strict=True)
+    ]
+    jobs = parse_shard(options.shard or '1/1').of(every)
+    with _Progress(len(jobs)) as progress:
+        batch = Batch(
+            jobs,
+            folder,
+            how=_how(options),
+            done=lambda number, outcome: progress.add(
+                f'{jobs[number].name} {jobs[number].grade(outcome).score:.1f}',
+                is_new=not outcome.remembered,
+            ),
+        )
+        outcomes = batch.run()
+    grades = [job.grade(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
+    if options.json:
+        entries = [
+            {'file': grade.file, 'refused': grade.refused or None, 'report': grade.report}
+            for grade in grades
+        ]
+        print(json.dumps(entries, indent=2))
+    else:
+        print(table([job.name for job in jobs], grades))
+    lost = [grade.refused for grade in grades if grade.unwritten]
+    try:
+        write_csv(folder / 'grades.csv', grades)
+    except OSError as error:
+        lost.append(f'grades.csv: {error.strerror}')
+    if _tell_lost(folder, lost, batch.unsealed):
+        return BAD_INPUT
+    if not options.json:
+        print(printable(f'grades: {folder / "grades.csv"}'))
+    return PASSED if all(grade.passed for grade in grades) else NOT_PASSED
+
+
+def grade_labs(options: argparse.Namespace) -> int:
+    """Grade what was handed in for a lab; return the exit code."""
+    from husky_grader.jail import find_sandbox
+    from husky_grader.rubric.rubric_file import load_rubric
+    from husky_grader.submission import find_submissions
+
+    rubric = load_rubric(options.rubric or default_rubric())
+    submissions = find_submissions(_places(options.lab, options))
+    sandbox = find_sandbox(options.sandbox)
+    if len(submissions) == 1 and not (options.shard or options.collect or options.executor):
+        return _grade_lab(submissions[0], rubric, sandbox, options)
+    return _grade_labs(submissions, rubric, sandbox, options)
+
+
+def _grade_lab(
+    submission: Submission, rubric: Rubric, sandbox: Sandbox, options: argparse.Namespace
+) -> int:
+    """Grade one submission, and say each step that is done."""
+    from husky_grader.lab.lab import table as lab_table
+    from husky_grader.lab_grading import grade_submission
+    from husky_grader.lab_job import LAB_FILE, write_result
+
+    folder = Path(options.report)
+    graded = grade_submission(
+        submission,
+        rubric,
+        folder,
+        sandbox=sandbox,
+        real_time_factor=options.real_time_factor,
+        done=lambda step: _tell(f'{submission.id}: {step.name}: done'),
+    )
+    if graded.refused:
+        raise ValueError(graded.refused)
+    write_result(graded, rubric, folder)
+    if options.json:
+        print((folder / LAB_FILE).read_text(encoding='utf-8'), end='')
+    else:
+        print(lab_table(graded.steps))
+    return PASSED if graded.is_full else NOT_PASSED
+
+
+def _grade_labs(
+    submissions: Sequence[Submission],
+    rubric: Rubric,
+    sandbox: Sandbox,
+    options: argparse.Namespace,
+) -> int:
+    """Grade a class."""
+    from husky_grader.batch.batch import Batch
+    from husky_grader.lab_job import LabJob
+
+    folder = Path(options.report)
+    folder.mkdir(parents=True, exist_ok=True)
+    names = folder_names([Path(each.id) for each in submissions], taken=OF_THE_CLASS)
+    every = [
+        LabJob(each, name, rubric, sandbox.name, options.real_time_factor)
+        for each, name in zip(submissions, names, strict=True)
+    ]
+    jobs = parse_shard(options.shard or '1/1').of(every)
+    with _Progress(len(jobs)) as progress:
+        batch = Batch(
+            jobs,
+            folder,
+            how=_how(options),
+            done=lambda number, outcome: progress.add(
+                jobs[number].graded(outcome).said(), is_new=not outcome.remembered
+            ),
+        )
+        outcomes = batch.run()
+    graded = [job.graded(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
+    if options.json:
+        print(json.dumps([each.entry() for each in graded], indent=2))
+    else:
+        width = max((len(each.submission.id) for each in graded), default=0)
+        for each in graded:
+            print(each.line(width))
+    lost = [outcome.refused for outcome in outcomes if outcome.unwritten]
+    if _tell_lost(folder, lost, batch.unsealed):
+        return BAD_INPUT
+    return PASSED if all(each.is_full for each in graded) else NOT_PASSED
+
+
+class _Progress:
+    """Counts what is graded on the terminal."""
+
+    def __init__(self, total: int) -> None:
+        self._tally = Tally(total, sys.stderr, 'the workers start', bar=sys.stderr.isatty())
+
+    def __enter__(self) -> Tally:
+        return self._tally
+
+    def __exit__(self, *_: object) -> None:
+        self._tally.close()
+
+
+def _places(given: Sequence[str], options: argparse.Namespace) -> list[str]:
+    """Return where files lie; a worker of a cluster has another working directory."""
+    return [str(Path(each).absolute()) if options.executor else each for each in given]
+
+
+def _how(options: argparse.Namespace) -> How:
+    from husky_grader.batch.batch import How
+
+    return How(options.executor, options.jobs, tuple(map(Path, options.collect)))
+
+
+def _tell_lost(folder: Path, lost: Sequence[str], unsealed: str) -> bool:
+    """Say in one line what could not be written; tell whether anything could not."""
+    lost = [*lost, *([f'what was graded cannot be remembered: {unsealed}'] if unsealed else [])]
+    if lost:
+        more = f' (and {len(lost) - 1} more)' if len(lost) > 1 else ''
+        _tell(f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest')
+    return bool(lost)
+
+
+def _tell(line: str) -> None:
+    print(printable(line), file=sys.stderr, flush=True)

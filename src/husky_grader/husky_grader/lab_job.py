@@ -1,0 +1,127 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The job of grading one submission by a rubric."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from functools import lru_cache
+import json
+from pathlib import Path
+from typing import Any
+
+from husky_course.files import replacing
+
+from husky_grader.batch.job import Outcome
+from husky_grader.batch.key import key_of, versions, world_digest
+from husky_grader.graded import Graded, StepGrade
+from husky_grader.jail import find_sandbox, Sandbox
+from husky_grader.lab.lab import BUILT
+from husky_grader.lab_grading import grade_submission
+from husky_grader.rubric.steps import DriveStep, Rubric, Step
+from husky_grader.submission import digest_of, Submission
+
+LAB_FILE = 'lab.json'
+_FIELDS: dict[str, type | tuple[type, ...]] = {
+    'rubric': str,
+    'sandbox': str,
+    'versions': dict,
+    'notes': list,
+    'score': (int, float),
+    'most': (int, float),
+    'steps': list,
+}
+
+
+@dataclass(frozen=True)
+class LabJob:
+    """Grades a submission, step by step; see `batch.job.Job`."""
+
+    submission: Submission
+    name: str
+    rubric: Rubric
+    sandbox: str
+    real_time_factor: float = 1.0
+
+    result_file = LAB_FILE
+    scratch = BUILT
+
+    def key(self) -> str:
+        # What ran without a jail may have written what it liked, also its own result.
+        jailed = self.sandbox != 'none'
+        return key_of(
+            [self.rubric.file, *_courses_of(self.rubric)],
+            {
+                'handed in': digest_of(self.submission),
+                'jailed': jailed,
+                'real_time_factor': self.real_time_factor,
+                'world': world_digest(''),
+            },
+        )
+
+    def is_result(self, content: object) -> bool:
+        return (
+            isinstance(content, dict)
+            and set(content) == set(_FIELDS)
+            and all(isinstance(content[name], kind) for name, kind in _FIELDS.items())
+        )
+
+    def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
+        def done(_step: Step) -> None:
+            alive()
+
+        graded = grade_submission(
+            self.submission,
+            self.rubric,
+            folder,
+            sandbox=_sandbox(self.sandbox),
+            real_time_factor=self.real_time_factor,
+            done=done,
+        )
+        if graded.refused:
+            return Outcome(None, graded.refused)
+        return Outcome(write_result(graded, self.rubric, folder))
+
+    def graded(self, outcome: Outcome) -> Graded:
+        """Return an outcome as what the submission got."""
+        if outcome.content is None:
+            notes = self.submission.notes
+            return Graded(self.submission, self.rubric.points, (), outcome.refused, notes=notes)
+        return from_result(self.submission, outcome.content)
+
+
+def write_result(graded: Graded, rubric: Rubric, folder: Path) -> dict[str, Any]:
+    """Write lab.json, whole or not at all; return what it holds."""
+    content: dict[str, Any] = {
+        'rubric': rubric.title,
+        'sandbox': graded.sandbox,
+        'versions': versions(),
+        'notes': list(graded.notes),
+        'score': graded.points,
+        'most': graded.most,
+        'steps': [asdict(step) for step in graded.steps],
+    }
+    with replacing(folder / LAB_FILE) as part:
+        part.write_text(json.dumps(content, indent=2) + '\n', encoding='utf-8')
+    return content
+
+
+def from_result(submission: Submission, content: Mapping[str, Any]) -> Graded:
+    """Return what a submission got, of what lab.json holds."""
+    return Graded(
+        submission,
+        content['most'],
+        [StepGrade(**step) for step in content['steps']],
+        sandbox=content['sandbox'],
+        notes=content['notes'],
+    )
+
+
+def _courses_of(rubric: Rubric) -> Iterator[Path]:
+    for step in rubric.steps:
+        if isinstance(step, DriveStep):
+            yield from (course.file for course in step.courses)
+
+
+@lru_cache(maxsize=1)
+def _sandbox(name: str) -> Sandbox:
+    return find_sandbox(name)

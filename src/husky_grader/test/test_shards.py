@@ -1,0 +1,265 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A class in shares, on a cluster, and killed: the table is that of one call."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, redirect_stdout
+from dataclasses import dataclass
+import hashlib
+import io
+import json
+import os
+from pathlib import Path
+import random
+import signal
+import subprocess
+import sys
+from tempfile import TemporaryDirectory
+import time
+
+from husky_grader.batch.batch import Batch, How
+from husky_grader.batch.job import Outcome
+from husky_grader.batch.sealed import Seals
+from husky_grader.batch.shards import parse_shard, Shard
+from husky_grader.grade import main as grade
+import pytest
+
+SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-%g, 0]]\n'
+
+
+@pytest.fixture(autouse=True)
+def state(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep the grader's secret away from the user's own."""
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path_factory.mktemp('state')))
+
+
+@dataclass(frozen=True)
+class Serial:
+    """What one call has made of students' files."""
+
+    files: list[str]
+    printed: list[str]  # a line each
+    csv: str
+
+
+@pytest.fixture(scope='module')
+def serial(tmp_path_factory: pytest.TempPathFactory) -> Serial:
+    """Return the grades of seven files; one of them is refused."""
+    folder = tmp_path_factory.mktemp('serial')
+    places = [folder / f's{number}.yaml' for number in range(7)]
+    for number, place in enumerate(places):
+        place.write_text(SHORT % (0.3 + number / 10) if number != 4 else 'speed: fast\n')
+    files = list(map(str, places))
+    out = io.StringIO()
+    with redirect_stdout(out):
+        assert grade([*files, '--report', str(folder / 'report')]) == 1
+    return Serial(files, out.getvalue().splitlines()[:7], tables(folder / 'report'))
+
+
+@dataclass(frozen=True)
+class Generated:
+    """A job whose result is a function of its name, as a real one's is of what was handed in."""
+
+    name: str
+
+    result_file = 'result.json'
+    scratch = 'scratch'
+
+    def key(self) -> str:
+        return f'key of {self.name}'
+
+    def is_result(self, content: object) -> bool:
+        return isinstance(content, dict)
+
+    def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
+        alive()
+        folder.mkdir(parents=True)
+        content = self.content()
+        (folder / self.result_file).write_text(json.dumps(content))
+        return Outcome(content)
+
+    def content(self) -> dict[str, int]:
+        return {'score': int(hashlib.sha256(self.name.encode()).hexdigest()[:4], 16)}
+
+
+def test_10000_results_in_shards_of_which_some_died_are_the_serial_ones(tmp_path: Path) -> None:
+    jobs = [Generated(f's{number:05}') for number in range(10_000)]
+    chance, shards, seals = random.Random(13), range(1, 101), Seals()
+    dead = set(chance.sample(shards, 5))
+    for number in shards:
+        share = Shard(number, 100).of(jobs)
+        left = chance.randrange(len(share)) if number in dead else len(share)
+        for job in share[:left]:
+            job.run(tmp_path / f'shard_{number}' / job.name, lambda: None)
+            seals.seal(tmp_path / f'shard_{number}' / job.name, job, job.key())
+        if number in dead:  # in the middle of a job: a result without its seal
+            share[left].run(tmp_path / f'shard_{number}' / share[left].name, lambda: None)
+    folders = tuple(tmp_path / f'shard_{number}' for number in shards)
+    scratch = folders[0] / 's00000' / Generated.scratch
+    scratch.mkdir()
+    os.mkfifo(scratch / 'pipe')  # as a student's build may leave one
+    outcomes = Batch(jobs, tmp_path / 'all', how=How(collect=folders)).run()
+    assert [outcome.content for outcome in outcomes] == [job.content() for job in jobs]
+    assert not list((tmp_path / 'all').glob('.*.part'))
+    assert not (tmp_path / 'all' / 's00000' / 'scratch').exists()
+
+
+def test_the_files_of_collected_shards_are_those_of_one_call(
+    serial: Serial, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = [*serial.files, '--report']
+    folders = [str(tmp_path / f'shard_{number}') for number in (1, 2, 3)]
+    Path(folders[1]).mkdir()  # the second one never began
+    for number in (1, 3):
+        grade([*command, folders[number - 1], '--shard', f'{number}/3'])
+    capsys.readouterr()
+    assert grade([*command, str(tmp_path / 'all'), '--collect', *folders]) == 1
+    assert capsys.readouterr().out.splitlines()[:7] == serial.printed
+    assert tables(tmp_path / 'all') == serial.csv
+    took = tmp_path / 'all' / 's0' / 'report.json'
+    assert took.stat().st_mtime_ns == (tmp_path / 'shard_1/s0/report.json').stat().st_mtime_ns
+
+
+def tables(report: Path) -> str:
+    return (report / 'grades.csv').read_text()
+
+
+def test_a_forged_shard_is_graded_again(serial: Serial, tmp_path: Path) -> None:
+    shard, files = tmp_path / 'shard', serial.files
+    grade([files[0], files[1], '--report', str(shard)])
+    report = shard / 's0' / 'report.json'
+    report.write_text(report.read_text().replace('"score": 100.0', '"score": 101.0'))
+    assert '101.0' in report.read_text()
+    everything = ['--report', str(tmp_path / 'all'), '--collect', str(shard)]
+    grade([files[0], files[1], *everything])
+    assert ',101.0,' not in tables(tmp_path / 'all')
+
+
+@pytest.mark.parametrize('text', ['0/3', '4/3', '1', '1/0', '1/-3', '1/3/3', 'a/b', '1.0/3', ''])
+def test_what_is_no_shard_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(ValueError, match='give I/N'):
+        parse_shard(text)
+    if text:
+        with pytest.raises(SystemExit, match='2'):
+            grade(['a.yaml', '--shard', text])
+        assert 'give I/N' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('count', [1, 2, 7, 12, 30])
+def test_shards_together_are_all_jobs_once(count: int) -> None:
+    shares = [Shard(number, count).of(range(12)) for number in range(1, count + 1)]
+    assert sorted(job for share in shares for job in share) == list(range(12))
+
+
+def test_a_secret_that_is_too_short_is_refused(
+    serial: Serial,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv('HUSKY_GRADING_SECRET', 'short')
+    assert grade([*serial.files, '--report', str(tmp_path / 'report')]) == 2
+    assert 'HUSKY_GRADING_SECRET has 5 characters; give 32 or more' in capsys.readouterr().err
+
+
+def test_machines_that_share_a_secret_take_results_of_each_other(
+    serial: Serial, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times, files = {}, serial.files
+    for secret in ('a' * 32, 'b' * 32):
+        monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of one'))
+        monkeypatch.setenv('HUSKY_GRADING_SECRET', 'a' * 32)
+        there, here = tmp_path / f'there {secret[0]}', tmp_path / f'here {secret[0]}'
+        grade([*files[:2], '--report', str(there)])
+        monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of another'))
+        monkeypatch.setenv('HUSKY_GRADING_SECRET', secret)
+        grade([*files[:2], '--report', str(here), '--collect', str(there)])
+        written = [folder / 's0' / 'report.json' for folder in (there, here)]
+        times[secret[0]] = [path.stat().st_mtime_ns for path in written]
+    assert times['a'][0] == times['a'][1]
+    assert times['b'][0] != times['b'][1]
+
+
+def test_a_grader_killed_at_ten_moments_comes_to_the_same_table(
+    serial: Serial, tmp_path: Path
+) -> None:
+    command = [sys.executable, '-m', 'husky_grader.grade', *serial.files, '--jobs', '2']
+    command += ['--report', str(tmp_path / 'killed')]
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    chance = random.Random(2026)
+    for _ in range(10):
+        with subprocess.Popen(
+            command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        ) as running:
+            time.sleep(chance.uniform(0.2, 2.0))  # a moment, not a fact that is waited for
+            running.kill()
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 1, done.stderr
+    assert tables(tmp_path / 'killed') == serial.csv
+
+
+@pytest.fixture
+def dask() -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
+    """Yield the address of a Dask scheduler, and two workers of its."""
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(TemporaryDirectory()))
+        file = folder / 'scheduler.json'
+
+        def start(*words: str) -> subprocess.Popen[bytes]:
+            process = subprocess.Popen(
+                [sys.executable, '-m', 'distributed.cli.' + words[0], *words[1:]],
+                env=environment,
+                cwd=folder,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            stack.enter_context(process)
+            stack.callback(process.kill)
+            return process
+
+        where = ['--scheduler-file', str(file)]
+        plain = ['--host', '127.0.0.1', '--no-dashboard']
+        start('dask_scheduler', *plain, '--port', '0', *where)
+        workers = [
+            start('dask_worker', *plain, '--no-nanny', '--nthreads', '1', *where) for _ in range(2)
+        ]
+        deadline = time.monotonic() + 30.0
+        while not file.is_file():
+            assert time.monotonic() < deadline, 'waited 30 s for the scheduler'
+            time.sleep(0.05)
+        yield json.loads(file.read_text())['address'], workers
+
+
+@pytest.mark.timeout(180)
+def test_a_dask_cluster_that_loses_a_worker_comes_to_the_same_table(
+    serial: Serial, tmp_path: Path, dask: tuple[str, list[subprocess.Popen[bytes]]]
+) -> None:
+    address, workers = dask
+    command = [sys.executable, '-m', 'husky_grader.grade', *serial.files]
+    command += ['--executor', f'dask:{address}', '--report', str(tmp_path / 'cluster')]
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    with subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        assert running.stderr is not None
+        first = running.stderr.readline()
+        assert ' of 7 ' in first, first + running.stderr.read()
+        workers[0].send_signal(signal.SIGKILL)
+        printed, said = running.communicate(timeout=120.0)
+    assert running.returncode == 1, said
+    assert printed.splitlines()[:7] == serial.printed
+    assert tables(tmp_path / 'cluster') == serial.csv
+
+
+def test_where_no_cluster_answers_one_line_says_so(
+    serial: Serial,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr('husky_grader.batch.dask_cluster.CONNECT_WITHIN_SEC', 0.5)
+    command = [*serial.files, '--report', str(tmp_path / 'report')]
+    assert grade([*command, '--executor', 'dask:tcp://127.0.0.1:9']) == 2
+    (line,) = (line for line in capsys.readouterr().err.splitlines() if 'dask:' in line)
+    assert 'start one: dask scheduler' in line
