@@ -73,6 +73,12 @@ class Map:
         xs, ys = [p[0] for p in points], [p[1] for p in points]
         return min(xs) - MARGIN_M, max(xs) + MARGIN_M, min(ys) - MARGIN_M, max(ys) + MARGIN_M
 
+    def is_within(self, bounds: Bounds) -> bool:
+        """Tell whether nothing is drawn outside; also odometry that has gone astray."""
+        low_x, high_x, low_y, high_y = bounds
+        points = [*self.believed, *self.marks, *self.error]
+        return all(low_x <= x <= high_x and low_y <= y <= high_y for x, y in points)
+
 
 def course_map(
     route: Route,
@@ -140,7 +146,9 @@ def picture_svg(scene: Map) -> str:
     """Return the map of the whole world as a file of its own: title, axes and legend."""
     drawing = _Drawing(scene.bounds())
     width, height = drawing.width + LEFT + RIGHT, drawing.height + TOP + BOTTOM
-    parts = [*_axes(drawing), '<g clip-path="url(#frame)">', *_elements(scene, drawing), '</g>']
+    # To clip takes a fifth of the time for a picture.
+    clip = '' if scene.is_within(scene.bounds()) else ' clip-path="url(#frame)"'
+    parts = [*_axes(drawing), f'<g{clip}>', *_elements(scene, drawing), '</g>']
     parts += _legend(scene, drawing)
     frame = f'width="{drawing.width:.0f}" height="{drawing.height:.0f}"'
     title = f'<text class="title" x="{drawing.width / 2:.0f}" y="-22">'
