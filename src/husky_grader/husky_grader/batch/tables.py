@@ -3,14 +3,13 @@
 """The grades of many files as a table: for the terminal, and as CSV."""
 
 from collections.abc import Sequence
-import csv
 from pathlib import Path
 
-from husky_course.files import replacing
 from husky_course.printable import printable
 
 from husky_grader.grading import Grade
 from husky_grader.report.files import REPORT_FILES
+from husky_grader.spreadsheet import write_table
 from husky_grader.submission.names import folder_names
 
 _OUR_FILES = ('grades.csv', '.grades.part.csv', *REPORT_FILES)
@@ -46,10 +45,7 @@ def table(names: Sequence[str], grades: Sequence[Grade]) -> str:
 
 def write_csv(path: Path, grades: Sequence[Grade]) -> None:
     """Write one line a file, for a spreadsheet."""
-    with replacing(path) as part, part.open('w', newline='', encoding='utf-8') as stream:
-        writer = csv.writer(stream)
-        writer.writerow(COLUMNS)
-        writer.writerows(_row(grade) for grade in grades)
+    write_table(path, COLUMNS, map(_row, grades))
 
 
 def _row(grade: Grade) -> list[object]:
@@ -61,13 +57,4 @@ def _row(grade: Grade) -> list[object]:
         'collisions': len(report.get('collisions', [])),
         'reasons': grade.refused or '; '.join(report.get('reasons', [])),
     }
-    values = [given.get(column, report.get(column, '')) for column in COLUMNS]
-    return [_plain(value) for value in values]
-
-
-def _plain(value: object) -> object:
-    """Keep a spreadsheet from taking text for a formula."""
-    if isinstance(value, str):
-        text = printable(' '.join(value.split()))
-        return f"'{text}" if text[:1] in ('=', '+', '-', '@') else text
-    return '' if value is None else value
+    return [given.get(column, report.get(column, '')) for column in COLUMNS]
