@@ -11,10 +11,10 @@ from husky_course.files import replacing
 from husky_course.printable import printable
 from husky_course.record import Run
 from husky_course.route import Route
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from husky_grader.report.map import Key, map_key, map_svg, run_map, STYLE_FOLDER, write_picture
+from husky_grader.report.page import rendered
 from husky_grader.report.plot import MAX_POINTS, Plot
 from husky_grader.scoring.report import FORMULA, FULL_TRACKING_M, Report
 
@@ -108,20 +108,10 @@ def page(report: Report, run: Run, drawing: str, key: Key) -> str:
     :param drawing: the map as SVG.
     :param key: the colours on the map, and what they mean.
     """
-    # Names of obstacles and nodes come from others: control characters are shown, HTML escaped.
-    environment = Environment(
-        loader=FileSystemLoader(STYLE_FOLDER),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        finalize=lambda value: printable(value) if type(value) is str else value,
-    )
-    style = ''.join(
-        (STYLE_FOLDER / name).read_text(encoding='utf-8') for name in ('report.css', 'map.css')
-    )
-    return environment.get_template('report.html.jinja').render(
+    return rendered(
+        STYLE_FOLDER / 'report.html.jinja',
+        [STYLE_FOLDER / 'map.css'],
         report=report,
-        style=Markup(style),
         map={'svg': Markup(drawing), 'key': key},
         plots=_plots(report, run),
         full_m=FULL_TRACKING_M,
