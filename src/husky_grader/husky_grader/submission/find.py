@@ -28,7 +28,7 @@ from husky_grader.submission.submission import Submission
 _URL = re.compile(r'[a-z][a-z0-9+.-]*://.*|[\w.-]+@[\w.-]+:.*', re.IGNORECASE)
 
 
-def find_submissions(given: Sequence[str]) -> list[Submission]:
+def find_submissions(given: Sequence[str], *, taken: Iterable[str] = ()) -> list[Submission]:
     """
     Return the submissions in files, folders and exports, in the order given, then of their names.
 
@@ -37,9 +37,10 @@ def find_submissions(given: Sequence[str]) -> list[Submission]:
 
     :param given: paths: one submission, a folder of submissions, or an export of Moodle, Canvas or
         Gradescope, as a zip or unpacked.
+    :param taken: names that no id may be.
     """
     found = _newest(_without_forged(given, [_found_in(path) for path in given]))
-    names = folder_names([each.source.parent / each.id for each in found])
+    names = folder_names([each.source.parent / each.id for each in found], taken=taken)
     return [
         replace(each, id=name, notes=tuple(map(printable, each.notes)))
         for each, name in zip(found, names, strict=True)
