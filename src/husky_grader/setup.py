@@ -6,7 +6,9 @@ setup(
     name='husky_grader',
     version='0.1.0',
     packages=find_packages(exclude=['test']),
-    package_data={'husky_grader': ['report/*.css', 'report/*.jinja']},
+    package_data={
+        'husky_grader': ['outputs/*.css', 'outputs/*.jinja', 'report/*.css', 'report/*.jinja'],
+    },
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/husky_grader']),
         ('share/husky_grader', ['package.xml']),

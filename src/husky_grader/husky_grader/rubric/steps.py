@@ -30,11 +30,16 @@ class Step:
     @property
     def file_name(self) -> str:
         """The beginning of the names of its files."""
-        return re.sub(r'[^\w-]+', '_', self.name, flags=re.ASCII)
+        return file_name_of(self.name)
 
     def cost_percent(self, defect: str) -> float:
         """Return what a defect costs."""
         return float(getattr(self.costs, defect))
+
+
+def file_name_of(step: str) -> str:
+    """Return the beginning of the names of the files of a step."""
+    return re.sub(r'[^\w-]+', '_', step, flags=re.ASCII)
 
 
 @dataclass(frozen=True, kw_only=True)
