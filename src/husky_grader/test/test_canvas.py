@@ -193,3 +193,12 @@ def test_the_same_class_gives_the_same_archive(tmp_path: Path, everyone: list[Gr
         write_outputs(tmp_path / name, [*everyone, full(tar)], title='Lab')
         archives.append((tmp_path / name / 'feedback_for_canvas.zip').read_bytes())
     assert archives[0] == archives[1]
+
+
+def test_a_name_that_is_no_text_costs_nobody_the_feedback(tmp_path: Path) -> None:
+    files = (('student_5001_9001_\udcff.zip', '\udcff.zip'),)
+    one = replace(submission(1, 'Ann \udcff', lms='canvas'), files=files)
+    write_outputs(tmp_path, [full(one)], title='Lab')
+    with zipfile.ZipFile(tmp_path / 'feedback_for_canvas.zip') as archive:
+        assert archive.namelist() == ['student_5001_9001_?.zip']
+    assert r'Ann \xff' in (tmp_path / one.id / 'index.html').read_text()

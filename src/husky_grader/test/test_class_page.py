@@ -10,6 +10,8 @@ from urllib.parse import unquote
 
 from husky_course.printable import printable
 from husky_grader.graded import Graded, StepGrade
+from husky_grader.lab.drive_step import FOR_STAFF
+from husky_grader.lab.lab import BUILT
 from husky_grader.outputs import write_outputs, write_student_page
 from husky_grader.outputs.class_page import class_page
 from husky_grader.outputs.class_summary import summarize, without_names
@@ -140,16 +142,8 @@ def test_names_and_reasons_are_shown_and_never_obeyed() -> None:
 
 def test_a_student_sees_the_drives_but_no_hidden_one(tmp_path: Path) -> None:
     shown = ['drive_1', 'drive_2', 'drive_10']
-    # A student's own files, another program's, and what only the staff may see.
-    others = [
-        'handed_in',
-        'built',
-        'staff',
-        'staff/drive_3',
-        'driven',
-        'drive_x',
-        'handed_in/drive',
-    ]
+    # A student's own files, what only the staff may see, and other steps.
+    others = ['handed_in', BUILT, FOR_STAFF, f'{FOR_STAFF}/drive_3', 'driven', 'drive_x']
     for name in [*shown, *others]:
         (tmp_path / name).mkdir(parents=True, exist_ok=True)
         (tmp_path / name / 'report.html').write_text(name)

@@ -166,7 +166,8 @@ def _handed_file(submission: Submission) -> str:
     """Return the newest file that was handed in, as Canvas has named it."""
     if submission.lms != LMS or not submission.attempt:  # a text or a link has no number
         return ''
-    return PurePosixPath(submission.files[-1][0]).name
+    name = PurePosixPath(submission.files[-1][0]).name
+    return name.encode(errors='replace').decode()  # in a folder, it may be no text
 
 
 def _file(one: Graded, folder: Path) -> tuple[str, bytes]:
