@@ -141,6 +141,17 @@ def test_every_member_of_a_group_gets_its_grade(tmp_path: Path) -> None:
     assert any('turn feedback comments on' in note for note in notes)
 
 
+def test_what_two_groups_could_be_goes_to_neither(tmp_path: Path) -> None:
+    names = ('Team B', 'Team-B', 'Team A (1)')
+    everyone = [full(submission(k, name, lms='moodle')) for k, name in enumerate(names)]
+    notes = outputs(tmp_path, everyone, GROUPS).notes
+    rows = table(tmp_path / 'grades_for_moodle.csv')[1:]
+    assert [row[4] for row in rows] == ['10.00', '10.00', '', '']
+    assert any('claimed by several' in note and 'Dan Li' in note for note in notes)
+    with zipfile.ZipFile(tmp_path / 'feedback_for_moodle.zip') as archive:
+        assert [name.split('_')[1] for name in archive.namelist()] == ['31', '32']
+
+
 def test_who_was_refused_gets_a_comment_and_no_grade(
     tmp_path: Path, everyone: list[Graded]
 ) -> None:

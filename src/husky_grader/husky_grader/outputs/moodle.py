@@ -26,7 +26,7 @@ from husky_course.printable import printable
 from husky_grader.graded import Graded
 from husky_grader.outputs.class_summary import as_points
 from husky_grader.outputs.feedback import write_zip
-from husky_grader.outputs.matching import match, told
+from husky_grader.outputs.matching import match, Matching, told
 from husky_grader.outputs.sheet import like, number_in, Sheet
 from husky_grader.outputs.student_page import feedback_files, why_refused
 from husky_grader.submission import Submission
@@ -98,11 +98,22 @@ class MoodleWorksheet:
         """Tell whether a member of a group has handed it in; up to Moodle 4.0 each has a copy."""
         name = _letters(submission.name)
         is_copy = _participant(row) == submission.user and name == _letters(group + row[1])
-        return is_copy or name == _letters(group)
+        return bool(name) and (is_copy or name == _letters(group))
 
-    def participants(self, submission: Submission) -> list[str]:
-        """Return the numbers of those who have handed it in."""
-        return [_participant(self.sheet.rows[number]) for number in self.rows_of(submission)]
+    def matching(self, everyone: Sequence[Graded]) -> Matching:
+        """Return what gets into which row."""
+        rows_of = {one.submission.id: self.rows_of(one.submission) for one in everyone}
+        return match(everyone, rows_of, self._names())
+
+    def participants(self, everyone: Sequence[Graded]) -> dict[str, list[str]]:
+        """Return the numbers of those who have handed in each submission, by its id."""
+        numbers: dict[str, list[str]] = {one.submission.id: [] for one in everyone}
+        for row, one in self.matching(everyone).graded.items():
+            numbers[one.submission.id].append(_participant(self.sheet.rows[row]))
+        return numbers
+
+    def _names(self) -> dict[int, str]:
+        return {number: f'{row[1]} ({row[0]})' for number, row in enumerate(self.sheet.rows)}
 
     def filled(self, everyone: Sequence[Graded]) -> tuple[Sheet, list[str]]:
         """
@@ -111,9 +122,7 @@ class MoodleWorksheet:
         Who has handed in nothing, was refused or is locked gets no grade. A comment that somebody
         else has written stays.
         """
-        rows_of = {one.submission.id: self.rows_of(one.submission) for one in everyone}
-        names = {number: _named(row) for number, row in enumerate(self.sheet.rows)}
-        matching = match(everyone, rows_of, names)
+        matching, names = self.matching(everyone), self._names()
         rows = [list(row) for row in self.sheet.rows]
         refused, locked, changed, commented = [], [], [], []
         for number, one in matching.graded.items():
@@ -204,12 +213,12 @@ def write_moodle_feedback(
     :param worksheet: tells the members of groups; an export has only the numbers of groups.
     :raises OSError: when it cannot be written.
     """
-    numbers = {
-        one.submission.id: worksheet.participants(one.submission)
-        if worksheet
-        else [one.submission.user] * bool(one.submission.user)
-        for one in everyone
-    }
+    if worksheet is not None:
+        numbers = worksheet.participants(everyone)
+    else:
+        numbers = {
+            one.submission.id: list(filter(None, [one.submission.user])) for one in everyone
+        }
     write_zip(path, _files(everyone, folder, numbers))
     notes = told(
         f'not in {path.name}, for want of a participant',
@@ -238,10 +247,6 @@ def _files(
 def _participant(row: Sequence[str]) -> str:
     found = _NUMBER.fullmatch(row[0])
     return found[1] if found else ''
-
-
-def _named(row: Sequence[str]) -> str:
-    return f'{row[1]} ({row[0]})'
 
 
 def _letters(name: str) -> str:
