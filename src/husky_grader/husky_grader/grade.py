@@ -62,6 +62,11 @@ def _parser() -> argparse.ArgumentParser:
         help='where workspaces are built and run: auto, bwrap, podman, docker, kernel or none',
     )
     parser.add_argument(
+        '--gradebook',
+        metavar='FILE',
+        help="the table of Moodle or Canvas to fill in; a copy is written with the class's report",
+    )
+    parser.add_argument(
         '--rubric', metavar='FILE', help='what a lab asks for (that of the lab sheet)'
     )
     parser.add_argument(

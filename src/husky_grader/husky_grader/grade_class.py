@@ -19,16 +19,16 @@ from husky_grader.batch.dask_cluster import ADDRESS
 from husky_grader.batch.shards import parse_shard
 from husky_grader.batch.tables import names_of, table, write_csv
 from husky_grader.playpen import default_rubric
-from husky_grader.submission.names import folder_names
 
 if TYPE_CHECKING:  # they take their time
     from husky_grader.batch.batch import How
     from husky_grader.jail import Sandbox
+    from husky_grader.outputs import Gradebook
     from husky_grader.rubric.steps import Rubric
     from husky_grader.submission import Submission
 
 PASSED, NOT_PASSED = 0, 1
-OF_THE_CLASS = ('grades.csv',)  # what lies beside the folders of the submissions
+FEW_FILES = 8  # so many are told by their names
 
 
 def wrong_of_class(options: argparse.Namespace) -> str:
@@ -37,6 +37,10 @@ def wrong_of_class(options: argparse.Namespace) -> str:
     for option in ('shard', 'collect', 'executor'):
         if getattr(options, option) and one_run:
             return f'--{option} is for a class: give waypoint files, or --lab SUBMISSION...'
+    if options.gradebook and not options.lab:
+        return '--gradebook is for what was handed in: give --lab SUBMISSION...'
+    if options.gradebook and options.shard:
+        return '--gradebook needs the whole class: give it with --collect, or without --shard'
     if options.shard and options.collect:
         return '--shard grades a share, --collect puts shares together; give one of them'
     if options.executor and not options.executor.startswith(ADDRESS):
@@ -100,15 +104,20 @@ def grade_files(options: argparse.Namespace) -> int:
 def grade_labs(options: argparse.Namespace) -> int:
     """Grade what was handed in for a lab; return the exit code."""
     from husky_grader.jail import find_sandbox
+    from husky_grader.outputs import OUTPUT_FILES, read_gradebook
     from husky_grader.rubric.rubric_file import load_rubric
     from husky_grader.submission import find_submissions
 
     rubric = load_rubric(options.rubric or default_rubric())
-    submissions = find_submissions(_places(options.lab, options))
+    submissions = find_submissions(_places(options.lab, options), taken=OUTPUT_FILES)
+    gradebook = None
+    if options.gradebook:
+        gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
     sandbox = find_sandbox(options.sandbox)
-    if len(submissions) == 1 and not (options.shard or options.collect or options.executor):
+    of_a_class = options.shard or options.collect or options.executor or gradebook
+    if len(submissions) == 1 and not of_a_class:
         return _grade_lab(submissions[0], rubric, sandbox, options)
-    return _grade_labs(submissions, rubric, sandbox, options)
+    return _grade_labs(submissions, rubric, sandbox, gradebook, options)
 
 
 def _grade_lab(
@@ -118,6 +127,7 @@ def _grade_lab(
     from husky_grader.lab.lab import table as lab_table
     from husky_grader.lab_grading import grade_submission
     from husky_grader.lab_job import LAB_FILE, write_result
+    from husky_grader.outputs import write_student_page
 
     folder = Path(options.report)
     graded = grade_submission(
@@ -131,6 +141,7 @@ def _grade_lab(
     if graded.refused:
         raise ValueError(graded.refused)
     write_result(graded, rubric, folder)
+    write_student_page(folder, graded)
     if options.json:
         print((folder / LAB_FILE).read_text(encoding='utf-8'), end='')
     else:
@@ -142,18 +153,19 @@ def _grade_labs(
     submissions: Sequence[Submission],
     rubric: Rubric,
     sandbox: Sandbox,
+    gradebook: Gradebook | None,
     options: argparse.Namespace,
 ) -> int:
     """Grade a class."""
     from husky_grader.batch.batch import Batch
     from husky_grader.lab_job import LabJob
+    from husky_grader.outputs import write_outputs
 
     folder = Path(options.report)
     folder.mkdir(parents=True, exist_ok=True)
-    names = folder_names([Path(each.id) for each in submissions], taken=OF_THE_CLASS)
     every = [
-        LabJob(each, name, rubric, sandbox.name, options.real_time_factor)
-        for each, name in zip(submissions, names, strict=True)
+        LabJob(each, each.id, rubric, sandbox.name, options.real_time_factor)
+        for each in submissions
     ]
     jobs = parse_shard(options.shard or '1/1').of(every)
     with _Progress(len(jobs)) as progress:
@@ -174,6 +186,15 @@ def _grade_labs(
         for each in graded:
             print(each.line(width))
     lost = [outcome.refused for outcome in outcomes if outcome.unwritten]
+    try:
+        outputs = write_outputs(folder, graded, title=rubric.title, gradebook=gradebook)
+    except OSError as error:
+        lost.append(f'{error.filename or "the outputs"}: {error.strerror}')
+    else:
+        for note in outputs.notes:
+            _tell(note)
+        if not options.json:
+            print(printable('written: ' + ', '.join(map(str, outputs.files[:FEW_FILES]))))
     if _tell_lost(folder, lost, batch.unsealed):
         return BAD_INPUT
     return PASSED if all(each.is_full for each in graded) else NOT_PASSED
