@@ -113,7 +113,7 @@ def grade_labs(options: argparse.Namespace) -> int:
     gradebook = None
     if options.gradebook:
         gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
-    sandbox = find_sandbox(options.sandbox)
+    sandbox = None if rubric.is_of_files else find_sandbox(options.sandbox)
     of_a_class = options.shard or options.collect or options.executor or gradebook
     if len(submissions) == 1 and not of_a_class:
         return _grade_lab(submissions[0], rubric, sandbox, options)
@@ -121,7 +121,7 @@ def grade_labs(options: argparse.Namespace) -> int:
 
 
 def _grade_lab(
-    submission: Submission, rubric: Rubric, sandbox: Sandbox, options: argparse.Namespace
+    submission: Submission, rubric: Rubric, sandbox: Sandbox | None, options: argparse.Namespace
 ) -> int:
     """Grade one submission, and say each step that is done."""
     from husky_grader.lab.lab import table as lab_table
@@ -152,7 +152,7 @@ def _grade_lab(
 def _grade_labs(
     submissions: Sequence[Submission],
     rubric: Rubric,
-    sandbox: Sandbox,
+    sandbox: Sandbox | None,
     gradebook: Gradebook | None,
     options: argparse.Namespace,
 ) -> int:
@@ -163,10 +163,8 @@ def _grade_labs(
 
     folder = Path(options.report)
     folder.mkdir(parents=True, exist_ok=True)
-    every = [
-        LabJob(each, each.id, rubric, sandbox.name, options.real_time_factor)
-        for each in submissions
-    ]
+    name = sandbox.name if sandbox else ''
+    every = [LabJob(each, each.id, rubric, name, options.real_time_factor) for each in submissions]
     jobs = parse_shard(options.shard or '1/1').of(every)
     with _Progress(len(jobs)) as progress:
         batch = Batch(

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from husky_grader.graded import Graded
 from husky_grader.jail import Sandbox
-from husky_grader.lab.lab import grade_lab
+from husky_grader.lab.lab import grade_lab, grade_path
 from husky_grader.rubric.steps import Rubric, Step
 from husky_grader.submission import Refused, Submission, unpack
 
@@ -21,34 +21,48 @@ def grade_submission(
     rubric: Rubric,
     folder: Path,
     *,
-    sandbox: Sandbox,
-    real_time_factor: float,
-    done: Callable[[Step], None],
+    sandbox: Sandbox | None,
+    real_time_factor: float = 1.0,
+    done: Callable[[Step], None] = lambda _step: None,
+    alive: Callable[[], object] = lambda: None,
 ) -> Graded:
     """
     Grade one submission; the report goes to a folder of its own.
 
+    :param sandbox: where what was handed in is built and run; a rubric of files needs none.
     :param done: called after each step.
+    :param alive: called now and then.
     :raises OSError: when the report cannot be written.
     """
-    graded = Graded(submission, rubric.points, sandbox=sandbox.name, notes=submission.notes)
+    name = sandbox.name if sandbox else ''
+    graded = Graded(submission, rubric.points, sandbox=name, notes=submission.notes)
     try:
-        workspace = unpack(submission, folder / WORKSPACE)
+        given = unpack(submission, folder / WORKSPACE)
     except Refused as error:
         return replace(graded, refused=str(error))
-    graded = replace(graded, notes=(*submission.notes, *workspace.notes))
-    if workspace.kind != 'workspace':
-        why = f'{submission.place}: a waypoint file; a workspace with packages is asked for'
+    graded = replace(graded, notes=(*submission.notes, *given.notes))
+    if rubric.is_of_files != (given.kind == 'waypoints'):
+        asked = 'a waypoint file' if rubric.is_of_files else 'a workspace with packages'
+        here = 'a workspace' if rubric.is_of_files else 'a waypoint file'
+        why = f'{submission.place}: {here}; the rubric {rubric.title!r} asks for {asked}'
         return replace(graded, refused=why)
     try:
-        steps = grade_lab(
-            workspace.path,
-            rubric,
-            folder,
-            sandbox=sandbox,
-            real_time_factor=real_time_factor,
-            done=done,
-        )
+        if sandbox is None:
+            steps = grade_path(given.path, rubric, folder, done=alive)
+        else:
+
+            def did(step: Step) -> None:
+                done(step)
+                alive()
+
+            steps = grade_lab(
+                given.path,
+                rubric,
+                folder,
+                sandbox=sandbox,
+                real_time_factor=real_time_factor,
+                done=did,
+            )
     except ValueError as error:  # it must not stop the others
         return replace(graded, refused=f'{submission.place}: cannot be graded: {error}')
     return replace(graded, steps=steps)

@@ -35,7 +35,7 @@ def problems(*steps: str, file: str = 'rubric.yaml') -> list[str]:
 
 
 def test_every_rubric_of_the_lab_is_valid() -> None:
-    assert [load_rubric(path).points for path in RUBRICS] == [100.0, 100.0]
+    assert [load_rubric(path).points for path in RUBRICS] == [100.0] * 3
 
 
 def test_a_rubric_says_what_stands_in_the_file() -> None:
@@ -57,7 +57,8 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         'kind: package, name: package p',
     ) == [
         'rubric.yaml: line 4, column 12: steps[1].kind: publsher is not allowed; did you mean '
-        'publisher? allowed: workspace, package, build, publisher, subscriber, service, drive',
+        'publisher? allowed: workspace, package, build, publisher, subscriber, service, '
+        'drive, path',
         'rubric.yaml: line 5, column 77: steps[2].type: std_msgs/msg/Sring is no type that is '
         'installed here; did you mean std_msgs/msg/String?',
         'rubric.yaml: line 5, column 97: steps[2]: rate is no field; did you mean rate_hz? '

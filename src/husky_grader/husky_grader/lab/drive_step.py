@@ -18,11 +18,12 @@ from husky_grader.jail import Jail
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.live_steps import command_of
 from husky_grader.report.files import write_report
-from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveStep
+from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveStep
 from husky_grader.run.live import drive_live
 from husky_grader.scoring.report import judge, Report
 
 COURSE_FILE = 'course.yaml'
+LEAST = 0.05  # points that are worth a word
 FOR_STAFF = 'staff'
 """The folder, in a report, of what students must not see: the drives of hidden courses."""
 
@@ -81,32 +82,50 @@ def drive_step(step: DriveStep, runner: DriveRunner, workspace: Path, folder: Pa
         name = step.file_name if len(step.courses) == 1 else f'{step.file_name}_{number}'
         place = folder / FOR_STAFF / name if course.hidden else folder / name
         report = runner.drive(step, course, workspace, place)
-        exceeded = _exceeded(step, report)
-        cost = sum(map(step.cost_percent, exceeded))
+        over = exceeded(
+            step.limits,
+            collisions=len(report.collisions),
+            off_path_m=report.cross_track_rms_m,
+            time_sec=report.sim_time_sec,
+        )
+        cost = sum(map(step.cost_percent, over))
         score += max(report.score - cost, 0.0) * course.share / whole
         reasons = _numbers(report) if course.hidden else report.reasons
-        told = '; '.join([*exceeded.values(), *reasons])
+        told = '; '.join([*over.values(), *reasons])
         one = f'{report.course}: {told}' if len(step.courses) > 1 or course.hidden else told
-        lines.append(one if told else f'{report.course} passed')
+        costs = {part.why: part.cost_points for part in report.parts}
+        lines.append(one if told else passed(report.course, costs))
     return Finding('; '.join(lines), score=score)
 
 
-def _exceeded(step: DriveStep, report: Report) -> dict[str, str]:
-    """Return which limits of the step a drive has exceeded, and by what."""
-    limits = step.limits
-    exceeded = {}
-    touches = len(report.collisions)
-    if limits.collisions is not None and touches > limits.collisions:
-        exceeded['collisions'] = f'{touches} collisions, {limits.collisions:g} are allowed'
-    rms_m = report.cross_track_rms_m
-    if limits.off_path_m is not None and rms_m > limits.off_path_m:
-        exceeded['off_path_m'] = (
-            f'{rms_m:.3f} m RMS off the path, {limits.off_path_m:g} m are allowed'
+def passed(course: str, costs: Mapping[str, float]) -> str:
+    """
+    Return what is said of a drive that is passed.
+
+    :param costs: points that it lost, by the reasons.
+    """
+    lost = [f'{why} costs {points:.1f} points' for why, points in costs.items() if points > LEAST]
+    return '; '.join([f'{course} passed', *lost])
+
+
+def exceeded(
+    limits: DriveLimits, *, collisions: int, off_path_m: float, time_sec: float
+) -> dict[str, str]:
+    """
+    Return which limits a drive has exceeded, and by what.
+
+    :param off_path_m: root of the mean square.
+    """
+    found = {}
+    if limits.collisions is not None and collisions > limits.collisions:
+        found['collisions'] = f'{collisions} collisions, {limits.collisions:g} are allowed'
+    if limits.off_path_m is not None and off_path_m > limits.off_path_m:
+        found['off_path_m'] = (
+            f'{off_path_m:.3f} m RMS off the path, {limits.off_path_m:g} m are allowed'
         )
-    needed_sec = report.sim_time_sec
-    if limits.time_sec is not None and needed_sec > limits.time_sec:
-        exceeded['time_sec'] = f'{needed_sec:.1f} s, {limits.time_sec:g} s are allowed'
-    return exceeded
+    if limits.time_sec is not None and time_sec > limits.time_sec:
+        found['time_sec'] = f'{time_sec:.1f} s, {limits.time_sec:g} s are allowed'
+    return found
 
 
 def _numbers(report: Report) -> tuple[str, ...]:

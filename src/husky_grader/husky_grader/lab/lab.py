@@ -16,10 +16,12 @@ from husky_grader.lab.drive_step import drive_step, DriveRunner
 from husky_grader.lab.file_steps import package_step, PackageMissing, workspace_step
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.live_steps import live_step, ObserverFailed
+from husky_grader.lab.path_step import path_step
 from husky_grader.rubric.steps import (
     BuildStep,
     DriveStep,
     PackageStep,
+    PathStep,
     ProgramStep,
     Rubric,
     Step,
@@ -58,6 +60,24 @@ def grade_lab(
         for step in rubric.steps:
             findings[step.name] = grading.find(step)
             done(step)
+    return list(_with_needs(rubric.steps, findings))
+
+
+def grade_path(
+    file: Path, rubric: Rubric, folder: Path, *, done: Callable[[], object] = lambda: None
+) -> list[StepGrade]:
+    """
+    Grade a waypoint file, by a rubric for such files.
+
+    :param folder: of the report.
+    :param done: called with every second of simulated time.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    findings = {
+        step.name: path_step(step, file, folder, alive=done)
+        for step in rubric.steps
+        if isinstance(step, PathStep)
+    }
     return list(_with_needs(rubric.steps, findings))
 
 

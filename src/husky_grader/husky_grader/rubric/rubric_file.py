@@ -23,6 +23,7 @@ from husky_grader.rubric.mistakes import mistakes_of
 from husky_grader.rubric.steps import (
     BuildStep,
     PackageStep,
+    PathStep,
     ProgramStep,
     Rubric,
     Step,
@@ -104,10 +105,13 @@ class _RubricReader(FieldReader):
 
     def _check_together(self, steps: Sequence[Step], places: Sequence[Value]) -> None:
         """Check what the steps say of each other."""
-        built = False
+        built, of_files = False, all(isinstance(step, PathStep) for step in steps)
         counts = Counter(step.file_name for step in steps)
         for number, (step, place) in enumerate(zip(steps, places, strict=True)):
             name = f'steps[{number}]'
+            if isinstance(step, PathStep) and not of_files:
+                why = 'it is for a waypoint file; a rubric has only such steps, or none'
+                self.wrong(place, name, why)
             if counts[step.file_name] > 1:
                 why = f'{step.name} is the name of another step, too; give each its own'
                 self.wrong(_at(place, 'name'), f'{name}.name', why)

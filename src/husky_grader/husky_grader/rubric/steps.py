@@ -209,12 +209,41 @@ class DriveStep(ProgramStep):
 
 
 @dataclass(frozen=True, kw_only=True)
+class PathCosts(DriveCosts):
+    passes: float = 100.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """A point of the frame odom, in metres."""
+
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PathStep(Step):
+    """A waypoint file that was handed in; the lab's driver follows it, and its score counts."""
+
+    kind = 'path'
+    passes: tuple[Place, ...] = ()  # in this order
+    within_m: float = 0.5
+    limits: DriveLimits = DriveLimits()
+    costs: PathCosts = PathCosts()
+
+
+@dataclass(frozen=True, kw_only=True)
 class Rubric:
     """What a lab asks for, step by step."""
 
     title: str
     steps: tuple[Step, ...]
     file: Path = field(default=Path(), compare=False)
+
+    @property
+    def is_of_files(self) -> bool:
+        """Whether it is for waypoint files, and not for workspaces."""
+        return all(isinstance(step, PathStep) for step in self.steps)
 
     @property
     def points(self) -> float:

@@ -21,6 +21,9 @@ from husky_grader.rubric.steps import (
     FieldCheck,
     PackageCosts,
     PackageStep,
+    PathCosts,
+    PathStep,
+    Place,
     PublisherCosts,
     PublisherStep,
     Rubric,
@@ -141,6 +144,15 @@ _COURSE = Table(
     },
     ('file',),
 )
+_PLACE = Table(
+    'point',
+    Place,
+    {
+        'x': Field('x', 'm in the frame odom.', number(-1000, 1000), 'm'),
+        'y': Field('y', 'm in the frame odom.', number(-1000, 1000), 'm'),
+    },
+    ('x', 'y'),
+)
 _LIMITS = Table(
     'list of limits',
     DriveLimits,
@@ -157,6 +169,14 @@ _LIMITS = Table(
         ),
     },
 )
+
+
+_LIMITED = {'limits': Field('limits', 'What no drive may exceed.', _MAPPING, table=_LIMITS)}
+_EXCEEDED = {
+    'collisions': 'more collisions than allowed',
+    'off_path_m': 'further off the path than allowed',
+    'time_sec': 'longer than allowed',
+}
 
 
 def _table(made: type[Step], more: Mapping[str, Field], *required: str) -> Table:
@@ -267,15 +287,30 @@ STEPS = {
                     'courses', 'What is driven.', _list(), table=_COURSE, example='- file: ...'
                 ),
                 'answers': Field('answers', 'What is typed into a program that asks.', _texts(1)),
-                'limits': Field('limits', 'What no drive may exceed.', _MAPPING, table=_LIMITS),
-                'costs': _costs(
-                    DriveCosts,
-                    collisions='more collisions than allowed',
-                    off_path_m='further off the path than allowed',
-                    time_sec='longer than allowed',
-                ),
+                **_LIMITED,
+                'costs': _costs(DriveCosts, **_EXCEEDED),
             },
             *('executable', 'courses'),
+        ),
+        _table(
+            PathStep,
+            {
+                **_STEP,
+                'passes': Field(
+                    'passes',
+                    'Points that the path must pass, in this order.',
+                    _list(),
+                    table=_PLACE,
+                    example='- {x: 1.0, y: 2.0}',
+                ),
+                'within': Field(
+                    'within_m', 'm from these points that are near enough.', number(0.05, 10), 'm'
+                ),
+                **_LIMITED,
+                'costs': _costs(
+                    PathCosts, passes='the path leaves out one of the points', **_EXCEEDED
+                ),
+            },
         ),
     )
 }

@@ -1,0 +1,68 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A class that hands in waypoint files, graded by a rubric for such files."""
+
+import json
+from pathlib import Path
+import shutil
+
+from husky_grader.grade import main as grade
+from husky_grader.playpen import config_folder, default_course
+from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
+import pytest
+
+RUBRIC = config_folder() / 'rubrics' / 'path.yaml'
+STEP = '{kind: path, points: 100, passes: [{x: 1, y: 0}, {x: 0, y: 0}], within: 0.2}'
+
+
+@pytest.fixture(autouse=True)
+def state(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep the grader's secret away from the user's own; and there is no sandbox at all."""
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path_factory.mktemp('state')))
+    monkeypatch.setenv('PATH', '')
+
+
+def test_a_class_of_waypoint_files_is_graded_without_a_sandbox(tmp_path: Path) -> None:
+    handed_in, report = tmp_path / 'handed_in', tmp_path / 'report'
+    handed_in.mkdir()
+    shutil.copyfile(default_course(), handed_in / 'ann.yaml')
+    (handed_in / 'bob.yaml').write_text('waypoints: [[0, 0], [-1, 0]]\n')
+    (handed_in / 'cem.yaml').write_text('speed: fast\n')
+    (handed_in / 'dan' / 'src' / 'p').mkdir(parents=True)
+    (handed_in / 'dan' / 'src' / 'p' / 'package.xml').write_text('<package/>')
+    command = ['--lab', str(handed_in), '--rubric', str(RUBRIC), '--report', str(report)]
+    assert grade(command) == 1
+    ann, bob, cem, dan = json.loads((report / 'grades.json').read_text())['submissions']
+    assert (ann['points'], ann['refused']) == (100.0, None)
+    assert bob['points'] == pytest.approx(40.0)
+    assert bob['steps'][0]['why'].startswith(
+        'the path leaves out (4.1, -3.2): it comes no nearer than 5.20 m, allowed are 1 m'
+    )
+    assert (cem['points'], cem['refused']) == (0.0, None)
+    assert cem['steps'][0]['why'].startswith('line 1, column 1: waypoints: missing')
+    assert dan['refused'].endswith(
+        "a workspace; the rubric 'A path around the central barrier' asks for a waypoint file"
+    )
+    assert (report / 'ann' / 'path' / 'report.html').is_file()
+
+
+@pytest.mark.parametrize(
+    ('course', 'points'),
+    [
+        ('waypoints: [[0, 0], [1, 0], [0, 0]]', 100.0),
+        ('waypoints: [[0, 0], [1, 0]]', 0.0),  # not back again
+    ],
+)
+def test_points_count_in_their_order(tmp_path: Path, course: str, points: float) -> None:
+    (tmp_path / 'rubric.yaml').write_text(f'title: There and back\nsteps:\n  - {STEP}\n')
+    (tmp_path / 'handed_in.yaml').write_text(course)
+    report = tmp_path / 'report'
+    command = ['--lab', str(tmp_path / 'handed_in.yaml'), '--report', str(report)]
+    grade([*command, '--rubric', str(tmp_path / 'rubric.yaml')])
+    assert json.loads((report / 'lab.json').read_text())['score'] == pytest.approx(points)
+
+
+def test_a_rubric_is_for_files_or_for_workspaces() -> None:
+    assert load_rubric(RUBRIC).is_of_files
+    with pytest.raises(ValueError, match=r'steps\[0\]: it is for a waypoint file; a rubric has'):
+        parse_rubric(f'title: Both\nsteps:\n  - {STEP}\n  - {{kind: build, points: 1}}\n')

@@ -1,0 +1,97 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The files in docs/large_classes, run as they are with a share for each of two machines."""
+
+from collections.abc import Mapping
+import os
+from pathlib import Path
+import shutil
+import subprocess
+from typing import Any
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[1]
+FILES = ROOT / 'docs' / 'large_classes'
+SECRET = {'HUSKY_GRADING_SECRET': 'b' * 32}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Return a folder with an export of Moodle, and with the lab as the machines see it."""
+    for number, name in enumerate(('Ann Lee', 'Bob Roy')):
+        place = tmp_path / 'handed_in' / f'{name}_{1000 + number}_assignsubmission_file'
+        place.mkdir(parents=True)
+        (place / 'path.yaml').write_text('waypoints: [[0, 0], [-0.5, 0]]\n')
+    shutil.make_archive(str(tmp_path / 'submissions'), 'zip', tmp_path / 'handed_in')
+    # The class is one of waypoint files, for which there is nothing to build.
+    rubric = ROOT / 'config' / 'rubrics' / 'path.yaml'
+    (tmp_path / 'lab').write_text(
+        f'#!/usr/bin/env bash\nexec python3 -m husky_grader.grade "${{@:2}}" --rubric {rubric}\n'
+    )
+    (tmp_path / 'lab').chmod(0o755)
+    return tmp_path
+
+
+def run(text: str, folder: Path, variables: Mapping[str, str]) -> subprocess.CompletedProcess[str]:
+    done = subprocess.run(
+        ['bash', '-euc', text],
+        cwd=folder,
+        env={**os.environ, 'XDG_STATE_HOME': str(folder / 'state'), **variables},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def read(name: str) -> dict[Any, Any]:
+    """Return a YAML file; there, `on` is a truth value, as in every YAML 1.1."""
+    content: dict[Any, Any] = yaml.safe_load((FILES / name).read_text())
+    return content
+
+
+def check(folder: Path, collect: str) -> None:
+    """Collect, and see that nothing was graded again."""
+    shards = sorted(folder.glob('shards/*/*/lab.json'))
+    assert len(shards) == 2, sorted(map(str, folder.rglob('*')))
+    times = [path.stat().st_mtime_ns for path in shards]
+    done = run(collect, folder, SECRET)
+    assert [line.split()[0] for line in done.stdout.splitlines()[:2]] == ['Ann', 'Bob']
+    collected = sorted(folder.glob('class/*/lab.json'))
+    assert sorted(path.stat().st_mtime_ns for path in collected) == sorted(times)
+
+
+COLLECT = './lab grade --lab submissions.zip --report class --collect shards/* || (($? == 1))'
+
+
+def test_the_slurm_array_grades_a_class(folder: Path) -> None:
+    text = (FILES / 'slurm.sbatch').read_text()
+    assert '$LAB/lab grade --lab $HANDED_IN --report class --collect $SHARDS/*' in text
+    given = {'LAB': '.', 'HANDED_IN': 'submissions.zip', 'SHARDS': 'shards', **SECRET}
+    for number in ('1', '2'):
+        task = {'SLURM_ARRAY_TASK_ID': number, 'SLURM_ARRAY_TASK_COUNT': '2'}
+        run(text, folder, {**given, **task})
+    check(folder, COLLECT)
+
+
+def test_the_kubernetes_job_grades_a_class(folder: Path) -> None:
+    spec = read('kubernetes.yaml')['spec']
+    (container,) = spec['template']['spec']['containers']
+    names = {each['name']: each.get('value') for each in container['env']}
+    assert names['COUNT'] == str(spec['completions'])
+    assert 'HUSKY_GRADING_SECRET' in names
+    for index in ('0', '1'):
+        pod = {'JOB_COMPLETION_INDEX': index, 'COUNT': '2', 'CLASS': '.', **SECRET}
+        run(container['command'][-1], folder, pod)
+    check(folder, COLLECT)
+
+
+def test_the_matrix_of_github_grades_a_class(folder: Path) -> None:
+    jobs = read('github_matrix.yml')['jobs']
+    (share,) = (step for step in jobs['grade']['steps'] if 'run' in step)
+    (together,) = (step for step in jobs['collect']['steps'] if 'run' in step)
+    for number in ('1', '2'):
+        run(share['run'], folder, {'SHARD': number, 'COUNT': '2', **SECRET})
+    check(folder, together['run'])
