@@ -71,7 +71,7 @@ def victim(tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
 def attack(sandbox: Sandbox, folder: Path, *words: str) -> str:
     """Run attacks in a jail and return what they say."""
     log = folder.with_name('log')
-    with Jail(sandbox, folder) as jail:
+    with Jail(sandbox, folder, readable=[PROGRAM]) as jail:
         exit_code = jail.run([sys.executable, str(PROGRAM), *words], log=log, within_sec=30.0)
     said = log.read_text()
     assert exit_code == 0, said

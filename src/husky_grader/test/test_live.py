@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 import json
+import os
 from pathlib import Path
 import subprocess
 import sys
@@ -16,6 +17,7 @@ from husky_grader.run.live import drive_live, LiveRun, Progress
 from husky_grader.run.told import Told
 import pytest
 
+ROOT = Path(__file__).resolve().parents[3]
 COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n'
 FOLLOWS = """
 import sys
@@ -116,8 +118,13 @@ def drive_in_jail(
     (theirs / 'student.py').write_text(program)
     (theirs / 'course.yaml').write_text(COURSE)
     command = f'{sys.executable} {theirs}/student.py'
-    with Jail(find_sandbox('auto'), theirs) as jail:
-        return drive_live(command, course, folder, jail, on_progress=on_progress)
+    # The lab's own driver, which is not there for students, as one that answers.
+    ours = [path for path in map(Path, sys.path) if path.is_dir()] + [ROOT / 'src']
+    environment = {'PYTHONPATH': os.environ['PYTHONPATH']}
+    with Jail(find_sandbox('auto'), theirs, readable=ours) as jail:
+        return drive_live(
+            command, course, folder, jail, environment=environment, on_progress=on_progress
+        )
 
 
 def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_path: Path) -> None:

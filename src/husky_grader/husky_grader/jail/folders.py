@@ -25,11 +25,16 @@ _ETC = (
     *('group', 'hosts', 'nsswitch.conf', 'passwd', 'protocols', 'services', 'os-release'),
     *('locale.alias', 'locale.conf', 'localtime', 'mime.types', 'timezone'),
 )
-# The folders of the clone that hold the lab; what else lies there may be reports of others.
-_LAB = ('.venv', 'build', 'config', 'install', 'src', 'underlay', 'worlds')
+# The folders of the clone by which ROS runs; what else lies there may be reports of others.
+_ROS = ('.venv', 'underlay')
 _CLONE = Path(__file__).resolve().parents[4]
+# The lab's own packages: there are solutions among them, and how they are judged.
+_OWN_PACKAGES = (
+    *('husky_course', 'husky_driver', 'husky_grader', 'husky_runtime', 'husky_sim', 'husky_view'),
+    'topic_demo',
+)
 
-# Variables that the lab's programs read, and no other: among those are tokens and passwords.
+# Variables that programs of ROS read, and no other: among those are tokens and passwords.
 _ALLOWED = (
     *('PATH', 'LANG', 'LANGUAGE', 'LC_*', 'TZ', 'LD_LIBRARY_PATH', 'VIRTUAL_ENV'),
     *('PYTHONPATH', 'PYTHONUTF8', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE'),
@@ -38,7 +43,9 @@ _ALLOWED = (
     *('RMW_IMPLEMENTATION', 'FASTRTPS_DEFAULT_PROFILES_FILE', 'HUSKY_LAB_ROS'),
     '_ROS_WHEELS_BOOTSTRAP_COMPLETE',
 )
-_PATHS = ('AMENT_PREFIX_PATH', 'PYTHONPATH', 'LD_LIBRARY_PATH')  # these lead to what is read
+# These lead to what is read.
+_PATHS = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'PYTHONPATH')
+_LIBRARIES, _PROFILES = 'LD_LIBRARY_PATH', 'FASTRTPS_DEFAULT_PROFILES_FILE'
 
 
 class Mount(NamedTuple):
@@ -66,7 +73,7 @@ def mounts_of(folder: Path, readable: Iterable[Path], limits: Limits) -> list[Mo
 
 def read_mounts(readable: Iterable[Path]) -> list[Mount]:
     """Return what can only be read in a jail: the system, the lab, and more."""
-    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *_lab(), *readable}
+    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *_ros(), *readable}
     ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
     return [
         Mount('read', str(way.resolve()), str(way))
@@ -75,14 +82,25 @@ def read_mounts(readable: Iterable[Path]) -> list[Mount]:
     ]
 
 
-def _lab() -> set[Path]:
-    """Return where the lab's programs are read from, and the Python by which they run."""
+def _ros() -> set[Path]:
+    """Return where ROS is read from, and the Python by which programs run."""
     found = {INSIDE.parent, Path(sys.prefix), Path(sys.base_prefix), *_links_of(sys.executable)}
-    found |= {_CLONE / name for name in _LAB}
-    for variable in _PATHS:
-        found |= {Path(entry) for entry in os.environ.get(variable, '').split(':')}
+    found |= {_CLONE / name for name in _ROS}
+    for variable in (*_PATHS, _LIBRARIES, _PROFILES):
+        found |= {Path(entry) for entry in _without_own(os.environ.get(variable, ''))}
     home = Path.home()
     return {path for path in found if path.is_absolute() and not home.is_relative_to(path)}
+
+
+def _without_own(entries: str) -> list[str]:
+    """Return the entries of a list of folders that hold none of the lab's own packages."""
+    return [entry for entry in entries.split(':') if entry and not _holds_own(Path(entry))]
+
+
+def _holds_own(folder: Path) -> bool:
+    return any(
+        (folder / place / name).is_dir() for name in _OWN_PACKAGES for place in ('', 'share')
+    )
 
 
 def _links_of(program: str) -> list[Path]:
@@ -94,12 +112,14 @@ def _links_of(program: str) -> list[Path]:
 
 
 def environment_for(folder: Path, given: Mapping[str, str]) -> dict[str, str]:
-    """Return what a jailed program starts with: variables of the lab, a home, and the given."""
+    """Return what a jailed program starts with: variables of ROS, a home, and the given."""
     allowed = {
         name: value
         for name, value in os.environ.items()
         if any(fnmatchcase(name, pattern) for pattern in _ALLOWED)
     }
+    for name in allowed.keys() & set(_PATHS):
+        allowed[name] = ':'.join(_without_own(allowed[name]))
     own = {'HOME': str(home_of(folder)), 'USER': 'student', 'LOGNAME': 'student'}
     return {**allowed, **own, **given}
 

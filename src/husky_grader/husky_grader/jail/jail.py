@@ -19,7 +19,8 @@ class Jail:
     Runs programs that nobody knows; a context manager that ends all of them.
 
     Each command has processes, /tmp and /dev/shm of its own. The folder and the network are those
-    of the jail; the lab and the system can be read, and there is nothing else.
+    of the jail; the system and ROS can be read, and there is nothing else: not the lab's own
+    packages either, because there are solutions among them.
 
     :param folder: what the programs may write, at the same path as outside; their home is in it.
     :param readable: files and folders that they may read besides.
@@ -78,7 +79,7 @@ class Jail:
         """
         Start a command in the folder; the jail ends it at last.
 
-        :param environment: besides the lab's, and nothing that others must not know.
+        :param environment: besides that of ROS, and nothing that others must not know.
         :param log: for what it prints; not in the folder.
         :param answers: what it reads from its standard input.
         :raises OSError: if the log cannot be written.
