@@ -47,6 +47,13 @@ for _ in range(4):
         time.sleep(600)
 time.sleep(600)
 """
+HIDES = """
+import os, time
+hoard = [os.memfd_create('hoard') for _ in range(4)]
+for file in hoard:
+    os.write(file, bytes(60_000_000))
+time.sleep(600)
+"""
 GRADER = """
 import os, sys, time
 import os
@@ -170,13 +177,14 @@ def test_a_fork_bomb_stays_in_its_jail(sandbox: Sandbox, tmp_path: Path, mark: s
     assert running(mark) == []
 
 
+@pytest.mark.parametrize('program', [EATS, HIDES], ids=['in processes', 'in nameless files'])
 @in_each_way
 def test_memory_over_its_limit_ends_only_who_took_it(
-    sandbox: Sandbox, tmp_path: Path, mark: str
+    sandbox: Sandbox, tmp_path: Path, mark: str, program: str
 ) -> None:
     with jail_in(sandbox, tmp_path, Limits(memory_mb=150)) as jail:
         other = jail.start(python(SLEEPING, mark), log=tmp_path / 'other')
-        eater = jail.start(python(EATS, mark), log=tmp_path / 'log')
+        eater = jail.start(python(program, mark), log=tmp_path / 'log')
         assert eater.wait(10.0)
         assert other.exit_code is None
     assert eater.exit_code == -signal.SIGKILL

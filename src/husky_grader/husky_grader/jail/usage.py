@@ -3,6 +3,8 @@
 """How much jailed programs use, of what the kernel limits only for each process by itself."""
 
 from collections.abc import Callable, Iterable
+from contextlib import suppress
+import errno
 import os
 from pathlib import Path
 import time
@@ -38,11 +40,15 @@ class Usage:
 
 def _overuse(processes: Iterable[psutil.Process], limits: Limits) -> str:
     """Return in words what processes use too much of; nothing if they do not."""
-    memory, tasks = 0, 0
+    own, shared, tasks = 0, 0, 0
+    nameless: dict[int, int] = {}
     for process in processes:
         used = _status_of(process.pid)
-        memory += (used.get('RssAnon', 0) + used.get('RssShmem', 0)) * _KIB
+        own += used.get('RssAnon', 0) * _KIB
+        shared += used.get('RssShmem', 0) * _KIB
         tasks += used.get('Threads', 0)
+        nameless |= _nameless_files(process.pid)
+    memory = own + max(shared, sum(nameless.values()))  # some of these are mapped, too
     if memory > limits.memory_mb * MB:
         return f'used {memory // MB} MB of memory; {limits.memory_mb} MB are allowed'
     if tasks > limits.tasks:
@@ -62,6 +68,18 @@ def _status_of(pid: int) -> dict[str, int]:
     return {each[0][:-1]: int(each[1]) for each in words if len(each) > 1 and each[1].isdigit()}
 
 
+def _nameless_files(pid: int) -> dict[int, int]:
+    """Return the bytes of each file in memory that a process has open and nobody can see."""
+    found = {}
+    with suppress(OSError):  # it has ended
+        for link in Path(f'/proc/{pid}/fd').iterdir():
+            with suppress(OSError):  # closed meanwhile
+                if str(link.readlink()).startswith('/memfd:'):
+                    status = link.stat()
+                    found[status.st_ino] = status.st_blocks * _BLOCK_BYTES
+    return found
+
+
 def _overfull(folder: Path, limits: Limits) -> str:
     """Return in words what a folder holds too much of; nothing if it does not."""
     size, files, folders = 0, 0, [str(folder)]
@@ -79,6 +97,8 @@ def _overfull(folder: Path, limits: Limits) -> str:
                         folders.append(entry.path)
         except PermissionError:
             return 'closed a folder of its own to everybody'
-        except OSError:  # removed meanwhile
-            continue
+        except OSError as error:
+            if error.errno == errno.ENAMETOOLONG:
+                return 'made folders too deep in each other'
+            continue  # removed meanwhile
     return ''
