@@ -9,6 +9,9 @@ from husky_course.frames import Array
 
 Value = TypeVar('Value')
 
+MAX_RATE = 1e3
+"""Of speeds and yaw rates, m/s and rad/s; who asks for more is recorded as asking for so much."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Columns(Generic[Value]):

@@ -13,7 +13,7 @@ import numpy as np
 from husky_course.frames import Array
 from husky_course.outline import least_clearance, Outline
 from husky_course.record.blocks import read_blocks
-from husky_course.record.contents import Collision, COLUMNS, Disturbance, Push
+from husky_course.record.contents import Collision, COLUMNS, Disturbance, MAX_RATE, Push
 from husky_course.record.writer import FILE_NAME, FORMAT, VERSION
 from husky_course.robot import RobotStart
 
@@ -21,8 +21,6 @@ MAX_SPEED_M_S = 3.0
 """Three times what the wheels can do: faster is no Husky."""
 MAX_POSITION_M = 1e6
 MAX_YAW_RAD = 1e6
-MAX_RATE = 1e3
-"""Of speeds and yaw rates, asked or driven, m/s and rad/s."""
 MAX_OBSTACLES = 10_000
 
 _BOUNDS = {

@@ -7,11 +7,12 @@ from pathlib import Path
 from types import TracebackType
 
 from husky_course.frames import Indices
-from husky_course.record import Disturbance, RecordWriter, Row
+from husky_course.record import Disturbance, MAX_RATE, RecordWriter, Row
 import numpy as np
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import SettingError
+from husky_sim.robot.diff_drive import limited
 from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world.world import World
 
@@ -176,6 +177,6 @@ def _row(robot: SimulatedRobot, time_sec: float) -> Row:
         odom_yaw=filtered.yaw,
         speed_m_s=state.velocity[0],
         yaw_rate_rad_s=state.angular_velocity[2],
-        command_speed_m_s=controller.asked_speed_m_s,
-        command_yaw_rate_rad_s=controller.asked_yaw_rate_rad_s,
+        command_speed_m_s=limited(controller.asked_speed_m_s, MAX_RATE),
+        command_yaw_rate_rad_s=limited(controller.asked_yaw_rate_rad_s, MAX_RATE),
     )
