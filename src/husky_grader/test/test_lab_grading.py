@@ -21,6 +21,7 @@ from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.live_steps import live_step
+from husky_grader.lab.programs import Programs
 from husky_grader.playpen import default_rubric
 from husky_grader.rubric.rubric_file import load_rubric
 from husky_grader.rubric.steps import (
@@ -131,10 +132,13 @@ def built(folder: Path, package: str, executable: str, program: str) -> Path:
     return folder / 'workspace'
 
 
+def programs_of(workspace: Path) -> Programs:
+    return Programs(workspace, workspace.with_name('built'), os.environ, find_sandbox('none'))
+
+
 def found_of(step: PublisherStep | SubscriberStep, folder: Path, program: str) -> Finding:
     workspace = built(folder, step.package, step.executable, program)
-    with open_jail(folder / 'built') as jail:
-        return live_step(step, workspace, jail, os.environ, folder / 'log')
+    return live_step(step, programs_of(workspace), folder / 'log')
 
 
 @pytest.mark.parametrize(('period_sec', 'defects'), [(0.1, set()), (0.2, {'rate'})])
@@ -261,9 +265,8 @@ def test_a_hidden_course_is_known_by_its_title_only(tmp_path: Path) -> None:
         limits=DriveLimits(time_sec=1.0),
     )
     workspace = built(tmp_path, 'my_driver', 'follow_path', FOLLOW_PATH % sys.executable)
-    with open_jail(tmp_path / 'built') as jail:
-        drives = DriveRunner(jail, os.environ, real_time_factor=4.0)
-        found = drive_step(step, drives, workspace, tmp_path / 'report')
+    drives = DriveRunner(programs_of(workspace), real_time_factor=4.0)
+    found = drive_step(step, drives, tmp_path / 'report')
     report = json.loads((tmp_path / 'report' / 'staff' / 'drive' / 'report.json').read_text())
     assert found.score == max(report['score'] - 50.0, 0.0)
     assert found.why.startswith('course A: ')

@@ -12,6 +12,7 @@ from husky_grader.jail.find import find_sandbox, SANDBOXES
 from husky_grader.jail.jail import Jail
 from husky_grader.jail.limits import Limits
 from husky_grader.jail.process import JailedProcess
+from husky_grader.jail.removal import remove
 from husky_grader.jail.sandbox import NoSandbox, Sandbox
 
 __all__ = [
@@ -22,4 +23,5 @@ __all__ = [
     'NoSandbox',
     'Sandbox',
     'find_sandbox',
+    'remove',
 ]

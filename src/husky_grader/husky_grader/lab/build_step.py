@@ -15,10 +15,8 @@ from husky_grader.run.diagnosis import crash
 BUILD_WITHIN_SEC = 300.0
 SOURCE_WITHIN_SEC = 60.0
 NO_PROGRAM = 127  # as a shell says it
-
-
-class ProgramMissing(ValueError):
-    """There is no such executable; the message says what there is."""
+MAX_VARIABLES = 30_000  # bytes, of all of them together; Linux starts no program with too many
+_OF_THE_SHELL = ('HOME', 'PWD', 'OLDPWD', 'SHLVL', '_')  # each program has its own
 
 
 def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
@@ -29,7 +27,10 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
     command += ['--base-paths', str(workspace / 'src')]
     command += ['--build-base', str(jail.folder / 'build')]
     command += ['--install-base', str(jail.folder / 'install')]
-    exit_code = jail.run(command, log=log, within_sec=BUILD_WITHIN_SEC)
+    with jail.started(command, log=log) as build:
+        exit_code = build.exit_code if build.wait(BUILD_WITHIN_SEC) else None
+    if build.stopped:
+        return nothing(f'colcon build was ended: it {build.stopped}')
     if exit_code == NO_PROGRAM:
         return nothing('colcon is not installed here')
     if exit_code is None:
@@ -47,13 +48,13 @@ def _first_error(text: str, log: str) -> str:
 
 def sourced(jail: Jail) -> Mapping[str, str]:
     """
-    Return the environment after sourcing what was built.
+    Return the environment after sourcing what was built, and let everybody read that.
 
-    :raises ValueError: when nothing was built, or sourcing fails or takes too long.
+    :raises ValueError: when nothing was built, or sourcing fails, takes too long or sets too much.
     """
     if not (jail.folder / 'install' / 'local_setup.bash').is_file():
         raise ValueError('nothing was built')
-    script = 'source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
+    script = 'chmod -R a+rX "$0"; source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
     command = ['bash', '-c', script, str(jail.folder)]
     with TemporaryDirectory() as place:  # not in a report: it has the grader's own variables, too
         log = Path(place) / 'environment'
@@ -70,26 +71,10 @@ def sourced(jail: Jail) -> Mapping[str, str]:
             f'sourcing install/local_setup.bash ended the shell (exit code {exit_code}); '
             'a hook of a package must not call exit'
         )
-    return {name: value for name, _, value in pairs}
-
-
-def find_executable(folder: Path, package: str, name: str) -> Path:
-    """
-    Return an executable that `ros2 run` would find.
-
-    :param folder: where the workspace was built.
-    :raises ProgramMissing: when there is none.
-    """
-    programs = folder / 'install' / package / 'lib' / package
-    for candidate in (programs / name, programs / f'{name}.py'):
-        if candidate.is_file() and os.access(candidate, os.X_OK):
-            return candidate
-    if not (folder / 'install' / package).is_dir():
-        raise ProgramMissing(
-            f'ros2 run {package} {name} finds nothing: package {package} was not built'
+    size = len(os.fsencode(told))
+    if size > MAX_VARIABLES:
+        raise ValueError(
+            f'sourcing install/local_setup.bash sets {size} bytes of variables, {MAX_VARIABLES} '
+            'are allowed; a hook of a package must set less'
         )
-    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
-    raise ProgramMissing(
-        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
-        f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
-    )
+    return {name: value for name, _, value in pairs if name not in _OF_THE_SHELL}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The step in which a program drives courses."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,7 +16,7 @@ from husky_course.waypoints import load_course
 
 from husky_grader.jail import Jail
 from husky_grader.lab.finding import Finding
-from husky_grader.lab.live_steps import command_of
+from husky_grader.lab.programs import Programs
 from husky_grader.report.files import write_report
 from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveStep
 from husky_grader.run.live import drive_live
@@ -32,24 +32,21 @@ FOR_STAFF = 'staff'
 class DriveRunner:
     """Runs a program with the simulator."""
 
-    jail: Jail
-    environment: Mapping[str, str]
+    programs: Programs
     real_time_factor: float = 1.0
 
-    def drive(
-        self, step: DriveStep, course: CourseToDrive, workspace: Path, folder: Path
-    ) -> Report:
+    def drive(self, step: DriveStep, course: CourseToDrive, folder: Path) -> Report:
         """Let a program drive a course, and write the report on it into a folder."""
         route = plan_route(load_course(course.file))
-        command = command_of(step, workspace, self.jail.folder)
-        with self._lent(course.file) as given:
+        command = self.programs.command_of(step)
+        with self.programs.jail() as jail, _lent(course.file, jail) as given:
             live = drive_live(
                 shlex.join(part.replace(COURSE, given) for part in command),
                 str(course.file),
                 folder,
-                self.jail,
+                jail,
                 answers=''.join(f'{answer.replace(COURSE, given)}\n' for answer in step.answers),
-                environment=self.environment,
+                environment=self.programs.environment,
                 real_time_factor=self.real_time_factor,
             )
         run = read_run(live.record)
@@ -59,16 +56,17 @@ class DriveRunner:
         write_report(folder, report, run, route)
         return report
 
-    @contextmanager
-    def _lent(self, file: Path) -> Iterator[str]:
-        """Give the name of a copy that programs can read."""
-        # In a new folder: a link that a build has left there would lead the copy elsewhere.
-        with TemporaryDirectory(dir=self.jail.folder) as place:
-            Path(place).chmod(0o755)
-            yield shutil.copyfile(file, f'{place}/{COURSE_FILE}')
+
+@contextmanager
+def _lent(file: Path, jail: Jail) -> Iterator[str]:
+    """Give the name of a copy that programs can read."""
+    # In a new folder: a link that a program has left there would lead the copy elsewhere.
+    with TemporaryDirectory(dir=jail.folder) as place:
+        Path(place).chmod(0o755)
+        yield shutil.copyfile(file, f'{place}/{COURSE_FILE}')
 
 
-def drive_step(step: DriveStep, runner: DriveRunner, workspace: Path, folder: Path) -> Finding:
+def drive_step(step: DriveStep, runner: DriveRunner, folder: Path) -> Finding:
     """
     Let a program drive every course of a step.
 
@@ -81,7 +79,7 @@ def drive_step(step: DriveStep, runner: DriveRunner, workspace: Path, folder: Pa
     for number, course in enumerate(step.courses, 1):
         name = step.file_name if len(step.courses) == 1 else f'{step.file_name}_{number}'
         place = folder / FOR_STAFF / name if course.hidden else folder / name
-        report = runner.drive(step, course, workspace, place)
+        report = runner.drive(step, course, place)
         over = exceeded(
             step.limits,
             collisions=len(report.collisions),

@@ -85,8 +85,8 @@ def find_manifests(workspace: Path) -> list[Manifest]:
         try:
             with path.open('rb') as stream:
                 root = ElementTree.fromstring(stream.read(MAX_MANIFEST))
-        except (ElementTree.ParseError, OSError):
-            continue
+        except (ElementTree.ParseError, LookupError, ValueError, OSError):
+            continue  # LookupError and ValueError: an encoding that Python does not know
         name = (root.findtext('name') or '').strip()
         if PACKAGE_NAME.fullmatch(name):
             found.append(Manifest(name, path.parent, root))

@@ -5,18 +5,18 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-import shutil
 
 from husky_course.printable import printable
 
 from husky_grader.graded import StepGrade
-from husky_grader.jail import Jail, Sandbox
-from husky_grader.lab.build_step import build_step, ProgramMissing, sourced
+from husky_grader.jail import Jail, remove, Sandbox
+from husky_grader.lab.build_step import build_step, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
-from husky_grader.lab.file_steps import package_step, PackageMissing, workspace_step
+from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding, nothing
-from husky_grader.lab.live_steps import live_step, ObserverFailed
+from husky_grader.lab.live_steps import live_step
 from husky_grader.lab.path_step import path_step
+from husky_grader.lab.programs import Programs
 from husky_grader.rubric.steps import (
     BuildStep,
     DriveStep,
@@ -28,7 +28,6 @@ from husky_grader.rubric.steps import (
     WorkspaceStep,
 )
 from husky_grader.run.diagnosis import shortened
-from husky_grader.run.live import LiveRunFailed
 from husky_grader.run.printed import read_printed, shown
 
 BUILT = 'built'
@@ -52,14 +51,15 @@ def grade_lab(
     """
     workspace, folder = workspace.resolve(), folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    shutil.rmtree(folder / BUILT, ignore_errors=True)
-    (folder / BUILT).mkdir()
+    remove(folder / BUILT)
     findings = {}
-    with Jail(sandbox, folder / BUILT, readable=[workspace]) as jail:
-        grading = _Grading(workspace, folder, jail, real_time_factor)
+    grading = _Grading(workspace, folder, sandbox, real_time_factor)
+    try:
         for step in rubric.steps:
             findings[step.name] = grading.find(step)
             done(step)
+    finally:
+        remove(folder / BUILT)  # whatever a build has left is nothing for a report
     return list(_with_needs(rubric.steps, findings))
 
 
@@ -84,19 +84,26 @@ def grade_path(
 class _Grading:
     """Finds out about the steps, in their order: the programs run when the workspace was built."""
 
-    def __init__(self, workspace: Path, folder: Path, jail: Jail, real_time_factor: float) -> None:
+    def __init__(
+        self, workspace: Path, folder: Path, sandbox: Sandbox, real_time_factor: float
+    ) -> None:
         self._workspace = workspace
         self._folder = folder
-        self._jail = jail
+        self._sandbox = sandbox
         self._real_time_factor = real_time_factor
-        self._environment: Mapping[str, str] = {}
+        self._programs: Programs | None = None
         self._not_sourced = 'nothing was built'
 
     def find(self, step: Step) -> Finding:
         """Return the finding on a step, with what was printed meanwhile."""
         log = self._folder / f'{step.file_name}.log'
         log.unlink(missing_ok=True)  # that of a former grading
-        return replace(self._found(step, log), printed=shown(read_printed(log)))
+        found, printed = self._found(step, log), shown(read_printed(log))
+        # Where the grader keeps what was handed in is nobody's business, and nowhere the same.
+        place = f'{self._folder}/'
+        defects = {name: why.replace(place, '') for name, why in found.defects.items()}
+        why = found.why.replace(place, '')
+        return replace(found, why=why, defects=defects, printed=printed.replace(place, ''))
 
     def _found(self, step: Step, log: Path) -> Finding:
         if isinstance(step, WorkspaceStep):
@@ -110,22 +117,26 @@ class _Grading:
         raise TypeError(f'{step.kind}: a step of this kind cannot be graded')
 
     def _build(self, log: Path) -> Finding:
-        found = build_step(self._workspace, self._jail, log)
-        try:
-            self._environment, self._not_sourced = sourced(self._jail), ''
-        except ValueError as error:
-            self._not_sourced = str(error)
+        built = self._folder / BUILT
+        built.mkdir(exist_ok=True)
+        with Jail(self._sandbox, built, readable=[self._workspace]) as jail:
+            found = build_step(self._workspace, jail, log)
+            try:
+                environment = sourced(jail)
+                self._programs = Programs(self._workspace, built, environment, self._sandbox)
+            except ValueError as error:
+                self._programs, self._not_sourced = None, str(error)
         return found
 
     def _run(self, step: ProgramStep, log: Path) -> Finding:
-        if self._not_sourced:
+        if self._programs is None:
             return nothing(self._not_sourced)
         try:
             if isinstance(step, DriveStep):
-                drives = DriveRunner(self._jail, self._environment, self._real_time_factor)
-                return drive_step(step, drives, self._workspace, self._folder)
-            return live_step(step, self._workspace, self._jail, self._environment, log)
-        except (PackageMissing, ProgramMissing, LiveRunFailed, ObserverFailed) as error:
+                drives = DriveRunner(self._programs, self._real_time_factor)
+                return drive_step(step, drives, self._folder)
+            return live_step(step, self._programs, log)
+        except ValueError as error:  # it costs this step, not the others
             return nothing(str(error))
 
 

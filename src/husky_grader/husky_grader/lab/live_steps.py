@@ -2,25 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The steps that are judged on a running program: publisher, subscriber and service."""
 
-from collections.abc import Mapping
 import json
 import os
 from pathlib import Path
 import pickle
 import signal
-import sys
 from tempfile import TemporaryDirectory
 
 from husky_runtime.children import ChildProcess, tail_of
 
 from husky_grader.jail import Jail, JailedProcess
-from husky_grader.lab.build_step import find_executable, NO_PROGRAM
-from husky_grader.lab.file_steps import find_package
+from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
+from husky_grader.lab.programs import Programs
 from husky_grader.rubric.steps import ProgramStep
 from husky_grader.run.diagnosis import crash, shortened
 from husky_grader.run.printed import read_printed
+from husky_grader.run.trusted import trusted
 
 POLL_SEC = 0.05
 
@@ -29,13 +28,7 @@ class ObserverFailed(ValueError):
     """The grader's own node failed; the message says why."""
 
 
-def live_step(
-    step: ProgramStep,
-    workspace: Path,
-    jail: Jail,
-    environment: Mapping[str, str],
-    log: Path,
-) -> Finding:
+def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
     """
     Run a program, and find out what it does.
 
@@ -43,9 +36,9 @@ def live_step(
     :raises ProgramMissing: when the program is not there.
     :raises ObserverFailed: when the grader's own node fails.
     """
-    command = command_of(step, workspace, jail.folder)
-    theirs = {**environment, 'PYTHONUNBUFFERED': '1'}
-    with jail.started(command, theirs, log=log) as program:
+    command = programs.command_of(step)
+    theirs = {**programs.environment, 'PYTHONUNBUFFERED': '1'}
+    with programs.jail() as jail, jail.started(command, theirs, log=log) as program:
         found = _observe(step, jail, program, log)
         exit_code = program.exit_code
     if exit_code == NO_PROGRAM and found.score == 0.0:
@@ -62,7 +55,7 @@ def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -
     with TemporaryDirectory() as name:
         place = Path(name)
         (place / STEP_FILE).write_bytes(pickle.dumps(step))
-        command = [sys.executable, '-m', 'husky_grader.lab.observer', name, str(log)]
+        command = trusted('husky_grader.lab.observer', name, str(log.absolute()))
         observer_log = place / 'log'
         with (
             observer_log.open('w') as stream,
@@ -74,17 +67,6 @@ def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -
         if not (place / FINDING_FILE).is_file():
             raise ObserverFailed(f'the node of the grader failed: {tail_of(observer_log, 1)}')
         return Finding(**json.loads((place / FINDING_FILE).read_text(encoding='utf-8')))
-
-
-def command_of(step: ProgramStep, workspace: Path, built: Path) -> list[str]:
-    """Return the command that `ros2 run` would run, with the arguments of the step."""
-    package = find_package(workspace, step.package, step.package_with).name
-    command = [str(find_executable(built, package, step.executable)), *step.arguments]
-    if step.parameters:
-        command.append('--ros-args')
-        for name, value in step.parameters.items():
-            command += ['-p', f'{name}:={json.dumps(value)}']  # JSON is YAML, as rcl reads it
-    return command
 
 
 def how_it_ended(exit_code: int, printed: str) -> str:

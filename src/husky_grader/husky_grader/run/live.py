@@ -13,7 +13,6 @@ from pathlib import Path
 import shlex
 import shutil
 import signal
-import sys
 import time
 
 from husky_course.record import FILE_NAME, read_record, Record
@@ -24,6 +23,7 @@ from husky_grader.jail import Jail, JailedProcess
 from husky_grader.run.diagnosis import reasons
 from husky_grader.run.printed import read_printed, shown
 from husky_grader.run.told import listen, Told
+from husky_grader.run.trusted import trusted
 from husky_grader.scoring.report import Report
 
 SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first word
@@ -88,13 +88,15 @@ def drive_live(
     :param on_progress: called about twice a second.
     :raises LiveRunFailed: when the simulator or the command cannot be started.
     """
+    folder = folder.absolute()
     folder.mkdir(parents=True, exist_ok=True)
     record, told = folder / FILE_NAME, folder / 'trial.json'
     for file in (record, told):
         file.unlink(missing_ok=True)
-    trial = [sys.executable, '-m', 'husky_grader.run.trial']
-    trial += ['--waypoints', waypoints, '--record', str(record), '--told', str(told)]
-    trial += ['--real-time-factor', f'{real_time_factor:g}', '--world', world]
+    trial = trusted('husky_grader.run.trial', '--waypoints', str(Path(waypoints).absolute()))
+    trial += ['--record', str(record), '--told', str(told)]
+    trial += ['--real-time-factor', f'{real_time_factor:g}']
+    trial += ['--world', str(Path(world).absolute()) if world else '']
     theirs = {CHECK_FIELDS: '1', 'PYTHONUNBUFFERED': '1', **(environment or {})}
     with (
         (folder / 'simulator.log').open('w') as log,
@@ -110,7 +112,7 @@ def drive_live(
             exit_code = controller.exit_code
     clean_shared_memory()
     if not record.is_file():
-        raise LiveRunFailed(f'the simulator left no record; see {folder / "simulator.log"}')
+        raise LiveRunFailed(f'the simulator left no record; see {folder.name}/simulator.log')
     printed = read_printed(folder / 'controller.log')
     notes = reasons(printed, read_printed(folder / 'simulator.log'), last.notes, exit_code)
     return LiveRun(read_record(record), last.ending, last.pace, notes, shown(printed))
@@ -167,5 +169,5 @@ def _watch(
             break
     last = listen(told)
     if last is None or not last.ending:
-        raise LiveRunFailed(f'the simulator died; see {folder / "simulator.log"}')
+        raise LiveRunFailed(f'the simulator died; see {folder.name}/simulator.log')
     return replace(last, ending=f'it took {WALL_SEC:g} s on the clock') if late else last

@@ -31,6 +31,7 @@ from rclpy.signals import SignalHandlerOptions
 from husky_grader.run.answering import Answering
 from husky_grader.run.referee import Referee
 from husky_grader.run.told import tell, Told
+from husky_grader.run.trusted import limit_memory
 from husky_grader.run.watcher import GraphWatcher
 
 LOOK_SEC = 0.5  # wall time between two looks at the graph, and two times of telling
@@ -125,6 +126,7 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('--world', default='')
     parser.add_argument('--real-time-factor', type=float, default=1.0)
     options = parser.parse_args(args)
+    limit_memory()
     route = plan_route(load_course(options.waypoints))
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     interrupted = future_of_signal()

@@ -1,0 +1,94 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The programs of a workspace that was built."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+import json
+import os
+from pathlib import Path
+from tempfile import mkdtemp
+
+from husky_grader.jail import Jail, remove, Sandbox
+from husky_grader.lab.file_steps import find_package
+from husky_grader.rubric.steps import ProgramStep
+
+_RUNNING = 'running-'  # begins the names of the folders in which programs run
+
+
+class ProgramMissing(ValueError):
+    """There is no such executable; the message says what there is."""
+
+
+@dataclass(frozen=True)
+class Programs:
+    """
+    What the steps run.
+
+    :param built: where the workspace was built.
+    :param environment: that of a terminal in which it was sourced.
+    """
+
+    workspace: Path
+    built: Path
+    environment: Mapping[str, str]
+    sandbox: Sandbox
+
+    @contextmanager
+    def jail(self) -> Iterator[Jail]:
+        """
+        Open a jail for one program: a network, a home and a folder that no other has been in.
+
+        What was built can only be read there, so that a program finds it as the build has left it,
+        and nothing of what another one has seen, such as a hidden course.
+        """
+        folder = Path(mkdtemp(prefix=_RUNNING, dir=self.built.parent))
+        try:
+            with Jail(self.sandbox, folder, readable=[self.workspace, self.built]) as jail:
+                yield jail
+        finally:
+            remove(folder)
+
+    def command_of(self, step: ProgramStep) -> list[str]:
+        """
+        Return the command that `ros2 run` would run, with the arguments of the step.
+
+        :raises PackageMissing: when the package is not there.
+        :raises ProgramMissing: when the program is not there.
+        """
+        package = find_package(self.workspace, step.package, step.package_with).name
+        command = [str(find_executable(self.built, package, step.executable)), *step.arguments]
+        if step.parameters:
+            command.append('--ros-args')
+            for name, value in step.parameters.items():
+                command += ['-p', f'{name}:={json.dumps(value)}']  # JSON is YAML, as rcl reads it
+        return command
+
+
+def find_executable(folder: Path, package: str, name: str) -> Path:
+    """
+    Return an executable that `ros2 run` would find.
+
+    :param folder: where the workspace was built.
+    :raises ProgramMissing: when there is none.
+    """
+    programs = folder / 'install' / package / 'lib' / package
+    if not (folder / 'install' / package).is_dir():
+        raise ProgramMissing(
+            f'ros2 run {package} {name} finds nothing: package {package} was not built'
+        )
+    # What is listed is told: nobody may point it at a folder of the grader's.
+    if not programs.resolve().is_relative_to(folder.resolve()):
+        raise ProgramMissing(
+            f'ros2 run {package} {name}: install/{package}/lib/{package} leads out of the '
+            'workspace; let the build put the programs there'
+        )
+    for candidate in (programs / name, programs / f'{name}.py'):
+        if candidate.is_file() and os.access(candidate, os.X_OK):
+            return candidate
+    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
+    raise ProgramMissing(
+        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
+        f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+    )
