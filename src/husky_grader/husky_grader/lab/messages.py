@@ -4,12 +4,15 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
+import math
 from statistics import median
 from typing import Any
 
 from husky_grader.lab.file_steps import asked
 from husky_grader.rubric.steps import FieldCheck
 from husky_grader.run.diagnosis import shortened
+
+_ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 
 def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
@@ -56,3 +59,17 @@ def rate_hz(times_sec: Sequence[float]) -> float:
     # Their median: that the machine stood still for a moment is not the publisher's fault.
     gaps = [after - before for before, after in pairwise(times_sec)]
     return 1.0 / max(median(gaps), 1e-3) if gaps else 0.0
+
+
+def about(rate: float) -> str:
+    """
+    Return a rate as a person tells it: what a busy machine changes of it is not seen.
+
+    >>> [about(rate) for rate in (4.93, 0.51, 198.0, 0.0)]
+    ['5', '0.5', '200', '0']
+    """
+    if rate <= 0.0:
+        return '0'
+    power = 10.0 ** math.floor(math.log10(rate))
+    nearest = min(_ROUND, key=lambda each: abs(math.log(each * power / rate)))
+    return f'{nearest * power:g}'

@@ -16,12 +16,13 @@ import json
 from pathlib import Path
 import pickle
 import random
+import re
 import sys
 import time
 from typing import Any
 
-from husky_runtime.executor import make_executor
 import rclpy
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
@@ -29,9 +30,9 @@ from rosidl_runtime_py.utilities import get_message, get_service
 
 from husky_grader.lab.file_steps import asked
 from husky_grader.lab.finding import Finding, nothing
-from husky_grader.lab.messages import complaint, rate_hz
+from husky_grader.lab.messages import about, complaint, rate_hz
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
-from husky_grader.rubric.forms import ANYTHING, Form, with_token
+from husky_grader.rubric.forms import ANYTHING, Form, TOKEN, with_token
 from husky_grader.rubric.interfaces import filled
 from husky_grader.rubric.steps import (
     ProgramStep,
@@ -43,6 +44,7 @@ from husky_grader.rubric.steps import (
 from husky_grader.run.diagnosis import Graph, nearest, unheard_topics
 from husky_grader.run.graph import read_graph
 from husky_grader.run.printed import read_printed
+from husky_grader.run.trusted import limit_memory
 
 NAME = 'grader'
 SEND_EVERY_SEC = 0.1
@@ -56,6 +58,8 @@ HEARD_BY_ALL = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
+
+_LOGGED_AT = re.compile(r'\[\d+\.\d+\] ')  # the time of a logger's line
 
 Over = Callable[[], bool]
 """Tells whether the student's program has ended."""
@@ -84,7 +88,8 @@ class _Observer:
     def __init__(self, node: Node, over: Over) -> None:
         self.node = node
         self.over = over
-        self.executor = make_executor(node.context)
+        # The EventsExecutor of rclpy 7.1.6 fails where a callback asks when a message was sent.
+        self.executor = SingleThreadedExecutor(context=node.context)
         self.executor.add_node(node)
 
     def spin_until(self, fact: Callable[[], object], within_sec: float) -> None:
@@ -119,9 +124,10 @@ def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
     times_sec: list[float] = []
     complaints: list[str] = []  # the first; no message is kept: a large one costs much memory
 
-    def on_message(message: Any) -> None:
+    def on_message(message: Any, info: Mapping[str, int]) -> None:
         if len(times_sec) < MAX_MESSAGES:
-            times_sec.append(time.monotonic())
+            # When it was sent: on a busy machine this node may hear several at once.
+            times_sec.append(info['source_timestamp'] / 1e9)
             if not complaints and (wrong := complaint(message, step.content)):
                 complaints.append(wrong)
 
@@ -136,11 +142,16 @@ def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
     observer.spin_for(step.listen_sec)
     defects = {'content': complaints[0]} if complaints else {}
     rate = rate_hz(times_sec)
+    shown = about(rate)
     if step.rate_hz is not None:
-        off_hz = step.rate_tolerance_percent / 100 * step.rate_hz
-        if abs(rate - step.rate_hz) > off_hz:
-            defects['rate'] = f'{rate:.1f} messages a second; {asked(f"{step.rate_hz:g}")}'
-    return Finding(f'{rate:.1f} Hz on {step.topic}, {step.type}', defects=defects)
+        off = abs(rate - step.rate_hz) / step.rate_hz
+        wanted = f'{step.rate_hz:g}'
+        if off <= step.rate_tolerance_percent / 100:
+            shown = wanted
+        else:
+            shown = f'{rate:.2f}' if shown == wanted else shown
+            defects['rate'] = f'about {shown} messages a second; {asked(wanted)}'
+    return Finding(f'{shown} Hz on {step.topic}, {step.type}', defects=defects)
 
 
 def _why_silent(step: PublisherStep, graph: Graph) -> str:
@@ -173,9 +184,10 @@ def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding
     form = Form(f'{ANYTHING}{wanted}{ANYTHING}')
     if not lines():
         return nothing(_why_deaf(step, read_graph(observer.node, (NAME,))))
-    if right := next((line for line in lines() if form.fits(line)), ''):
-        return Finding(f'"{right}"')
-    return Finding('', defects={'printed': f'it prints "{lines()[0]}"; {asked(wanted)}'})
+    if any(form.fits(line) for line in lines()):
+        return Finding(f'it prints "{step.printed}"')
+    shown = _LOGGED_AT.sub('', lines()[0]).replace(token, TOKEN)
+    return Finding('', defects={'printed': f'it prints "{shown}"; {asked(step.printed)}'})
 
 
 def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
@@ -222,6 +234,7 @@ def _why_no_service(call: ServiceCall, offered: Mapping[str, Sequence[str]]) -> 
 def main() -> int:
     """Find it out, and write down the finding."""
     folder, log = map(Path, sys.argv[1:])
+    limit_memory()
     step = pickle.loads((folder / STEP_FILE).read_bytes())  # noqa: S301  # the grader's own
     found = observe(step, (folder / OVER_FILE).exists, log)
     part = folder / 'part'
