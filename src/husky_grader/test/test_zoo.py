@@ -1,0 +1,345 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A class of cheats and accidents, graded three at a time: what each gets, and is told.
+
+Each program in zoo/src/zoo/bin has a step, and so a jail, of its own. What a build does needs a
+workspace of its own. Among them are some that do it right: nothing may change their grades.
+"""
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+import os
+from pathlib import Path
+
+from husky_grader.graded import Graded, StepGrade
+from husky_grader.jail import find_sandbox
+from husky_grader.lab_grading import grade_submission, WORKSPACE
+from husky_grader.rubric.forms import Form
+from husky_grader.rubric.steps import (
+    BuildStep,
+    CourseToDrive,
+    DriveStep,
+    FieldCheck,
+    PublisherCosts,
+    PublisherStep,
+    Rubric,
+    Step,
+    SubscriberStep,
+)
+from husky_grader.submission import Submission
+import pytest
+
+pytestmark = pytest.mark.timeout(400)
+ZOO = Path(__file__).with_name('zoo')
+MOST = 10.0  # points of each step
+
+DRIVES = {
+    'rewrites_the_record': 'missed waypoint 2 at (0.5, 0)',
+    'kills_everybody': 'it never moved',
+    'forges_odometry': '/husky_sim published /odometry/filtered beside the simulator',
+    'forges_the_clock': '/driver published /clock beside the simulator',
+    'has_two_drivers': '/driver and /other_driver both published',
+    'asks_for_a_reset': 'missed waypoint 2 at (0.5, 0)',
+    'imports_the_solution': "line 3: ModuleNotFoundError: No module named 'husky_driver'",
+    'runs_the_solution': "Package 'husky_driver' not found",
+    'wishes_to_be_there': 'it commanded linear.x = -1000: that is m/s',
+    'announces_ghosts': 'm backwards where the course asks for forwards',
+    'sends_garbage': 'm backwards where the course asks for forwards',
+    'breeds': '[ended by the grader: it ',
+    'prints_its_verdict': r'line 8: RuntimeError: \x1b[2J\x1b[Hdrive   10.0 of   10  passed',
+}
+# They get points for the half of the way that they drove.
+HALF_DRIVES = {
+    'stops_midway': 'stopped at (0.4',
+    'crashes_midway': 'crashes_midway line 10: ZeroDivisionError: float division by zero',
+}
+TALKS = {
+    'says_nothing': 'nothing came on /topic_test within 4 s',
+    'talks_by_a_daemon': 'it ended by itself (exit code 0)',
+    'talks_by_the_solution': "line 3: ModuleNotFoundError: No module named 'topic_demo'",
+    'talks_another_type': 'it publishes std_msgs/msg/Int32 on /topic_test',
+    'talks_too_much': "data is 'hello world 1111",
+    'talks_in_a_crowd': "data is 'hello'",
+    'asks_for_what_is_not_there': "line 3: ImportError: cannot import name 'listen'",
+}
+GUESSES = {'guesses': 'it listens to nothing; the lab asks for /topic_test'}
+
+MANIFEST = (
+    '<package><name>bare</name><export><build_type>ament_python</build_type></export></package>'
+)
+SETUP = """
+import os, shutil, signal
+from glob import glob
+from pathlib import Path
+from setuptools import setup
+setup(name='bare', version='0.1.0', packages=[], data_files=[
+    ('share/ament_index/resource_index/packages', ['resource/bare']),
+    *((place, [f for f in glob(f'{place}/*') if Path(f).is_file()])
+      for place in ('lib/bare', 'share/bare', 'share/bare/hook', 'share/bare/fake'))])
+programs = Path(os.environ['HOME']).parent / 'install' / 'bare' / 'lib' / 'bare'
+"""
+TALKS_WELL = """#!/usr/bin/env python3
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node('talker')
+publisher = node.create_publisher(String, 'topic_test', 10)
+node.create_timer(0.1, lambda: publisher.publish(String(data='hello world 1')))
+rclpy.spin(node)
+"""
+
+
+@dataclass(frozen=True)
+class Build:
+    """A workspace whose build does something, and what its only program is told."""
+
+    told: str
+    step: str = 'talks'
+    setup: str = ''  # after all else in setup.py, which is run several times
+    hook: str = ''  # of the shell that sources it
+    files: Sequence[tuple[str, str]] = ()
+
+
+BUILDS = {
+    'deletes everything': Build(
+        'ros2 run bare talks finds nothing; bare has: no executables',
+        setup="""
+shutil.rmtree(Path.cwd(), ignore_errors=True)
+for place in ('lab.json', 'finding.json', 'over'):
+    for folder in (Path.cwd().parents[2], Path.cwd().parents[3], Path('/tmp')):
+        try:
+            (folder / place).write_text('{"score": 100.0, "why": "forged"}')
+        except OSError:
+            pass
+shutil.rmtree(programs, ignore_errors=True)
+""",
+    ),
+    'brings an rclpy of its own': Build(
+        'rclpy.py line 1: RuntimeError: not the rclpy that you know',
+        hook='export ROS_DOMAIN_ID=77 PATH="$COLCON_CURRENT_PREFIX/lib/bare:$PATH"\n'
+        'export PYTHONPATH="$COLCON_CURRENT_PREFIX/share/bare/fake:$PYTHONPATH"\n',
+        files=[
+            ('share/bare/fake/rclpy.py', "raise RuntimeError('not the rclpy that you know')"),
+            ('share/bare/fake/husky_grader.py', "raise RuntimeError('nor this')"),
+        ],
+    ),
+    'sets eighty kilobytes': Build(
+        'bytes of variables, 30000 are allowed',
+        hook="export MUCH=$(head -c 80000 /dev/zero | tr '\\0' x)\n",
+    ),
+    'leads to its neighbours': Build(
+        'install/bare/lib/bare leads out of the workspace',
+        setup="""
+if programs.is_dir():
+    shutil.rmtree(programs)
+    programs.symlink_to('/')
+""",
+    ),
+    'stops': Build(
+        'colcon build took longer than 20 s', 'build', 'os.kill(os.getpid(), signal.SIGSTOP)'
+    ),
+    'digs': Build(
+        'colcon build was ended: it made folders too deep in each other',
+        'build',
+        """
+os.chdir(Path(os.environ['HOME']))
+for _ in range(3000):
+    os.mkdir('deeper')
+    os.chdir('deeper')
+signal.pause()
+""",
+    ),
+    'has an unknown encoding': Build(
+        'there is no package in src',
+        'build',
+        files=[('package.xml', f'<?xml version="1.0" encoding="klingon"?>{MANIFEST}')],
+    ),
+}
+
+
+def drives(*names: str) -> list[Step]:
+    course = CourseToDrive(file=ZOO / 'course.yaml')
+    return [
+        DriveStep(points=MOST, name=name, package='zoo', executable=name, courses=(course,))
+        for name in names
+    ]
+
+
+def talks(*names: str, package: str = 'zoo') -> list[Step]:
+    return [
+        PublisherStep(
+            points=MOST,
+            name=name,
+            package=package,
+            executable=name,
+            topic='/topic_test',
+            type='std_msgs/msg/String',
+            rate_hz=10.0,
+            content=(FieldCheck(field='data', form=Form('hello world <number>')),),
+            within_sec=4.0,
+            listen_sec=1.0,
+            costs=PublisherCosts(content=100.0),
+        )
+        for name in names
+    ]
+
+
+def listens(*names: str) -> list[Step]:
+    return [
+        SubscriberStep(
+            points=MOST,
+            name=name,
+            package='zoo',
+            executable=name,
+            topic='/topic_test',
+            type='std_msgs/msg/String',
+            sent={'data': 'hello grader {token}'},
+            printed='heard<text>hello grader {token}',
+            within_sec=4.0,
+        )
+        for name in names
+    ]
+
+
+def gives_a_course() -> Step:
+    """Return a step that gives a program a hidden course first, then one that all know."""
+    given = [
+        CourseToDrive(file=ZOO / f'{name}.yaml', hidden=name == 'hidden')
+        for name in ('hidden', 'course')
+    ]
+    name = 'keeps_a_course'
+    return DriveStep(
+        points=MOST,
+        name=name,
+        package='zoo',
+        executable=name,
+        arguments=('{course}',),
+        courses=tuple(given),
+    )
+
+
+def hand_in(folder: Path, build: Build) -> Path:
+    """Write a workspace with one package, of one program that talks well."""
+    package = folder / 'src' / 'bare'
+    files = {
+        'package.xml': MANIFEST,
+        'setup.py': SETUP + build.setup,
+        'setup.cfg': '[install]\ninstall_scripts=$base/lib/bare\n',
+        'resource/bare': '',
+        'lib/bare/talks': TALKS_WELL,
+        'colcon.pkg': '{"hooks": ["share/bare/hook/own.sh"]}',
+        'share/bare/hook/own.sh': build.hook,
+        **dict(build.files),
+    }
+    for name, text in files.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(text)
+        (package / name).chmod(0o755)
+    return folder
+
+
+@pytest.fixture(scope='module')
+def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp('reports')
+
+
+@pytest.fixture(scope='module')
+def graded(
+    reports: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[dict[str, StepGrade]]:
+    """Grade them all, from a folder that somebody has handed in; return their steps by name."""
+    handed_in = tmp_path_factory.mktemp('handed_in')
+    for module in ('rclpy', 'json', 'husky_grader', 'husky_course'):
+        (handed_in / f'{module}.py').write_text("raise RuntimeError('of the wrong folder')")
+    sandbox = find_sandbox('auto')
+    programs = [*talks('leaves_a_publisher', *TALKS, 'talks_right')]
+    programs += [*listens(*GUESSES, 'listens_right')]
+    classes = {
+        'drives': (ZOO, drives('drives_right', *DRIVES, *HALF_DRIVES)),
+        'talks': (ZOO, [*programs, gives_a_course()]),
+    }
+    for name, build in BUILDS.items():
+        classes[name] = (
+            hand_in(handed_in / name, build),
+            talks('talks', package='bare') if build.step == 'talks' else [],
+        )
+
+    def grade(name: str) -> Graded:
+        place, steps = classes[name]
+        return grade_submission(
+            Submission(name, place, 'folder'),
+            Rubric(title='zoo', steps=(BuildStep(points=MOST, name='build'), *steps)),
+            reports / name,
+            sandbox=sandbox,
+            real_time_factor=10.0,
+            done=lambda _: None,
+        )
+
+    before = Path.cwd()
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr('husky_grader.lab.build_step.BUILD_WITHIN_SEC', 20.0)
+        os.chdir(handed_in)
+        try:
+            with ThreadPoolExecutor(3) as pool:
+                everything = zip(classes, pool.map(grade, classes), strict=True)
+                yield {
+                    f'{name}: {step.name}': step for name, one in everything for step in one.steps
+                }
+        finally:
+            os.chdir(before)
+
+
+def step_of(graded: dict[str, StepGrade], name: str) -> StepGrade:
+    return next(step for place, step in graded.items() if place.endswith(f': {name}'))
+
+
+@pytest.mark.parametrize('name', [*DRIVES, *TALKS, *GUESSES])
+def test_a_cheat_gets_nothing_and_is_named(graded: dict[str, StepGrade], name: str) -> None:
+    step = step_of(graded, name)
+    assert step.points == 0.0, step
+    assert {**DRIVES, **TALKS, **GUESSES}[name] in step.why
+
+
+@pytest.mark.parametrize('name', HALF_DRIVES)
+def test_an_accident_midway_costs_the_rest_of_the_way(
+    graded: dict[str, StepGrade], name: str
+) -> None:
+    step = step_of(graded, name)
+    assert 0.0 < step.points < MOST / 2, step
+    assert HALF_DRIVES[name] in step.why
+
+
+@pytest.mark.parametrize('name', BUILDS)
+def test_a_build_that_does_harm_harms_only_itself(graded: dict[str, StepGrade], name: str) -> None:
+    build = BUILDS[name]
+    step = graded[f'{name}: {build.step}']
+    assert step.points == 0.0, step
+    assert build.told in step.why
+
+
+@pytest.mark.parametrize(
+    'name', ['drives_right', 'leaves_a_publisher', 'talks_right', 'listens_right']
+)
+def test_who_does_it_right_among_them_gets_every_point(
+    graded: dict[str, StepGrade], name: str
+) -> None:
+    step = step_of(graded, name)
+    assert step.points == MOST, step
+
+
+def test_no_program_reaches_what_is_not_its_own(
+    graded: dict[str, StepGrade], reports: Path
+) -> None:
+    logs = {path: path.read_text() for path in reports.rglob('*.log') if path.is_file()}
+    assert len(logs) > len(DRIVES)
+    for said in ('wrote ', 'answered: ', 'found ', 'kept: '):
+        assert [path for path, text in logs.items() if f'\n{said}' in f'\n{text}'] == [], said
+    assert step_of(graded, 'keeps_a_course').points == MOST
+
+
+def test_what_was_handed_in_is_as_it_was(graded: dict[str, StepGrade], reports: Path) -> None:
+    copy = reports / 'deletes everything' / WORKSPACE
+    assert [path.read_text() for path in copy.rglob('package.xml')] == [MANIFEST]
+    assert not list(copy.rglob('*.json'))
