@@ -21,6 +21,7 @@ from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.live_steps import live_step
+from husky_grader.lab.messages import about
 from husky_grader.lab.programs import Programs
 from husky_grader.playpen import default_rubric
 from husky_grader.rubric.rubric_file import load_rubric
@@ -149,6 +150,13 @@ def test_a_pause_of_a_publisher_does_not_change_its_rate(
     program = PUBLISHER % (sys.executable, 'topic_test', period_sec)
     found = found_of(PUBLISHES, tmp_path, program)
     assert set(found.defects) == defects, found
+
+
+@pytest.mark.parametrize(
+    ('rate_hz', 'told'), [(4.93, '5'), (0.51, '0.5'), (198.0, '200'), (9.6, '10'), (0.0, '0')]
+)
+def test_a_rate_is_told_in_round_numbers(rate_hz: float, told: str) -> None:
+    assert about(rate_hz) == told
 
 
 @pytest.mark.parametrize(
