@@ -2,19 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The step in which a program drives courses."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 import shlex
 import shutil
-from tempfile import TemporaryDirectory
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 
-from husky_grader.jail import Jail
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.programs import Programs
 from husky_grader.report.files import write_report
@@ -39,7 +35,10 @@ class DriveRunner:
         """Let a program drive a course, and write the report on it into a folder."""
         route = plan_route(load_course(course.file))
         command = self.programs.command_of(step)
-        with self.programs.jail() as jail, _lent(course.file, jail) as given:
+        with self.programs.jail() as jail:
+            lent = shutil.copyfile(course.file, jail.folder / COURSE_FILE)
+            lent.chmod(0o644)
+            given = str(lent)
             live = drive_live(
                 shlex.join(part.replace(COURSE, given) for part in command),
                 str(course.file),
@@ -55,15 +54,6 @@ class DriveRunner:
             report = replace(report, course=course.title)
         write_report(folder, report, run, route)
         return report
-
-
-@contextmanager
-def _lent(file: Path, jail: Jail) -> Iterator[str]:
-    """Give the name of a copy that programs can read."""
-    # In a new folder: a link that a program has left there would lead the copy elsewhere.
-    with TemporaryDirectory(dir=jail.folder) as place:
-        Path(place).chmod(0o755)
-        yield shutil.copyfile(file, f'{place}/{COURSE_FILE}')
 
 
 def drive_step(step: DriveStep, runner: DriveRunner, folder: Path) -> Finding:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pickle
 import signal
 from tempfile import TemporaryDirectory
+import time
 
 from husky_runtime.children import ChildProcess, tail_of
 
@@ -22,6 +23,7 @@ from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import trusted
 
 POLL_SEC = 0.05
+OBSERVED_SEC = 600.0  # wall time: a node that needs longer hangs by what it was sent
 
 
 class ObserverFailed(ValueError):
@@ -61,11 +63,13 @@ def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -
             observer_log.open('w') as stream,
             ChildProcess(jail.beside(command), {**os.environ, **jail.graph}, stream) as observer,
         ):
-            while not observer.wait(POLL_SEC):
+            deadline = time.monotonic() + OBSERVED_SEC
+            while not observer.wait(POLL_SEC) and time.monotonic() < deadline:
                 if program.exit_code is not None:
                     (place / OVER_FILE).touch()
         if not (place / FINDING_FILE).is_file():
-            raise ObserverFailed(f'the node of the grader failed: {tail_of(observer_log, 1)}')
+            why = tail_of(observer_log, 1) or 'it hangs'
+            raise ObserverFailed(f'the node of the grader failed: {why}')
         return Finding(**json.loads((place / FINDING_FILE).read_text(encoding='utf-8')))
 
 
