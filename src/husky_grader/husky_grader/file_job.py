@@ -21,7 +21,6 @@ class FileJob:
     world: str = ''
 
     result_file = 'report.json'
-    scratch = ''
 
     def key(self) -> str:
         return key_of([Path(self.file)], {'world': world_digest(self.world)})

@@ -15,7 +15,6 @@ from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, versions, world_digest
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.jail import find_sandbox, Sandbox
-from husky_grader.lab.lab import BUILT
 from husky_grader.lab_grading import grade_submission
 from husky_grader.rubric.steps import DriveStep, Rubric
 from husky_grader.submission import digest_of, Submission
@@ -43,7 +42,6 @@ class LabJob:
     real_time_factor: float = 1.0
 
     result_file = LAB_FILE
-    scratch = BUILT
 
     def key(self) -> str:
         # What ran without a jail may have written what it liked, also its own result.

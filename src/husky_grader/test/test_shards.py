@@ -63,7 +63,6 @@ class Generated:
     name: str
 
     result_file = 'result.json'
-    scratch = 'scratch'
 
     def key(self) -> str:
         return f'key of {self.name}'
@@ -95,13 +94,9 @@ def test_10000_results_in_shards_of_which_some_died_are_the_serial_ones(tmp_path
         if number in dead:  # in the middle of a job: a result without its seal
             share[left].run(tmp_path / f'shard_{number}' / share[left].name, lambda: None)
     folders = tuple(tmp_path / f'shard_{number}' for number in shards)
-    scratch = folders[0] / 's00000' / Generated.scratch
-    scratch.mkdir()
-    os.mkfifo(scratch / 'pipe')  # as a student's build may leave one
     outcomes = Batch(jobs, tmp_path / 'all', how=How(collect=folders)).run()
     assert [outcome.content for outcome in outcomes] == [job.content() for job in jobs]
     assert not list((tmp_path / 'all').glob('.*.part'))
-    assert not (tmp_path / 'all' / 's00000' / 'scratch').exists()
 
 
 def test_the_files_of_collected_shards_are_those_of_one_call(

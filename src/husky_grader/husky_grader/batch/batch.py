@@ -102,7 +102,7 @@ class Batch:
             return Outcome(content, remembered=True)
         for there in self._elsewhere.get(job.name, ()):
             if content := self._seals.load(there, job, key):
-                _copy_report(there, own, job.scratch)
+                _copy_report(there, own)
                 return Outcome(content, remembered=True)
         return None
 
@@ -135,14 +135,10 @@ class Batch:
         self._done(number, outcome)
 
 
-def _copy_report(there: Path, own: Path, scratch: str) -> None:
+def _copy_report(there: Path, own: Path) -> None:
     """Copy a report, whole or not at all."""
-
-    def left_out(place: str, names: Sequence[str]) -> list[str]:
-        return [name for name in names if name == scratch and Path(place) == there]
-
     part = own.with_name(f'.{own.name}.part')
     shutil.rmtree(part, ignore_errors=True)  # of a call that was killed
-    shutil.copytree(there, part, symlinks=True, ignore=left_out)
+    shutil.copytree(there, part, symlinks=True)
     shutil.rmtree(own, ignore_errors=True)
     part.rename(own)

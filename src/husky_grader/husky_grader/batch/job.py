@@ -30,10 +30,6 @@ class Job(Protocol):
         """Return the name of its folder in the report."""
 
     @property
-    def scratch(self) -> str:
-        """Return the name, in that folder, of what is no part of the report; empty: nothing."""
-
-    @property
     def result_file(self) -> str:
         """Return the name, in that folder, of the file with its result as JSON."""
 
