@@ -7,7 +7,10 @@ setup(
     version='0.1.0',
     packages=find_packages(exclude=['test']),
     package_data={
-        'husky_grader': ['outputs/*.css', 'outputs/*.jinja', 'report/*.css', 'report/*.jinja'],
+        'husky_grader': [
+            *('outputs/*.css', 'outputs/*.jinja', 'report/*.css', 'report/*.jinja'),
+            'jail/*.xml',
+        ],
     },
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/husky_grader']),

@@ -10,14 +10,15 @@ import pytest
 
 @cache
 def _found() -> dict[str, Sandbox]:
-    found = {}
+    found, failures = {}, {}
     for name in SANDBOXES:
         try:
             found[name] = find_sandbox(name)
-        except NoSandbox:
-            # This one needs nothing that has to be installed; why it fails is seen at once.
-            if name == 'kernel':
-                raise
+        except NoSandbox as failure:
+            failures[name] = failure
+    # One of these needs nothing that has to be installed; why it fails is seen at once.
+    if not {'kernel', 'user'} & set(found):
+        raise failures['kernel']
     return found
 
 
@@ -26,6 +27,11 @@ def _each(*names: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize('sandbox', found, ids=[each.name for each in found])
 
 
-in_each_way = _each('bwrap', 'podman', 'docker', 'kernel', 'none')
-in_each_sandbox = _each('bwrap', 'podman', 'docker', 'kernel')
-in_each_of_namespaces = _each('bwrap', 'kernel')  # with no service or set-up of the user's own
+_OF_NAMESPACES = ('bwrap', 'kernel')  # with no service or set-up of the user's own
+_WITH_NETWORKS = (*_OF_NAMESPACES, 'podman', 'docker')  # and processes for each command
+
+in_each_way = _each(*_WITH_NETWORKS, 'user', 'none')
+in_each_sandbox = _each(*_WITH_NETWORKS, 'user')
+in_each_way_with_processes = _each(*_WITH_NETWORKS, 'none')
+in_each_with_network = _each(*_WITH_NETWORKS)
+in_each_of_namespaces = _each(*_OF_NAMESPACES)

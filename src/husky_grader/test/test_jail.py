@@ -13,7 +13,13 @@ import sys
 import time
 
 from husky_grader.jail import find_sandbox, Jail, Limits, NoSandbox, Sandbox
-from playpen_testing.jails import in_each_of_namespaces, in_each_sandbox, in_each_way
+from playpen_testing.jails import (
+    in_each_of_namespaces,
+    in_each_sandbox,
+    in_each_way,
+    in_each_way_with_processes,
+    in_each_with_network,
+)
 from playpen_testing.waiting import wait_until
 import psutil
 import pytest
@@ -146,7 +152,7 @@ def test_a_daemon_ends_with_the_run(sandbox: Sandbox, tmp_path: Path, mark: str)
         assert (exit_code, running(mark)) == (0, [])
 
 
-@in_each_way
+@in_each_way_with_processes
 def test_what_may_close_closes_and_what_is_deaf_is_killed(
     sandbox: Sandbox, tmp_path: Path, mark: str
 ) -> None:
@@ -178,7 +184,7 @@ def test_a_fork_bomb_stays_in_its_jail(sandbox: Sandbox, tmp_path: Path, mark: s
 
 
 @pytest.mark.parametrize('program', [EATS, HIDES], ids=['in processes', 'in nameless files'])
-@in_each_way
+@in_each_way_with_processes
 def test_memory_over_its_limit_ends_only_who_took_it(
     sandbox: Sandbox, tmp_path: Path, mark: str, program: str
 ) -> None:
@@ -204,7 +210,7 @@ def test_a_log_is_cut_in_its_middle(sandbox: Sandbox, tmp_path: Path) -> None:
     assert '\n[199900010 bytes of the log are left out here]\n' in text
 
 
-@in_each_sandbox
+@in_each_with_network
 def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> None:
     limits = Limits(file_mb=2, folder_mb=5, temporary_mb=1, shared_mb=1)
     log, fill = tmp_path / 'log', 'head -c 3000000 /dev/zero >'
@@ -220,7 +226,7 @@ def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> Non
         assert process.stopped == 'filled its folder with over 5 MB'
 
 
-@in_each_sandbox
+@in_each_with_network
 def test_jails_do_not_meet_on_the_network(sandbox: Sandbox, tmp_path: Path) -> None:
     serve = 'import socket; server = socket.create_server(("127.0.0.1", 4000)); ' + SLEEPING
     ask = 'import socket; socket.create_connection(("127.0.0.1", 4000), 1.0)'

@@ -10,9 +10,10 @@ from husky_grader.jail.containers import DOCKER, PODMAN
 from husky_grader.jail.jail import Jail
 from husky_grader.jail.namespaces import BWRAP, KERNEL
 from husky_grader.jail.sandbox import NoSandbox, Nothing, Sandbox, SandboxFails
+from husky_grader.jail.user import USER
 
 _NONE = Nothing()
-_SEPARATING: tuple[Sandbox, ...] = (BWRAP, PODMAN, DOCKER, KERNEL)
+_SEPARATING: tuple[Sandbox, ...] = (BWRAP, PODMAN, DOCKER, KERNEL, USER)
 SANDBOXES = (*(sandbox.name for sandbox in _SEPARATING), _NONE.name)
 _TRIED_WITHIN_SEC = 30.0
 _RESTRICTED = Path('/proc/sys/kernel/apparmor_restrict_unprivileged_userns')
@@ -43,6 +44,7 @@ def find_sandbox(wanted: str = 'auto') -> Sandbox:
 
 def _try(sandbox: Sandbox) -> None:
     with TemporaryDirectory(prefix='jail-') as name:
+        Path(name).chmod(0o711)
         folder, log = Path(name, 'folder'), Path(name, 'log')
         folder.mkdir()
         with Jail(sandbox, folder) as jail:

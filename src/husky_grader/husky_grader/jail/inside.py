@@ -126,7 +126,7 @@ def _drop_rights(user: int | None) -> None:
     _checked(_LIBC.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0), 'dumpable')
 
 
-def _restrict_files(writable: list[str], *, needed: bool) -> None:
+def _restrict_files(readable: list[str], writable: list[str], *, needed: bool) -> None:
     """
     Have Landlock refuse writing elsewhere, mounting, and reaching what is outside by any name.
 
@@ -143,7 +143,8 @@ def _restrict_files(writable: list[str], *, needed: bool) -> None:
     attributes = (ctypes.c_uint64 * len(fields))(*fields)
     size = ctypes.c_size_t(ctypes.sizeof(attributes))
     ruleset = _checked(_LIBC.syscall(_NR_CREATE_RULESET, attributes, size, 0), 'Landlock')
-    _allow(ruleset, '/', _EXECUTE | _READ_FILE | _READ_DIR)
+    for place in readable:
+        _allow(ruleset, place, _EXECUTE | _READ_FILE | _READ_DIR)
     _allow(ruleset, '/dev', every & (_READ_FILE | _READ_DIR | _WRITE_FILE | _TRUNCATE))
     for folder in writable:
         _allow(ruleset, folder, every)
@@ -151,16 +152,18 @@ def _restrict_files(writable: list[str], *, needed: bool) -> None:
     os.close(ruleset)
 
 
-def _allow(ruleset: int, folder: str, rights: int) -> None:
+def _allow(ruleset: int, place: str, rights: int) -> None:
     class Beneath(ctypes.Structure):
         _pack_ = 1
-        _fields_ = [('rights', ctypes.c_uint64), ('folder', ctypes.c_int32)]
+        _fields_ = [('rights', ctypes.c_uint64), ('place', ctypes.c_int32)]
 
-    place = os.open(folder, os.O_PATH | os.O_CLOEXEC)
-    rule = ctypes.byref(Beneath(rights, place))
+    if not os.path.isdir(place):
+        rights &= _EXECUTE | _READ_FILE
+    opened = os.open(place, os.O_PATH | os.O_CLOEXEC)
+    rule = ctypes.byref(Beneath(rights, opened))
     done = _LIBC.syscall(_NR_ADD_RULE, ruleset, _RULE_PATH_BENEATH, rule, 0)
-    _checked(done, f'Landlock of {folder}')
-    os.close(place)
+    _checked(done, f'Landlock of {place}')
+    os.close(opened)
 
 
 def _limit(limits: list[tuple[int, int]]) -> None:
@@ -210,6 +213,7 @@ def _exit_code(status: int) -> int:
 def main(
     *,
     mounts: list[tuple[str, str, str]],
+    readable: list[str],
     writable: list[str],
     needs_landlock: bool,
     limits: list[tuple[int, int]],
@@ -222,7 +226,8 @@ def main(
     Make the jail, and run the command in it.
 
     :param mounts: as in folders.Mount; none where the root is made already.
-    :param writable: what Landlock lets it write to.
+    :param readable: what Landlock lets it read.
+    :param writable: and what it lets it write to.
     :param limits: numbers of setrlimit(2) and values.
     :param user: whose number to take; None: it stays.
     :returns: the exit code.
@@ -238,7 +243,7 @@ def main(
         with open('/proc/self/oom_score_adj', 'w') as score:  # if memory runs out, these go first
             score.write('1000')
         _drop_rights(user)
-        _restrict_files(writable, needed=needs_landlock)
+        _restrict_files(readable, writable, needed=needs_landlock)
         _limit(limits)
     except (OSError, ValueError) as error:
         print(f'the jail cannot be made: {error}', file=sys.stderr, flush=True)

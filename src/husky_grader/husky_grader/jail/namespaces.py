@@ -16,15 +16,13 @@ from pathlib import Path
 import shutil
 import subprocess
 
-from husky_runtime.children import ChildProcess
-import psutil
-
 from husky_grader.jail.folders import LOOPBACK, PYTHON
 from husky_grader.jail.sandbox import (
     Call,
     Cell,
     CLEAN,
     Entry,
+    first_child,
     FIRST_USER,
     inside,
     joining,
@@ -68,21 +66,14 @@ class _Bwrap(_Cell):
                 # By itself it makes the folders above so that only root can pass.
                 words += ['--dir', str(Path(target).parent), _BWRAP_KINDS[kind], source, target]
         words += ['--remount-ro', '/', '--', *inside(call, user=self.user)]
-        return Entry([*joining(self.holder), *words], CLEAN, _first_child)
+        return Entry([*joining(self.holder), *words], CLEAN, first_child)
 
 
 class _Kernel(_Cell):
     def enter(self, call: Call) -> Entry:
         words = ['unshare', '--pid', '--ipc', '--mount', *_own_user(self.is_root)]
         last = inside(call, user=self.user, mounts=call.mounts, needs_landlock=True)
-        return Entry([*joining(self.holder), *words, '--', *last], CLEAN, _first_child)
-
-
-def _first_child(child: ChildProcess) -> psutil.Process | None:
-    try:
-        return next(iter(psutil.Process(child.pid).children()), None)
-    except psutil.NoSuchProcess:
-        return None
+        return Entry([*joining(self.holder), *words, '--', *last], CLEAN, first_child)
 
 
 def _own_user(is_root: bool) -> list[str]:

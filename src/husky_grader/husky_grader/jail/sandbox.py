@@ -57,6 +57,14 @@ class Entry:
     first: Callable[[ChildProcess], psutil.Process | None] | None = None
 
 
+def first_child(child: ChildProcess) -> psutil.Process | None:
+    """Return the process that a child has started; None if there is none."""
+    try:
+        return next(iter(psutil.Process(child.pid).children()), None)
+    except psutil.NoSuchProcess:
+        return None
+
+
 class Cell(Protocol):
     """An open sandbox."""
 
@@ -105,16 +113,19 @@ def inside(
     *,
     user: int | None,
     mounts: Sequence[Mount] = (),
+    readable: Sequence[str] = ('/',),
     needs_landlock: bool = False,
     counts_tasks: bool = True,
 ) -> list[str]:
     """
     Return the command that takes the last step into a jail; see inside.py.
 
+    :param readable: what Landlock lets it read; where the mounts do not say it already.
     :param counts_tasks: whether the kernel counts the processes of the jail's user alone.
     """
     plan = {
         'mounts': [tuple(mount) for mount in mounts],
+        'readable': list(readable),
         'writable': [mount.target for mount in call.mounts if mount.kind != 'read'],
         'needs_landlock': needs_landlock,
         'limits': call.limits.for_each_process(counts_tasks=counts_tasks),

@@ -1,0 +1,124 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A sandbox for root where there are no namespaces, as in many containers: another user.
+
+Commands run as a user that nobody is, so that they can neither signal, trace nor read what
+belongs to others. Landlock, where the kernel has it, narrows what they read and write to what
+other sandboxes show. The network and the list of processes are the machine's; nodes keep to the
+loopback interface and a DDS domain of their own. All commands of a jail are one user, so that the
+end of one ends the others too.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from dataclasses import dataclass, replace
+import os
+from pathlib import Path
+import shutil
+import stat
+import sys
+
+from husky_runtime.domains import OwnDomain
+
+from husky_grader.jail.folders import home_of, PYTHON
+from husky_grader.jail.sandbox import (
+    Call,
+    Cell,
+    CLEAN,
+    Entry,
+    first_child,
+    FIRST_USER,
+    inside,
+    SandboxFails,
+)
+
+_GUARD = Path(__file__).with_name('guard.py').resolve()
+_PROFILE = Path(__file__).with_name('loopback.xml').resolve()
+_SHARED = ('/tmp', '/dev/shm')
+_ALWAYS_READ = ('/proc', '/dev')
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """A DDS domain, and a user of the same number."""
+
+    domain: int
+
+    @property
+    def graph(self) -> dict[str, str]:
+        return {
+            'ROS_DOMAIN_ID': str(self.domain),
+            # Left alone by ROS, Fast DDS does what the profile says. With LOCALHOST it would add
+            # shared memory, which two users do not share, and all data would be lost.
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SYSTEM_DEFAULT',
+            'FASTRTPS_DEFAULT_PROFILES_FILE': str(_PROFILE),
+        }
+
+    @property
+    def user(self) -> int:
+        return FIRST_USER + self.domain
+
+    def enter(self, call: Call) -> Entry:
+        _check_ways(call.folder)
+        readable = [mount.target for mount in call.mounts if mount.kind == 'read']
+        # In /tmp lies what belongs to others, and Landlock lets read what it lets write.
+        own = replace(
+            call,
+            mounts=[mount for mount in call.mounts if mount.target != '/tmp'],
+            environment={**call.environment, 'TMPDIR': str(home_of(call.folder))},
+        )
+        last = inside(own, user=self.user, readable=[*readable, *_ALWAYS_READ])
+        words = [str(PYTHON), '-I', '-S', str(_GUARD), str(self.user), *last]
+        return Entry(words, CLEAN, first_child)
+
+    def beside(self, command: Sequence[str]) -> list[str]:
+        return list(command)
+
+    def ending_all(self) -> AbstractContextManager[None]:
+        return nullcontext()  # the guard has ended them
+
+    def remove_shared_files(self) -> None:
+        """Remove what the user has left where everybody may write."""
+        for path in (path for folder in _SHARED for path in Path(folder).iterdir()):
+            with suppress(FileNotFoundError):  # removed meanwhile
+                if path.lstat().st_uid != self.user:
+                    continue
+                if path.is_dir() and not path.is_symlink():
+                    shutil.rmtree(path, ignore_errors=True)
+                else:
+                    path.unlink()
+
+
+class _User:
+    name = 'user'
+
+    @contextmanager
+    def open(self) -> Iterator[Cell]:
+        if os.geteuid() != 0:
+            raise SandboxFails('only root can run programs as somebody else')
+        _check_ways(Path(sys.prefix), PYTHON, _GUARD)
+        with OwnDomain() as domain:
+            cell = _Cell(domain.number)
+            try:
+                yield cell
+            finally:
+                cell.remove_shared_files()
+
+
+USER = _User()
+
+
+def _check_ways(*places: Path) -> None:
+    """
+    Check that another user can pass to some places.
+
+    :raises SandboxFails: naming the folder that bars the way.
+    """
+    for place in places:
+        for folder in place.parents:
+            if not folder.stat().st_mode & stat.S_IXOTH:
+                raise SandboxFails(
+                    f'{place}: only its owner can pass {folder}; put it elsewhere, or allow it '
+                    f'to all: chmod o+x {folder}'
+                )
