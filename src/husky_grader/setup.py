@@ -9,7 +9,7 @@ setup(
     package_data={
         'husky_grader': [
             *('outputs/*.css', 'outputs/*.jinja', 'report/*.css', 'report/*.jinja'),
-            'jail/*.xml',
+            *('jail/*.xml', 'autograder/gradescope_scripts/*'),
         ],
     },
     data_files=[

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The step in which a program drives courses."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 import shlex
@@ -66,9 +67,7 @@ def drive_step(step: DriveStep, runner: DriveRunner, folder: Path) -> Finding:
     """
     whole = sum(course.share for course in step.courses)
     score, lines = 0.0, []
-    for number, course in enumerate(step.courses, 1):
-        name = step.file_name if len(step.courses) == 1 else f'{step.file_name}_{number}'
-        place = folder / FOR_STAFF / name if course.hidden else folder / name
+    for course, place in drive_folders(step, folder):
         report = runner.drive(step, course, place)
         over = exceeded(
             step.limits,
@@ -84,6 +83,15 @@ def drive_step(step: DriveStep, runner: DriveRunner, folder: Path) -> Finding:
         costs = {part.why: part.cost_points for part in report.parts}
         lines.append(one if told else passed(report.course, costs))
     return Finding('; '.join(lines), score=score)
+
+
+def drive_folders(step: DriveStep, folder: Path) -> list[tuple[CourseToDrive, Path]]:
+    """Return the courses, each with the folder of the report on its drive."""
+    found = []
+    for number, course in enumerate(step.courses, 1):
+        name = step.file_name if len(step.courses) == 1 else f'{step.file_name}_{number}'
+        found.append((course, folder / FOR_STAFF / name if course.hidden else folder / name))
+    return found
 
 
 def passed(course: str, costs: Mapping[str, float]) -> str:

@@ -1,0 +1,57 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A rubric with the courses that it names, so that it can be read elsewhere."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import shutil
+from tempfile import TemporaryDirectory
+
+from husky_grader.rubric.rubric_file import load_rubric
+from husky_grader.rubric.steps import DriveStep, Rubric
+
+
+@dataclass(frozen=True)
+class PackedRubric:
+    """Files by their paths in a folder, with the rubric among them."""
+
+    files: Mapping[str, Path]
+    rubric: str  # the path of the rubric in the folder
+
+
+def packed_rubric(rubric: Rubric) -> PackedRubric:
+    """
+    Return what a rubric was read from.
+
+    :raises ValueError: when it names a course in a way that only holds where it lies now.
+    """
+    file = rubric.file.resolve()
+    courses = [path.resolve() for path in _courses_of(rubric)]
+    top = Path(os.path.commonpath([path.parent for path in (file, *courses)]))
+    files = {path.relative_to(top).as_posix(): path for path in (file, *courses)}
+    packed = PackedRubric(files, file.relative_to(top).as_posix())
+    _check(packed, rubric)
+    return packed
+
+
+def _courses_of(rubric: Rubric) -> list[Path]:
+    drives = (step for step in rubric.steps if isinstance(step, DriveStep))
+    return [course.file for step in drives for course in step.courses]
+
+
+def _check(packed: PackedRubric, rubric: Rubric) -> None:
+    """Read it in another folder."""
+    with TemporaryDirectory() as name:
+        folder = Path(name).resolve()
+        for path, source in packed.files.items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, folder / path)
+        read = load_rubric(folder / packed.rubric)
+        for given, course in zip(_courses_of(rubric), _courses_of(read), strict=True):
+            if not course.resolve().is_relative_to(folder):
+                raise ValueError(
+                    f'{rubric.file}: names the course {given} by its place on this computer; name '
+                    'it from the folder of the rubric, as in ../courses/one.yaml'
+                )
