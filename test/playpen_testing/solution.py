@@ -31,7 +31,7 @@ def write_solution(folder: Path, course: Path = COURSE) -> Path:
             subprocess.run(
                 ['bash', '-ec', block.text],
                 cwd=workspace / 'src',
-                env={**os.environ, 'HOME': str(folder)},
+                env={**os.environ, 'HOME': str(folder.resolve())},
                 check=True,
                 capture_output=True,
             )
