@@ -117,6 +117,7 @@ def test_the_zip_has_two_scripts_a_rubric_and_the_lab(tmp_path: Path) -> None:
     with tarfile.open(fileobj=lab) as packed:
         names = packed.getnames()
         assert packed.getmember('lab').mode == 0o755
+        assert packed.getmember('lab').mtime > 315_532_800  # 1980, where a wheel's times begin
     assert {'requirements/ros.in', 'worlds/playpen.xml', 'src/husky_grader/setup.py'} <= set(names)
     made = ('.venv', '.git', 'build', 'install', 'log', 'report')
     assert [name for name in names if name.startswith(made) or '__pycache__' in name] == []

@@ -13,6 +13,7 @@ end of one ends the others too.
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, replace
+from itertools import count
 import os
 from pathlib import Path
 import shutil
@@ -36,14 +37,20 @@ from husky_grader.jail.sandbox import (
 _GUARD = Path(__file__).with_name('guard.py').resolve()
 _PROFILE = Path(__file__).with_name('loopback.xml').resolve()
 _SHARED = ('/tmp', '/dev/shm')
+_DOMAINS = 128  # more than there are; below it a user's number tells the domain
+_MOST_USERS = 8000  # of a domain: guard.py takes the numbers above them for itself
 _ALWAYS_READ = ('/proc', '/dev')
+
+
+_opened = count()  # jails of this process
 
 
 @dataclass(frozen=True)
 class _Cell:
-    """A DDS domain, and a user of the same number."""
+    """A DDS domain, and a user."""
 
     domain: int
+    user: int
 
     @property
     def graph(self) -> dict[str, str]:
@@ -54,10 +61,6 @@ class _Cell:
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SYSTEM_DEFAULT',
             'FASTRTPS_DEFAULT_PROFILES_FILE': str(_PROFILE),
         }
-
-    @property
-    def user(self) -> int:
-        return FIRST_USER + self.domain
 
     def enter(self, call: Call) -> Entry:
         _check_ways(call.folder)
@@ -99,7 +102,9 @@ class _User:
             raise SandboxFails('only root can run programs as somebody else')
         _check_ways(Path(sys.prefix), PYTHON, _GUARD)
         with OwnDomain() as domain:
-            cell = _Cell(domain.number)
+            # Nobody who has been before: what was built belongs to the user of another jail.
+            user = FIRST_USER + _DOMAINS * (next(_opened) % _MOST_USERS) + domain.number
+            cell = _Cell(domain.number, user)
             try:
                 yield cell
             finally:
