@@ -25,7 +25,7 @@ from husky_grader.grade_class import (
     wrong_of_class,
 )
 from husky_grader.grading import Grade, grade_file
-from husky_grader.playpen import default_course
+from husky_grader.playpen import default_course, default_rubric
 from husky_grader.report.files import as_json, summary, write_report
 from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
@@ -65,6 +65,11 @@ def _parser() -> argparse.ArgumentParser:
         '--gradebook',
         metavar='FILE',
         help="the table of Moodle or Canvas to fill in; a copy is written with the class's report",
+    )
+    parser.add_argument(
+        '--make-gradescope',
+        metavar='FILE',
+        help='write the zip by which Gradescope grades what students hand in there',
     )
     parser.add_argument(
         '--rubric', metavar='FILE', help='what a lab asks for (that of the lab sheet)'
@@ -113,15 +118,18 @@ def _parser() -> argparse.ArgumentParser:
 def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(args)
-    if sum(map(bool, (options.files, options.record, options.controller, options.lab))) != 1:
+    zipped = options.make_gradescope
+    given = (options.files, options.record, options.controller, options.lab, zipped)
+    if sum(map(bool, given)) != 1:
         parser.error(
-            'give waypoint files, --record FILE, --controller COMMAND or --lab SUBMISSION'
+            'give waypoint files, --record FILE, --controller COMMAND, --lab SUBMISSION or '
+            '--make-gradescope FILE'
         )
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if not options.real_time_factor > 0.0:
         parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
-    if options.rubric and not options.lab:
+    if options.rubric and not (options.lab or zipped):
         parser.error('--rubric needs --lab SUBMISSION, the workspace to grade by it')
     if options.lab and (options.waypoints or options.answers):
         parser.error('--lab takes courses and answers from the rubric; see --rubric FILE')
@@ -150,6 +158,8 @@ def main(args: Sequence[str] | None = None) -> int:
 
 
 def _grade(options: argparse.Namespace) -> int:
+    if options.make_gradescope:
+        return _make_gradescope(options)
     if options.record:
         return _grade_record(options)
     if options.controller:
@@ -160,6 +170,16 @@ def _grade(options: argparse.Namespace) -> int:
         file, folder = options.files[0], Path(options.report)
         return _show_one(grade_file(file, folder, world=options.world), options)
     return grade_files(options)
+
+
+def _make_gradescope(options: argparse.Namespace) -> int:
+    from husky_grader.autograder.gradescope_zip import make_gradescope
+    from husky_grader.rubric.rubric_file import load_rubric
+
+    file = Path(options.make_gradescope)
+    make_gradescope(file, load_rubric(options.rubric or default_rubric()))
+    print(printable(f'{file}: for Configure Autograder of Gradescope; see docs/autograders.md'))
+    return PASSED
 
 
 def _grade_record(options: argparse.Namespace) -> int:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The job of grading one submission by a rubric."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 import json
@@ -16,7 +16,7 @@ from husky_grader.batch.key import key_of, versions, world_digest
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.jail import find_sandbox, Sandbox
 from husky_grader.lab_grading import grade_submission
-from husky_grader.rubric.steps import DriveStep, Rubric
+from husky_grader.rubric.steps import Rubric
 from husky_grader.submission import digest_of, Submission
 
 LAB_FILE = 'lab.json'
@@ -47,7 +47,7 @@ class LabJob:
         # What ran without a jail may have written what it liked, also its own result.
         jailed = self.sandbox != 'none'
         return key_of(
-            [self.rubric.file, *_courses_of(self.rubric)],
+            [self.rubric.file, *self.rubric.courses],
             {
                 'handed in': digest_of(self.submission),
                 'jailed': jailed,
@@ -109,12 +109,6 @@ def from_result(submission: Submission, content: Mapping[str, Any]) -> Graded:
         sandbox=content['sandbox'],
         notes=content['notes'],
     )
-
-
-def _courses_of(rubric: Rubric) -> Iterator[Path]:
-    for step in rubric.steps:
-        if isinstance(step, DriveStep):
-            yield from (course.file for course in step.courses)
 
 
 @lru_cache(maxsize=1)

@@ -57,7 +57,7 @@ def _graded(options: argparse.Namespace) -> dict[str, Any]:
     rubric = load_rubric(options.rubric or default_rubric())
     if options.metadata and (wrong := wrong_points(options.metadata, rubric)):
         print(wrong, flush=True)
-    sandbox = find_sandbox(options.sandbox)
+    sandbox = None if rubric.is_of_files else find_sandbox(options.sandbox)
     folder = options.report
     _make_private_folders(rubric, folder)
     source = options.submission.resolve()
@@ -66,7 +66,6 @@ def _graded(options: argparse.Namespace) -> dict[str, Any]:
         rubric,
         folder,
         sandbox=sandbox,
-        real_time_factor=1.0,
         done=_tell,
     )
     if options.place == 'classroom50':

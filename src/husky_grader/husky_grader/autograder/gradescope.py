@@ -15,7 +15,7 @@ from husky_course.printable import printable
 
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.lab.drive_step import drive_folders
-from husky_grader.rubric.steps import DriveStep, Rubric
+from husky_grader.rubric.steps import DriveStep, PathStep, Rubric
 
 REPORT_FILE = 'report.json'
 
@@ -95,11 +95,12 @@ def _leaderboard(rubric: Rubric, folder: Path) -> list[dict[str, Any]]:
 
 def _reports(rubric: Rubric, folder: Path) -> list[Mapping[str, Any]]:
     """Return the reports of the courses that are not hidden; of a drive without one, nothing."""
-    reports = []
+    places: list[Path] = []
     for step in rubric.steps:
         if isinstance(step, DriveStep):
-            for course, place in drive_folders(step, folder):
-                if not course.hidden:
-                    file = place / REPORT_FILE
-                    reports.append(json.loads(file.read_text()) if file.is_file() else {})
-    return reports
+            found = drive_folders(step, folder)
+            places += [place for course, place in found if not course.hidden]
+        elif isinstance(step, PathStep):
+            places.append(folder / step.file_name)
+    files = [place / REPORT_FILE for place in places]
+    return [json.loads(file.read_text()) if file.is_file() else {} for file in files]

@@ -10,7 +10,7 @@ import shutil
 from tempfile import TemporaryDirectory
 
 from husky_grader.rubric.rubric_file import load_rubric
-from husky_grader.rubric.steps import DriveStep, Rubric
+from husky_grader.rubric.steps import Rubric
 
 
 @dataclass(frozen=True)
@@ -28,17 +28,12 @@ def packed_rubric(rubric: Rubric) -> PackedRubric:
     :raises ValueError: when it names a course in a way that only holds where it lies now.
     """
     file = rubric.file.resolve()
-    courses = [path.resolve() for path in _courses_of(rubric)]
+    courses = [path.resolve() for path in rubric.courses]
     top = Path(os.path.commonpath([path.parent for path in (file, *courses)]))
     files = {path.relative_to(top).as_posix(): path for path in (file, *courses)}
     packed = PackedRubric(files, file.relative_to(top).as_posix())
     _check(packed, rubric)
     return packed
-
-
-def _courses_of(rubric: Rubric) -> list[Path]:
-    drives = (step for step in rubric.steps if isinstance(step, DriveStep))
-    return [course.file for step in drives for course in step.courses]
 
 
 def _check(packed: PackedRubric, rubric: Rubric) -> None:
@@ -49,7 +44,7 @@ def _check(packed: PackedRubric, rubric: Rubric) -> None:
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, folder / path)
         read = load_rubric(folder / packed.rubric)
-        for given, course in zip(_courses_of(rubric), _courses_of(read), strict=True):
+        for given, course in zip(rubric.courses, read.courses, strict=True):
             if not course.resolve().is_relative_to(folder):
                 raise ValueError(
                     f'{rubric.file}: names the course {given} by its place on this computer; name '

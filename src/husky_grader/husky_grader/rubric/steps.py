@@ -246,6 +246,12 @@ class Rubric:
         return all(isinstance(step, PathStep) for step in self.steps)
 
     @property
+    def courses(self) -> tuple[Path, ...]:
+        """The waypoint files that are driven, each once."""
+        drives = (step for step in self.steps if isinstance(step, DriveStep))
+        return tuple(dict.fromkeys(course.file for step in drives for course in step.courses))
+
+    @property
     def points(self) -> float:
         """The most that can be got."""
         return sum(step.points for step in self.steps)
