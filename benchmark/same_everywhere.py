@@ -64,7 +64,8 @@ def grade(folder: Path, report: Path, cgroup: Path | None = None) -> dict[str, s
     print(f'{report.name}: {time.monotonic() - begun:.0f} s', flush=True)
     if done.returncode not in (0, 1):
         sys.exit(done.stderr)
-    return {file.parent.name: compared(file) for file in sorted(report.glob('*/lab.json'))}
+    files = sorted(report.rglob('lab.json'))
+    return {str(file.parent.relative_to(report)): compared(file) for file in files}
 
 
 def compared(file: Path) -> str:
