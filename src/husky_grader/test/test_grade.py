@@ -127,7 +127,10 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
 @pytest.mark.parametrize(
     ('arguments', 'expected'),
     [
-        ([], 'give waypoint files, --record FILE, --controller COMMAND or --lab SUBMISSION'),
+        (
+            [],
+            'give waypoint files, --record FILE, --controller COMMAND, --lab SUBMISSION or --make',
+        ),
         (['--rubric', 'rubric.yaml', 'a.yaml'], '--rubric needs --lab SUBMISSION'),
         (['--lab', '.', '--answers', '1'], '--lab takes courses and answers from the rubric'),
         (['--record', 'x.record'], '--record needs --waypoints FILE'),

@@ -3,7 +3,7 @@
 """A jail ends what runs in it, and holds it to its limits, in every sandbox that works here."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
 import os
 from pathlib import Path
 import re
@@ -117,7 +117,11 @@ def python(text: str, *words: str) -> list[str]:
 
 
 def has_said(log: Path, text: str) -> None:
-    wait_until(lambda: text in log.read_text(), timeout_sec=10.0, what=f'{text} in {log.name}')
+    wait_until(
+        lambda: log.is_file() and text in log.read_text(),
+        timeout_sec=10.0,
+        what=f'{text} in {log.name}',
+    )
 
 
 @in_each_way
@@ -249,7 +253,11 @@ def test_nothing_outlives_a_grader_that_ends(
     folder = tmp_path / 'folder'
     folder.mkdir()
     command = python(GRADER, sandbox.name, str(folder), mark)
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as grader:
+    with (
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as grader,
+        ExitStack() as stack,
+    ):
+        stack.callback(grader.kill)  # or the test would wait for it
         assert grader.stdout is not None
         assert grader.stdout.readline() == b'ready\n'
         wait_until(lambda: len(running(mark)) >= 2, timeout_sec=10.0, what='both programs')

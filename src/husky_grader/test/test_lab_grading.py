@@ -429,7 +429,8 @@ def test_a_class_of_archives_has_a_line_each_and_costs_only_itself(
     (handed_in / 'hostile.zip').write_bytes(b'PK\x03\x04 and nothing else')
     report = tmp_path / 'report'
     assert grade(['--lab', str(handed_in), '--report', str(report)]) == 1
-    good, hostile = capsys.readouterr().out.splitlines()
+    good, hostile, written = capsys.readouterr().out.splitlines()
+    assert written.startswith(f'written: {report}/class.html')
     assert good.startswith('good     ')
     assert ' 65.0 of 100  driver package: a package with follow_path.py' in good
     assert hostile.startswith('hostile  refused  ')
