@@ -118,6 +118,7 @@ SLEEPS = _NODE + _TALK.format(
 )
 SLEEPS += 'while True:\n    talk()\n    time.sleep(0.1)\n'
 BY_TIMER = driver(then='pass', more='node.create_timer(0.1, send)')
+TOO_FAST = driver(then='command.linear.x *= 2', more='node.create_timer(0.2, send)')
 HALF_WAY = 'odometry.pose.pose.position.x > 0.6'
 
 # Of each the three programs: publisher, subscriber, follow_path.
@@ -139,7 +140,7 @@ SUBMISSIONS = {
     ),
     'hangs': (talker(), listener(), driver(f'if {HALF_WAY}: time.sleep(1e6)')),
     'stops_short': (talker(), listener(), driver(f'if {HALF_WAY}: ahead.clear()')),
-    'backwards': (talker(), listener(), driver(then='command.linear.x *= -1; send()')),
+    'timer_poor': (talker(), listener(), TOO_FAST),
     'no_number': (talker(), listener(), driver(then='command.linear.x = math.nan; send()')),
     'deaf': (talker(), _NODE + 'rclpy.spin(node)\n', driver()),
     'forges_odometry': (

@@ -59,7 +59,7 @@ def _parser() -> argparse.ArgumentParser:
         '--sandbox',
         metavar='NAME',
         default='auto',
-        help='where workspaces are built and run: auto, bwrap, podman, docker, kernel, user or none',
+        help='where workspaces are built and run: auto, bwrap, podman, docker, kernel, user, none',
     )
     parser.add_argument(
         '--gradebook',

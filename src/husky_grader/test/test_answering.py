@@ -157,17 +157,25 @@ def test_a_controller_that_has_ended_is_not_waited_for() -> None:
 
 
 @pytest.mark.parametrize('gap_sec', [0.02, 0.1, 0.5])
-def test_a_command_is_overdue_half_a_gap_late(gap_sec: float) -> None:
+def test_a_command_is_due_one_gap_after_the_last(gap_sec: float) -> None:
     rhythm = Rhythm()
-    for number in range(9):
-        assert not rhythm.is_overdue(1000.0), 'no rhythm is known yet'
+    for number in range(3):
+        assert not rhythm.is_due(1000.0), 'no rhythm is known yet'
         rhythm.hear(number * gap_sec)
-    last_sec = 8 * gap_sec
-    assert not rhythm.is_overdue(last_sec + 1.4 * gap_sec)
-    assert rhythm.is_overdue(last_sec + 1.6 * gap_sec + PERIOD_SEC)
+    last_sec = 2 * gap_sec
+    assert not rhythm.is_due(last_sec + gap_sec - PERIOD_SEC / 2)
+    assert rhythm.is_due(last_sec + gap_sec)
 
 
-def test_time_waits_for_an_overdue_command_but_not_for_ever() -> None:
+def test_an_early_command_does_not_make_the_next_one_due() -> None:
+    rhythm = Rhythm()
+    for time_sec in (0.0, 0.2, 0.4, 0.42):
+        rhythm.hear(time_sec)
+    assert not rhythm.is_due(0.6)
+    assert rhythm.is_due(0.62)
+
+
+def test_time_waits_for_a_command_that_is_due_but_not_for_ever() -> None:
     robot = Robot()
     robot.has_followers = False
     for _ in range(9):

@@ -17,6 +17,7 @@ from husky_grader.lab.programs import Programs
 from husky_grader.report.files import write_report
 from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveStep
 from husky_grader.run.live import drive_live
+from husky_grader.scoring.reasons import disturbed_by
 from husky_grader.scoring.report import judge, Report
 
 COURSE_FILE = 'course.yaml'
@@ -78,11 +79,16 @@ def drive_step(step: DriveStep, runner: DriveRunner, folder: Path) -> Finding:
         cost = sum(map(step.cost_percent, over))
         score += max(report.score - cost, 0.0) * course.share / whole
         reasons = _numbers(report) if course.hidden else report.reasons
-        told = '; '.join([*over.values(), *reasons])
+        told = _disturbed(report) or '; '.join([*over.values(), *reasons])
         one = f'{report.course}: {told}' if len(step.courses) > 1 or course.hidden else told
         costs = {part.why: part.cost_points for part in report.parts}
         lines.append(one if told else passed(report.course, costs))
     return Finding('; '.join(lines), score=score)
+
+
+def _disturbed(report: Report) -> str:
+    """Return who disturbed a run: all else in it says nothing, and is never the same."""
+    return '; '.join(dict.fromkeys(map(disturbed_by, report.disturbances)))
 
 
 def drive_folders(step: DriveStep, folder: Path) -> list[tuple[CourseToDrive, Path]]:

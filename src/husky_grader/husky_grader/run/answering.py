@@ -5,7 +5,8 @@ Pass time as somebody's controller manages it.
 
 One that answers each odometry message with a command is waited for: its run is the same on every
 machine, and as fast as it can be. One with a clock of its own is told the time on /clock, at most
-at the pace that was asked for, and waited for when a command of its is overdue.
+at the pace that was asked for, and waited for at the moment when its next command is due, so that
+also its run is mostly the same on a busy machine.
 
 What is waited for is counted in ticks of the simulator's timer, not in seconds: on a busy machine
 they come later, as the answers do.
@@ -16,8 +17,6 @@ from enum import Enum
 import time
 
 from husky_sim.simulator_node import Pace, Periods, POLL_SEC
-
-from husky_sim.config import CONTROL_PERIOD_SEC
 
 START_TICKS = round(10.0 / POLL_SEC)
 """For a node that listens to odometry or publishes commands; after that time passes without."""
@@ -38,7 +37,10 @@ _ALONE_TURN = 10
 """Control periods a tick when there is nobody to wait for."""
 
 _GAPS = 8
-"""Between commands: so many make a rhythm."""
+"""Between commands: so many of the last ones are known."""
+
+_RHYTHM = 2
+"""And so many make a rhythm."""
 
 
 class Mode(Enum):
@@ -89,7 +91,7 @@ class Answering(Pace):
         elif self.mode is Mode.ANSWERS:
             if self._ticks >= ANSWER_TICKS:
                 self._change(Mode.SILENT if self._answers else Mode.CLOCKED)
-        elif self._ticks < OVERDUE_TICKS and self._rhythm.is_overdue(self._periods.time_sec):
+        elif self._is_awaited():
             self.pacer.restart()  # what it is waited for is not made up for
         else:
             self._keep_pace()
@@ -135,9 +137,14 @@ class Answering(Pace):
     def _change(self, mode: Mode) -> None:
         self.mode, self._ticks = mode, 0
 
+    def _is_awaited(self) -> bool:
+        return self._ticks < OVERDUE_TICKS and self._rhythm.is_due(self._periods.time_sec)
+
     def _keep_pace(self) -> None:
         for _ in range(self.pacer.due(time.monotonic())):
             self._periods.advance()
+            if self._is_awaited():
+                break
 
 
 class Rhythm:
@@ -153,8 +160,9 @@ class Rhythm:
             self._gaps_sec.append(time_sec - self._heard_sec)
         self._heard_sec = time_sec
 
-    def is_overdue(self, time_sec: float) -> bool:
-        """Return whether a command should have come by now, half a gap and a period late."""
-        if self._heard_sec is None or len(self._gaps_sec) < _GAPS:
+    def is_due(self, time_sec: float) -> bool:
+        """Return whether a command should come by now, after the longest of the last gaps."""
+        if self._heard_sec is None or len(self._gaps_sec) < _RHYTHM:
             return False
-        return time_sec > self._heard_sec + 1.5 * max(self._gaps_sec) + CONTROL_PERIOD_SEC
+        # 1e-9: rounding must not decide.
+        return time_sec > self._heard_sec + max(self._gaps_sec) - 1e-9

@@ -55,15 +55,16 @@ def disturbance_lines(run: Run) -> list[str]:
 
 
 def _disturbance(entry: Disturbance) -> str:
+    return f'disturbed at {entry.time_sec:.2f} s: {disturbed_by(entry)}'
+
+
+def disturbed_by(entry: Disturbance) -> str:
+    """Return who published what, and why that makes a run worth nothing."""
     names, topic = ' and '.join(entry.nodes), entry.topic
-    when = f'disturbed at {entry.time_sec:.2f} s'
     if topic.endswith('/cmd_vel'):  # of these nodes, one is the driver
         both = 'both' if len(entry.nodes) == 2 else 'all'
-        return f'{when}: {names} {both} published {topic}: nobody can tell whose drive it was'
-    return (
-        f'{when}: {names} published {topic} beside the simulator: nobody can tell what the '
-        'driver heard'
-    )
+        return f'{names} {both} published {topic}: nobody can tell whose drive it was'
+    return f'{names} published {topic} beside the simulator: nobody can tell what the driver heard'
 
 
 def _early_end(run: Run) -> list[str]:
