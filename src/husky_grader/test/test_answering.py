@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import time
 
 from husky_grader.run.answering import (
     Answering,
@@ -187,3 +188,14 @@ def test_time_waits_for_a_command_that_is_due_but_not_for_ever() -> None:
     assert robot.periods == before
     robot.tick(10_000)
     assert robot.periods > before
+
+
+def test_time_passes_for_one_that_sends_whatever_the_time_is() -> None:
+    robot = Robot()
+    robot.pace.on_command()  # before any odometry: it has a clock of its own
+    for _ in range(200):
+        robot.pace.on_command()
+        robot.pace.on_command()
+        time.sleep(0.0005)
+        robot.tick(1)
+    assert robot.periods > 20

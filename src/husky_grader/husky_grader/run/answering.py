@@ -18,6 +18,8 @@ import time
 
 from husky_sim.simulator_node import Pace, Periods, POLL_SEC
 
+from husky_sim.config import CONTROL_PERIOD_SEC
+
 START_TICKS = round(10.0 / POLL_SEC)
 """For a node that listens to odometry or publishes commands; after that time passes without."""
 
@@ -164,5 +166,6 @@ class Rhythm:
         """Return whether a command should come by now, after the longest of the last gaps."""
         if self._heard_sec is None or len(self._gaps_sec) < _RHYTHM:
             return False
-        # 1e-9: rounding must not decide.
-        return time_sec > self._heard_sec + max(self._gaps_sec) - 1e-9
+        # A period at least: for one that sends whatever the time is, time would stand for ever.
+        gap_sec = max(CONTROL_PERIOD_SEC, *self._gaps_sec)
+        return time_sec > self._heard_sec + gap_sec - 1e-9  # rounding must not decide
