@@ -22,6 +22,7 @@ from husky_grader.batch.job import Outcome
 from husky_grader.batch.sealed import Seals
 from husky_grader.batch.shards import parse_shard, Shard
 from husky_grader.grade import main as grade
+from husky_grader.playpen import config_folder
 import pytest
 
 SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-%g, 0]]\n'
@@ -138,6 +139,13 @@ def test_what_is_no_shard_is_refused(text: str, capsys: pytest.CaptureFixture[st
         with pytest.raises(SystemExit, match='2'):
             grade(['a.yaml', '--shard', text])
         assert 'give I/N' in capsys.readouterr().err
+
+
+def test_a_shard_may_be_empty(serial: Serial, tmp_path: Path) -> None:
+    command = [*serial.files, '--report', str(tmp_path / 'report'), '--shard']
+    assert grade([*command, '8/9']) == 0
+    rubric = ['--rubric', str(config_folder() / 'rubrics' / 'path.yaml')]
+    assert grade(['--lab', serial.files[0], *rubric, *command[-3:], '2/2']) == 0
 
 
 @pytest.mark.parametrize('count', [1, 2, 7, 12, 30])

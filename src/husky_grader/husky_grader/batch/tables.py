@@ -29,7 +29,7 @@ def names_of(files: Sequence[str]) -> list[str]:
 
 def table(names: Sequence[str], grades: Sequence[Grade]) -> str:
     """Return one line a file: name, score, verdict and the first reason."""
-    width = max(map(len, names))
+    width = max(map(len, names), default=0)
     lines = []
     for name, grade in zip(names, grades, strict=True):
         file = printable(grade.file)
