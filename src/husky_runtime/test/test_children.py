@@ -181,6 +181,20 @@ def test_the_shared_memory_of_the_dead_goes() -> None:
     assert left[alive] == list(files[alive])
 
 
+def test_shared_memory_that_others_may_use_stays() -> None:
+    # Root without rights cannot see what root with rights has mapped.
+    fewer = ['setpriv', '--bounding-set=-all', '--inh-caps=-all'] if os.geteuid() == 0 else []
+    clean = 'from husky_runtime.shared_memory import clean_shared_memory as c; c()'
+    with OwnDomain() as domain:
+        alive = participant(domain.number)
+        files = mapped_by([alive.pid])
+        time.sleep(0.3)  # they are old enough to be removed
+        done = subprocess.run([*fewer, sys.executable, '-c', clean], env=os.environ)
+        left = [file for file in files if file.exists()]
+        alive.communicate(b'', timeout=10.0)
+    assert (done.returncode, left) == (0, list(files))
+
+
 def participant(domain: int) -> 'subprocess.Popen[bytes]':
     """Start a node in a domain, and wait until it is there."""
     environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain), RANGE: 'LOCALHOST'}
