@@ -228,7 +228,7 @@ def dask() -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
             start('dask_worker', *plain, '--no-nanny', '--nthreads', '1', *where) for _ in range(2)
         ]
         deadline = time.monotonic() + 30.0
-        while not file.is_file():
+        while not (file.is_file() and file.read_text().rstrip().endswith('}')):
             assert time.monotonic() < deadline, 'waited 30 s for the scheduler'
             time.sleep(0.05)
         yield json.loads(file.read_text())['address'], workers

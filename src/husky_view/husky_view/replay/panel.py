@@ -79,6 +79,7 @@ class ReplayPanel:
         end = max(math.ceil(playback.duration_sec / 0.1) * 0.1, 0.1)
         self._slider = gui.add_slider('Seconds', 0.0, round(end, 1), 0.1, 0.0)
         self._slider.on_update(self._on_slider)
+        self._known_sec = self._slider.value  # what we have set, or heard of
         factor = gui.add_button_group('Speed', tuple(FACTORS))
         factor.on_click(lambda event: self._on_factor(FACTORS[event.target.value]))
         add_camera_buttons(gui, actions.put, choose_camera)
@@ -105,7 +106,12 @@ class ReplayPanel:
         # Updates by the server itself have no client.
         if event.client is not None:
             time_sec = float(event.target.value)
-            self._later(lambda: self._playback.jump(time_sec))
+
+            def jump() -> None:
+                self._known_sec = time_sec
+                self._playback.jump(time_sec)
+
+            self._later(jump)
 
     def _on_factor(self, factor: float) -> None:
         self._later(lambda: setattr(self._playback, 'factor', factor))
@@ -123,8 +129,11 @@ class ReplayPanel:
         if (PLAY in self._play.options) == playback.playing:
             self._play.options = (PAUSE if playback.playing else PLAY, RESTART)
         now = min(round(playback.time_sec, 1), self._slider.max)
-        if abs(now - self._slider.value) > 0.04:
-            self._slider.value = now
+        # Moved by somebody a moment ago, it stays until that is heard: the event has no value of
+        # its own, so that what is set meanwhile would be taken for it.
+        is_ours = self._slider.value == self._known_sec
+        if is_ours and abs(now - self._known_sec) > 0.04:
+            self._slider.value = self._known_sec = now
         html = figures_html(
             (
                 ('sim time', f'{playback.time_sec:.1f} s', 'time'),
