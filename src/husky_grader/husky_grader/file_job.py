@@ -8,7 +8,7 @@ from pathlib import Path
 
 from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, world_digest
-from husky_grader.grading import Grade, grade_file
+from husky_grader.file_grading import Grade, grade_file
 from husky_grader.report.files import is_report
 
 

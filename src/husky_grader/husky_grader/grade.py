@@ -17,6 +17,7 @@ from husky_course.waypoints import load_course
 from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 
+from husky_grader.file_grading import Grade, grade_file
 from husky_grader.grade_class import (
     grade_files,
     grade_labs,
@@ -24,7 +25,6 @@ from husky_grader.grade_class import (
     PASSED,
     wrong_of_class,
 )
-from husky_grader.grading import Grade, grade_file
 from husky_grader.playpen import default_course, default_rubric
 from husky_grader.report.files import as_json, summary, write_report
 from husky_grader.run.told import Told

@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import json
 from pathlib import Path
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from husky_course.printable import printable
 from husky_driver.ros import Tally
@@ -21,13 +21,14 @@ from husky_grader.batch.tables import names_of, table, write_csv
 from husky_grader.playpen import default_rubric
 
 if TYPE_CHECKING:  # they take their time
-    from husky_grader.batch.batch import How
+    from husky_grader.batch.job import Job, Outcome
     from husky_grader.jail import Sandbox
     from husky_grader.outputs import Gradebook
     from husky_grader.rubric.steps import Rubric
     from husky_grader.submission import Submission
 
 PASSED, NOT_PASSED = 0, 1
+AJob = TypeVar('AJob', bound='Job')
 FEW_FILES = 8  # so many are told by their names
 
 
@@ -58,7 +59,6 @@ def wrong_of_class(options: argparse.Namespace) -> str:
 
 def grade_files(options: argparse.Namespace) -> int:
     """Grade waypoint files; return the exit code."""
-    from husky_grader.batch.batch import Batch
     from husky_grader.file_job import FileJob
 
     folder = Path(options.report)
@@ -69,17 +69,9 @@ def grade_files(options: argparse.Namespace) -> int:
         for file, name in zip(files, names_of(files), strict=True)
     ]
     jobs = parse_shard(options.shard or '1/1').of(every)
-    with _Progress(len(jobs)) as progress:
-        batch = Batch(
-            jobs,
-            folder,
-            how=_how(options),
-            done=lambda number, outcome: progress.add(
-                f'{jobs[number].name} {jobs[number].grade(outcome).score:.1f}',
-                is_new=not outcome.remembered,
-            ),
-        )
-        outcomes = batch.run()
+    outcomes, unsealed = _done(
+        jobs, folder, options, lambda job, outcome: f'{job.name} {job.grade(outcome).score:.1f}'
+    )
     grades = [job.grade(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
     if options.json:
         entries = [
@@ -94,7 +86,7 @@ def grade_files(options: argparse.Namespace) -> int:
         write_csv(folder / 'grades.csv', grades)
     except OSError as error:
         lost.append(f'grades.csv: {error.strerror}')
-    if _tell_lost(folder, lost, batch.unsealed):
+    if _tell_lost(folder, lost, unsealed):
         return BAD_INPUT
     if not options.json:
         print(printable(f'grades: {folder / "grades.csv"}'))
@@ -157,7 +149,6 @@ def _grade_labs(
     options: argparse.Namespace,
 ) -> int:
     """Grade a class."""
-    from husky_grader.batch.batch import Batch
     from husky_grader.lab_job import LabJob
     from husky_grader.outputs import write_outputs
 
@@ -166,16 +157,9 @@ def _grade_labs(
     name = sandbox.name if sandbox else ''
     every = [LabJob(each, each.id, rubric, name, options.real_time_factor) for each in submissions]
     jobs = parse_shard(options.shard or '1/1').of(every)
-    with _Progress(len(jobs)) as progress:
-        batch = Batch(
-            jobs,
-            folder,
-            how=_how(options),
-            done=lambda number, outcome: progress.add(
-                jobs[number].graded(outcome).said(), is_new=not outcome.remembered
-            ),
-        )
-        outcomes = batch.run()
+    outcomes, unsealed = _done(
+        jobs, folder, options, lambda job, outcome: job.graded(outcome).said()
+    )
     graded = [job.graded(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
     if options.json:
         print(json.dumps([each.entry() for each in graded], indent=2))
@@ -193,33 +177,42 @@ def _grade_labs(
             _tell(note)
         if not options.json:
             print(printable('written: ' + ', '.join(map(str, outputs.files[:FEW_FILES]))))
-    if _tell_lost(folder, lost, batch.unsealed):
+    if _tell_lost(folder, lost, unsealed):
         return BAD_INPUT
     return PASSED if all(each.is_full for each in graded) else NOT_PASSED
 
 
-class _Progress:
-    """Counts what is graded on the terminal."""
+def _done(
+    jobs: Sequence[AJob],
+    folder: Path,
+    options: argparse.Namespace,
+    said: Callable[[AJob, Outcome], str],
+) -> tuple[list[Outcome], str]:
+    """
+    Do jobs, and count them on the terminal; return their outcomes, and why one was not sealed.
 
-    def __init__(self, total: int) -> None:
-        self._tally = Tally(total, sys.stderr, 'the workers start', bar=sys.stderr.isatty())
+    :param said: what the terminal tells of an outcome.
+    """
+    from husky_grader.batch.batch import Batch, How
 
-    def __enter__(self) -> Tally:
-        return self._tally
-
-    def __exit__(self, *_: object) -> None:
-        self._tally.close()
+    tally = Tally(len(jobs), sys.stderr, 'the workers start', bar=sys.stderr.isatty())
+    batch = Batch(
+        jobs,
+        folder,
+        how=How(options.executor, options.jobs, tuple(map(Path, options.collect))),
+        done=lambda number, outcome: tally.add(
+            said(jobs[number], outcome), is_new=not outcome.remembered
+        ),
+    )
+    try:
+        return batch.run(), batch.unsealed
+    finally:
+        tally.close()
 
 
 def _places(given: Sequence[str], options: argparse.Namespace) -> list[str]:
     """Return where files lie; a worker of a cluster has another working directory."""
     return [str(Path(each).absolute()) if options.executor else each for each in given]
-
-
-def _how(options: argparse.Namespace) -> How:
-    from husky_grader.batch.batch import How
-
-    return How(options.executor, options.jobs, tuple(map(Path, options.collect)))
 
 
 def _tell_lost(folder: Path, lost: Sequence[str], unsealed: str) -> bool:

@@ -196,6 +196,6 @@ def test_time_passes_for_one_that_sends_whatever_the_time_is() -> None:
     for _ in range(200):
         robot.pace.on_command()
         robot.pace.on_command()
-        time.sleep(0.0005)
+        time.sleep(0.0005)  # its pace is that of the clock
         robot.tick(1)
     assert robot.periods > 20

@@ -15,9 +15,9 @@ import time
 from husky_grader.batch.batch import Batch, How
 from husky_grader.batch.tables import names_of
 from husky_grader.batch.workers import workers
+from husky_grader.file_grading import Grade
 from husky_grader.file_job import FileJob
 from husky_grader.grade import main as grade
-from husky_grader.grading import Grade
 import pytest
 
 HOURS = ''.join(f'  - {{x: -{k}.0, y: 0, dwell: 600}}\n' for k in (1, 2, 1, 2, 1, 2))

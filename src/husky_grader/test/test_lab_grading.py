@@ -419,7 +419,7 @@ def test_a_daemon_of_a_controller_ends_with_the_run(tmp_path: Path) -> None:
 
 
 @pytest.mark.timeout(120)
-def test_a_class_of_archives_has_a_line_each_and_costs_only_itself(
+def test_a_hostile_archive_costs_only_itself(
     workspace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     handed_in = tmp_path / 'handed_in'

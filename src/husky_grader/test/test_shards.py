@@ -82,7 +82,7 @@ class Generated:
         return {'score': int(hashlib.sha256(self.name.encode()).hexdigest()[:4], 16)}
 
 
-def test_10000_results_in_shards_of_which_some_died_are_the_serial_ones(tmp_path: Path) -> None:
+def test_10000_results_in_shards_that_died_are_the_serial_ones(tmp_path: Path) -> None:
     jobs = [Generated(f's{number:05}') for number in range(10_000)]
     chance, shards, seals = random.Random(13), range(1, 101), Seals()
     dead = set(chance.sample(shards, 5))
@@ -235,7 +235,7 @@ def dask() -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
 
 
 @pytest.mark.timeout(180)
-def test_a_dask_cluster_that_loses_a_worker_comes_to_the_same_table(
+def test_a_cluster_that_loses_a_worker_has_the_same_table(
     serial: Serial, tmp_path: Path, dask: tuple[str, list[subprocess.Popen[bytes]]]
 ) -> None:
     address, workers = dask
@@ -265,4 +265,4 @@ def test_where_no_cluster_answers_one_line_says_so(
     command = [*serial.files, '--report', str(tmp_path / 'report')]
     assert grade([*command, '--executor', 'dask:tcp://127.0.0.1:9']) == 2
     (line,) = (line for line in capsys.readouterr().err.splitlines() if 'dask:' in line)
-    assert 'start one: dask scheduler' in line
+    assert 'start one: ./lab exec dask scheduler' in line

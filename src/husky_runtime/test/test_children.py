@@ -188,7 +188,6 @@ def test_shared_memory_that_others_may_use_stays() -> None:
     with OwnDomain() as domain:
         alive = participant(domain.number)
         files = mapped_by([alive.pid])
-        time.sleep(0.3)  # they are old enough to be removed
         done = subprocess.run([*fewer, sys.executable, '-c', clean], env=os.environ)
         left = [file for file in files if file.exists()]
         alive.communicate(b'', timeout=10.0)

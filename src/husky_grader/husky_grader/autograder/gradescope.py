@@ -29,12 +29,12 @@ def gradescope_results(
     :param folder: of the report.
     :param took_sec: how long the grading took, in wall time.
     """
-    how = f'Built and run in the sandbox "{graded.sandbox}".'
+    how = f'Built and run in the sandbox "{graded.sandbox}".' if graded.sandbox else ''
     first = f'Not graded: {graded.refused}' if graded.refused else how
     return {
         'score': round(graded.points, 3),
         'execution_time': round(took_sec),
-        'output': printable('\n'.join((first, *graded.notes)), keep='\n'),
+        'output': printable('\n'.join(filter(None, (first, *graded.notes))), keep='\n'),
         # Students have written some of it: no HTML of theirs may be shown.
         'output_format': 'text',
         'test_output_format': 'text',

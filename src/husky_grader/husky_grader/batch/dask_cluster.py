@@ -46,8 +46,8 @@ def cluster(address: str) -> Iterator[Executor]:
     except (OSError, ValueError) as error:
         why = str(error).splitlines()[0] if str(error) else 'no answer'
         raise ClusterFails(
-            f'{ADDRESS}{address}: {why}; start one: dask scheduler, and ./lab exec dask worker '
-            'tcp://HOST:8786 on each machine'
+            f'{ADDRESS}{address}: {why}; start one: ./lab exec dask scheduler, and on each '
+            'machine ./lab exec dask worker tcp://HOST:8786'
         ) from None
     with client:
         yield client.get_executor()

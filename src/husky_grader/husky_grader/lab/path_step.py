@@ -9,7 +9,7 @@ from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 import numpy as np
 
-from husky_grader.grading import grade_file
+from husky_grader.file_grading import grade_file
 from husky_grader.lab.drive_step import exceeded, passed
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.rubric.steps import PathStep, Place
