@@ -13,6 +13,7 @@ from husky_course.robot import RobotStart
 import mujoco
 
 from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, SimulationConfig
+from husky_sim.robot.broadphase import BroadPhase
 from husky_sim.robot.contacts import Collision, TouchDetector
 from husky_sim.robot.diff_drive import VelocityController, WheelOdometry
 from husky_sim.robot.husky import Husky, set_grip
@@ -86,20 +87,22 @@ class SimulatedRobot:
 class Simulation:
     """Robots in a world. Not for use by two threads at once."""
 
-    def __init__(self, config: SimulationConfig) -> None:
+    def __init__(self, config: SimulationConfig, *, visual: bool = True) -> None:
         """
         Load the world.
 
+        :param visual: keep what is only seen, for a camera or a picture.
         :raises SimulatorError: if the world or a start pose cannot be used.
         """
         self.config = config
-        self.world = load_world(config.world, config.robots)
+        self.world = load_world(config.world, config.robots, visual=visual)
         self.model = self.world.model
         for start in config.robots:
             set_grip(self.model, start.name, GRIP[config.ground.slip])
         self.data = mujoco.MjData(self.model)
         self.touches: list[Collision] = []
         self.periods = 0
+        self.broadphase = BroadPhase(self.world, self.data)
         self._detector = TouchDetector(self.world, self.data)
         self.robots = [
             SimulatedRobot(
@@ -138,14 +141,23 @@ class Simulation:
         begin_sec = self.time_sec
         for robot in self.robots:
             robot.act(begin_sec)
-        timestep_sec = self.model.opt.timestep
-        for step in range(1, self.world.steps_per_period + 1):
-            mujoco.mj_step(self.model, self.data)
-            self._detector.update(begin_sec + step * timestep_sec)
+        self.broadphase.update()
+        if self.broadphase.alone:
+            mujoco.mj_step(self.model, self.data, self.world.steps_per_period)
+        else:
+            timestep_sec = self.model.opt.timestep
+            for step in range(1, self.world.steps_per_period + 1):
+                mujoco.mj_step(self.model, self.data)
+                self._detector.update(begin_sec + step * timestep_sec)
         self.periods += 1
         for robot in self.robots:
             robot.observe(self.periods)
         self.touches = self._detector.reports(self.time_sec)
+
+    @property
+    def only_robots_awake(self) -> bool:
+        """Whether nothing but the robots has moved in the last control period."""
+        return int(self.data.ntree_awake) == len(self.robots)
 
     def unreported_touches(self) -> list[Collision]:
         """Return the touches of the last moments, whose force had no time to reach its peak."""
@@ -154,6 +166,7 @@ class Simulation:
     def reset(self) -> None:
         """Put everything back as it was at the start, bit for bit."""
         mujoco.mj_resetData(self.model, self.data)
+        self.broadphase.reset()
         self._detector.reset()
         self.touches = []
         self.periods = 0

@@ -24,7 +24,7 @@ import numpy as np
 from husky_grader.report.plot import ticks
 from husky_grader.scoring.report import Report
 
-MAX_POINTS = 1500
+MAX_POINTS = 750
 MARGIN_M = 0.8
 NEAR_M = 1.5  # around a course
 MIN_SIZE_M = 8.0

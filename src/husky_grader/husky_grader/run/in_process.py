@@ -117,7 +117,7 @@ def _at_start(world: str, start: Pose) -> Simulation:
 @lru_cache(maxsize=1)
 def _loaded(config: SimulationConfig) -> Simulation:
     """Keep the last world: a class drives a hundred courses in the same one."""
-    return Simulation(config)
+    return Simulation(config, visual=False)
 
 
 def _odometry(time_sec: float, robot: SimulatedRobot, odometry: str) -> Odometry:

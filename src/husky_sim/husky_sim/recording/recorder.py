@@ -53,9 +53,13 @@ class PushedBodies:
     def restart(self) -> None:
         """Use the poses of now as those before any push."""
         self._noted = self._simulation.data.qpos.copy()
+        self._was_calm = False
 
     def moved(self) -> list[tuple[str, list[float]]]:
         """Return name and joint coordinates of what has moved; call it after every period."""
+        was_calm, self._was_calm = self._was_calm, self._simulation.only_robots_awake
+        if was_calm and self._was_calm:
+            return []
         qpos, places = self._simulation.data.qpos, self._places
         if not (np.abs(qpos[places] - self._noted[places]) > MOVED).any():
             return []

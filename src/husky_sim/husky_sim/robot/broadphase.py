@@ -1,0 +1,171 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Obstacles far from every robot are left out of the search for contacts.
+
+MuJoCo's broad phase bounds and sorts all bodies in every step, which is a third of what a step in
+the playpen costs. Left out is only what no robot can reach before it looks around again, and
+MuJoCo sorts the pairs that are left. So contacts and trajectory are the same, bit for bit.
+
+Why nothing that is left out can be touched: it stays where it is, being fixed to the world or
+asleep; while anything but the robots is awake, nothing is left out. A robot that has gone AGAIN_M
+looks around before the next control period. Within a period of 20 ms it goes less than SLACK_M:
+that would take 10 m/s, a robot faster than MAX_SPEED_M_S leaves nothing out, and motors and
+gravity change its speed by less than 1 m/s in that time. What it wakes within the period meets
+its own neighbours, and they theirs; so what is loose is looked at with all around it, as far as
+SLACK_M, too.
+"""
+
+import math
+
+from husky_course.frames import Array
+import mujoco
+import numpy as np
+
+from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.world.world import World
+
+AGAIN_M = 0.3
+SLACK_M = 0.2
+MAX_SPEED_M_S = 2.0
+
+Places = list[list[float]]
+Flags = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+
+class BroadPhase:
+    """Chooses, before every control period, the bodies that can take part in contacts."""
+
+    def __init__(self, world: World, data: mujoco.MjData) -> None:
+        model = world.model
+        self._model, self._data, self._places = model, data, data.xpos
+        self._bases = [model.body(f'{robot.name}/base_link').id for robot in world.robots]
+        self._reach_m = [_reach_m(model, base) + AGAIN_M + SLACK_M for base in self._bases]
+        solid = {
+            int(body)
+            for body in model.geom_bodyid[world.owners >= 0]
+            if model.body_rootid[body] not in self._bases
+        }
+        bodies = [body for body in range(1, model.nbody) if self._stays(body)]
+        self._bodies = np.array(bodies, dtype=np.int64)
+        self._solid: Flags = np.isin(self._bodies, list(solid))
+        self._loose: Flags = model.body_treeid[self._bodies] >= 0
+        self._can_be_alone = len(self._bases) == 1 and solid <= set(bodies)
+        self._bits = [
+            (field, field[self._bodies].copy())
+            for field in (model.body_contype, model.body_conaffinity)
+        ]
+        self._boxes: tuple[Array, Array] | None = None  # of a world that is at rest
+        self.reset()
+
+    def _stays(self, body: int) -> bool:
+        """Tell whether a body is not a robot's, can touch, and is fixed or can sleep."""
+        model = self._model
+        return (
+            int(model.body_rootid[body]) not in self._bases
+            and bool(model.body_contype[body] | model.body_conaffinity[body])
+            and (int(model.body_weldid[body]) == 0 or int(model.body_treeid[body]) >= 0)
+        )
+
+    def reset(self) -> None:
+        """Leave nothing out; to be called when robots were put somewhere else."""
+        self._before = self._looked = [[math.inf] * 3] * len(self._bases)
+        self._include_all()
+
+    def update(self) -> None:
+        """
+        Choose for the coming control period.
+
+        Afterwards `alone` tells whether a single robot can meet nothing but the ground.
+        """
+        places = [self._places[base].tolist() for base in self._bases]
+        gone_m = _farthest_m(places, self._before)
+        self._before = places
+        # Not `<`: what is not a number is no reason to leave something out.
+        if not gone_m <= MAX_SPEED_M_S * CONTROL_PERIOD_SEC or self._data.ntree_awake != len(
+            self._bases
+        ):
+            if not self._all:
+                self._include_all()
+        elif self._all or not _farthest_m(places, self._looked) <= AGAIN_M:
+            self._looked = places
+            self._include(self._near(places))
+
+    def _near(self, places: Places) -> Flags:
+        """Tell for each body whether a robot could reach the box around it."""
+        if self._boxes is None:
+            self._boxes = self._measured_boxes()
+        low, high = self._boxes
+        near = np.zeros(len(self._bodies), dtype=bool)
+        for place, reach_m in zip(places, self._reach_m, strict=True):
+            away = np.maximum(np.maximum(low - place, place - high), 0.0)
+            near |= ~(np.einsum('ij,ij->i', away, away) > reach_m * reach_m)
+        return self._with_neighbours(near, low, high)
+
+    def _with_neighbours(self, near: Flags, low: Array, high: Array) -> Flags:
+        """Add what loose bodies could push, and what that could push, and so on."""
+        pushed = near & self._loose
+        while pushed.any():
+            apart = low[pushed, None] - SLACK_M > high
+            apart |= high[pushed, None] + SLACK_M < low
+            beside = ~apart.any(axis=2).all(axis=0)
+            pushed = beside & ~near & self._loose
+            near = near | beside
+        return near
+
+    def _measured_boxes(self) -> tuple[Array, Array]:
+        """Return the lowest and highest corners of the boxes around bodies, in world (n, 3)."""
+        model, data = self._model, self._data
+        turns = data.geom_xmat.reshape(-1, 3, 3)
+        middle = data.geom_xpos + np.einsum('nij,nj->ni', turns, model.geom_aabb[:, :3])
+        half = np.einsum('nij,nj->ni', np.abs(turns), model.geom_aabb[:, 3:])
+        half += _margins_m(model)[:, None]
+        half[model.geom_rbound <= 0.0] = np.inf  # a plane has no bounds
+        low = np.full((model.nbody, 3), np.inf)
+        high = -low
+        np.minimum.at(low, model.geom_bodyid, middle - half)
+        np.maximum.at(high, model.geom_bodyid, middle + half)
+        return low[self._bodies], high[self._bodies]
+
+    def _include(self, near: Flags) -> None:
+        self._all = False
+        self.alone = self._can_be_alone and not (near & self._solid).any()
+        for field, bits in self._bits:
+            field[self._bodies] = np.where(near, bits, 0)
+
+    def _include_all(self) -> None:
+        self._all, self.alone = True, False
+        self._boxes = None
+        for field, bits in self._bits:
+            field[self._bodies] = bits
+
+
+def _farthest_m(places: Places, before: Places) -> float:
+    """Return the longest way from one list of places to another."""
+    return max(map(math.dist, places, before))
+
+
+def _margins_m(model: mujoco.MjModel) -> Array:
+    """Return from how far away each geom is in contact, in metres."""
+    margins: Array = np.maximum(model.geom_margin + model.geom_gap, model.opt.o_margin)
+    return margins
+
+
+def _reach_m(model: mujoco.MjModel, body: int) -> float:
+    """Return how far a body and its children can reach from its origin, however joints turn."""
+    geoms = np.flatnonzero(model.geom_bodyid == body)
+    geoms = geoms[(model.geom_contype | model.geom_conaffinity)[geoms] != 0]
+    own = np.linalg.norm(model.geom_pos[geoms], axis=1) + model.geom_rbound[geoms]
+    reach_m = float((own + _margins_m(model)[geoms]).max(initial=0.0))
+    for child in np.flatnonzero(model.body_parentid == body).tolist():
+        away_m = float(np.linalg.norm(model.body_pos[child])) + _play_m(model, child)
+        reach_m = max(reach_m, away_m + _reach_m(model, child))
+    return reach_m
+
+
+def _play_m(model: mujoco.MjModel, body: int) -> float:
+    """Return how far the joints of a body can move its origin; a slide has no bounds."""
+    joints = np.flatnonzero(model.jnt_bodyid == body)
+    if (model.jnt_type[joints] == mujoco.mjtJoint.mjJNT_SLIDE).any():
+        return math.inf
+    return float(2.0 * np.linalg.norm(model.jnt_pos[joints], axis=1).sum())
