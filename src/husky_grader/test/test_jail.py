@@ -150,6 +150,18 @@ def test_input_and_variables_reach_the_command(
 
 
 @in_each_way
+def test_a_grader_may_keep_its_files_to_itself(sandbox: Sandbox, tmp_path: Path) -> None:
+    log, before = tmp_path / 'log', os.umask(0o077)
+    try:
+        with jail_in(sandbox, tmp_path) as jail:
+            write = ['bash', '-c', 'touch here /tmp/here /dev/shm/here && umask']
+            exit_code = jail.run(write, log=log, within_sec=10.0)
+    finally:
+        os.umask(before)
+    assert (exit_code, log.read_text()) == (0, '0077\n')
+
+
+@in_each_way
 def test_a_daemon_ends_with_the_run(sandbox: Sandbox, tmp_path: Path, mark: str) -> None:
     with jail_in(sandbox, tmp_path) as jail:
         exit_code = jail.run(python(DAEMON, mark), log=tmp_path / 'log', within_sec=10.0)

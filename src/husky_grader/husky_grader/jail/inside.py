@@ -56,6 +56,7 @@ def _checked(result: int, what: str) -> int:
 
 def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
     """Leave the host's files for a root that holds nothing but what is named."""
+    given = os.umask(0o022)  # what is made here another user must be able to pass
     _mount('tmpfs', _PLACE, kind='tmpfs', flags=_MS_NOSUID | _MS_NODEV)
     os.chdir(_PLACE)
     os.mkdir('host')
@@ -87,6 +88,7 @@ def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
     _checked(_LIBC.pivot_root(b'.', b'.'), 'pivot_root')
     _checked(_LIBC.umount2(b'.', _MNT_DETACH), 'umount')
     os.chdir('/')
+    os.umask(given)
 
 
 def _mount(source: str, target: str, *, kind: str = '', flags: int, data: str = '') -> None:
