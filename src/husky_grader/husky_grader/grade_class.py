@@ -15,7 +15,6 @@ from husky_course.printable import printable
 from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT
 
-from husky_grader.batch.dask_cluster import ADDRESS
 from husky_grader.batch.shards import parse_shard
 from husky_grader.batch.tables import names_of, table, write_csv
 from husky_grader.playpen import default_rubric
@@ -44,8 +43,11 @@ def wrong_of_class(options: argparse.Namespace) -> str:
         return '--gradebook needs the whole class: give it with --collect, or without --shard'
     if options.shard and options.collect:
         return '--shard grades a share, --collect puts shares together; give one of them'
-    if options.executor and not options.executor.startswith(ADDRESS):
-        return f'--executor {options.executor}: give {ADDRESS}tcp://HOST:PORT, or leave it out'
+    if options.executor:
+        from husky_grader.batch.dask_cluster import ADDRESS
+
+        if not options.executor.startswith(ADDRESS):
+            return f'--executor {options.executor}: give {ADDRESS}tcp://HOST:PORT, or leave it out'
     if options.shard:
         try:
             parse_shard(options.shard)
