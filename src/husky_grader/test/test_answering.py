@@ -4,15 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 import time
 
 from husky_grader.run.answering import (
+    ANSWER_TICKS,
     Answering,
     MEET_TICKS,
     Mode,
     OVERDUE_TICKS,
+    PROVE_PERIODS,
     QUIET_TICKS,
+    REPEAT_TICKS,
+    REST_TICKS,
     Rhythm,
     START_TICKS,
 )
@@ -22,25 +25,29 @@ PERIOD_SEC = 0.02
 
 
 class Robot:
-    """Stands for the simulator: counts its periods, and lets a controller answer each."""
+    """Stands for the simulator: counts its periods and what it publishes."""
 
-    def __init__(self, answer: Callable[[Robot], object] = lambda _: None) -> None:
+    def __init__(self) -> None:
         self.has_followers = self.has_commanders = self.has_drivers = self.commanded = True
-        self.periods = self.published = 0
-        self.pace = Answering(self, 100.0)
-        self._answer = answer
+        self.periods = self.published = self.timed = 0
+        self.rests = True  # its controller
+        self.pace = Answering(self, 1000.0, lambda: self.rests)
 
     @property
     def time_sec(self) -> float:
         return self.periods * PERIOD_SEC
 
-    def advance(self) -> None:
+    def advance(self, *, tells_time: bool = True) -> None:
         self.periods += 1
-        self.publish()
+        self.published += 1
+        self.timed += tells_time
 
     def publish(self) -> None:
         self.published += 1
-        self._answer(self)
+        self.timed += 1
+
+    def publish_clock(self) -> None:
+        self.timed += 1
 
     def end(self, why: str) -> None:
         raise AssertionError(why)
@@ -48,6 +55,13 @@ class Robot:
     def tick(self, ticks: int) -> None:
         for _ in range(ticks):
             self.pace.tick()
+
+    def tick_to(self, period: int) -> None:
+        """Tick until a control period, at the pace of the clock."""
+        deadline_sec = time.monotonic() + 10.0
+        while self.periods < period:
+            self.pace.tick()
+            assert time.monotonic() < deadline_sec, f'time stands in period {self.periods}'
 
 
 def test_time_stands_until_somebody_is_there() -> None:
@@ -73,22 +87,51 @@ def test_one_that_answers_is_in_lockstep_and_never_ahead() -> None:
     assert robot.periods == 0, 'time should stand while it is looked whether it sends more'
     robot.tick(1)
     assert (robot.pace.mode, robot.periods) == (Mode.ANSWERS, 1)
-    for answered in range(2, 100):
+    for answered in range(2, PROVE_PERIODS + 2):
         robot.tick(3)
+        robot.pace.on_command()
+        assert robot.periods == answered - 1, 'it should be looked whether it sends more'
+        robot.tick(2)
+        assert robot.periods == answered
+    for answered in range(PROVE_PERIODS + 2, PROVE_PERIODS + 20):
         robot.pace.on_command()
         assert robot.periods == answered
     assert str(robot.pace).startswith('in lockstep')
 
 
+def test_one_that_answers_and_sends_more_is_not_in_lockstep() -> None:
+    robot = Robot()
+    robot.tick(1)
+    robot.pace.on_command()
+    robot.tick(QUIET_TICKS)
+    robot.pace.on_command()
+    robot.pace.on_command()
+    assert (robot.pace.mode, robot.periods) == (Mode.CLOCKED, 1)
+
+
+def test_one_that_answers_and_is_never_at_rest_is_in_lockstep() -> None:
+    robot = Robot()
+    robot.tick(1)
+    robot.pace.on_command()
+    robot.tick(QUIET_TICKS)
+    robot.rests = False
+    robot.pace.on_command()
+    robot.tick(QUIET_TICKS)
+    assert robot.periods == 2
+    robot.pace.on_command()
+    assert (robot.pace.mode, robot.periods) == (Mode.ANSWERS, 3)
+
+
 def test_a_slow_answer_changes_nothing() -> None:
     quick, slow = Robot(), Robot()
-    for robot, ticks in ((quick, 0), (slow, 400)):
+    for robot, ticks in ((quick, 0), (slow, ANSWER_TICKS - 1)):
         robot.tick(1)
         robot.pace.on_command()
         robot.tick(QUIET_TICKS)
         for _ in range(20):
             robot.tick(ticks)
             robot.pace.on_command()
+            robot.tick(2)
     assert quick.periods == slow.periods == 21
     assert quick.pace.mode is slow.pace.mode is Mode.ANSWERS
 
@@ -111,7 +154,7 @@ def test_who_sends_before_any_odometry_has_a_clock_of_its_own() -> None:
 
 def test_a_repeated_first_message_may_be_answered_twice() -> None:
     robot = Robot()
-    robot.tick(300)
+    robot.tick(REPEAT_TICKS + 1)
     assert robot.published == 2
     robot.pace.on_command()
     robot.pace.on_command()
@@ -131,9 +174,9 @@ def test_one_that_does_not_answer_the_second_message_gets_time() -> None:
     robot = Robot()
     robot.tick(1)
     robot.pace.on_command()
-    robot.tick(QUIET_TICKS + 1000)
+    robot.tick(QUIET_TICKS + ANSWER_TICKS)
     assert robot.pace.mode is Mode.CLOCKED
-    assert str(robot.pace) == 'by its own clock, at 100 x real time at most'
+    assert str(robot.pace) == 'on simulated time, at 1000 x real time at most'
 
 
 def test_one_that_fell_silent_is_waited_for_again_when_it_speaks() -> None:
@@ -142,9 +185,10 @@ def test_one_that_fell_silent_is_waited_for_again_when_it_speaks() -> None:
     robot.pace.on_command()
     robot.tick(QUIET_TICKS)
     robot.pace.on_command()
-    robot.tick(1000)
+    robot.tick(2 + ANSWER_TICKS)
     assert robot.pace.mode is Mode.SILENT
     robot.pace.on_command()
+    robot.tick(2)
     periods = robot.periods
     robot.tick(100)
     assert (robot.pace.mode, robot.periods) == (Mode.ANSWERS, periods)
@@ -176,9 +220,59 @@ def test_an_early_command_does_not_make_the_next_one_due() -> None:
     assert rhythm.is_due(0.62)
 
 
-def test_time_waits_for_a_command_that_is_due_but_not_for_ever() -> None:
+def on_simulated_time() -> Robot:
+    """Return a robot whose controller has sent before any odometry, and so does not answer."""
     robot = Robot()
-    robot.has_followers = False
+    robot.pace.on_command()
+    return robot
+
+
+def test_a_period_ends_when_the_controller_is_at_rest() -> None:
+    robot = on_simulated_time()
+    robot.tick_to(5)
+    robot.rests = False
+    robot.tick(REST_TICKS - 1)
+    assert robot.periods == 5
+    robot.rests = True
+    robot.tick_to(10)
+    assert robot.pace.mode is Mode.CLOCKED
+
+
+def test_time_is_told_when_all_else_is_handled() -> None:
+    robot = on_simulated_time()
+    robot.tick_to(1)
+    robot.rests = False
+    robot.tick(10)
+    assert (robot.published, robot.timed) == (1, 0)
+    robot.rests = True
+    robot.tick(1)
+    assert (robot.published, robot.timed) == (1, 1)
+    robot.tick_to(2)
+    assert (robot.published, robot.timed) == (2, 1)
+
+
+def test_a_command_from_one_at_rest_is_by_another_clock() -> None:
+    robot = on_simulated_time()
+    robot.pace.change(1e-3)  # time enough at rest
+    robot.tick_to(1)
+    robot.tick(2)
+    robot.pace.on_command()
+    assert robot.pace.mode is Mode.CLOCKED, 'it may have been sent before'
+    robot.tick(1)
+    robot.pace.on_command()
+    assert robot.pace.mode is Mode.OTHER_CLOCK
+
+
+def restless() -> Robot:
+    robot = on_simulated_time()
+    robot.rests = False
+    robot.tick(REST_TICKS)
+    assert robot.pace.mode is Mode.RESTLESS
+    return robot
+
+
+def test_time_waits_for_a_command_that_is_due_but_not_for_ever() -> None:
+    robot = restless()
     for _ in range(9):
         robot.pace.on_command()
         robot.advance()
@@ -191,8 +285,7 @@ def test_time_waits_for_a_command_that_is_due_but_not_for_ever() -> None:
 
 
 def test_time_passes_for_one_that_sends_whatever_the_time_is() -> None:
-    robot = Robot()
-    robot.pace.on_command()  # before any odometry: it has a clock of its own
+    robot = restless()
     for _ in range(200):
         robot.pace.on_command()
         robot.pace.on_command()

@@ -64,6 +64,12 @@ class JailedProcess:
         return self._child.pid
 
     @property
+    def first_pid(self) -> int | None:
+        """The number of the process from which all others come; None if it is not there."""
+        first = self._first()
+        return first.pid if first else None
+
+    @property
     def exit_code(self) -> int | None:
         """Its exit status, minus the number of the signal that ended it; None while it runs."""
         if self._watch.is_alive():
@@ -116,12 +122,16 @@ class JailedProcess:
 
     def _processes(self) -> list[psutil.Process]:
         with contextlib.suppress(psutil.NoSuchProcess):
-            if self._entry.first is None:
-                first: psutil.Process | None = psutil.Process(self._child.pid)
-            else:
-                first = self._entry.first(self._child)
+            first = self._first()
             return [first, *first.children(recursive=True)] if first else []
         return []
+
+    def _first(self) -> psutil.Process | None:
+        if self._entry.first is not None:
+            return self._entry.first(self._child)
+        with contextlib.suppress(psutil.NoSuchProcess):
+            return psutil.Process(self._child.pid)
+        return None
 
     def _keep_watch(self) -> None:
         """Keep what is printed, and hold what is used to its limits, until all has ended."""

@@ -3,37 +3,49 @@
 """
 Pass time as somebody's controller manages it.
 
-One that answers each odometry message with a command is waited for: its run is the same on every
-machine, and as fast as it can be. One with a clock of its own is told the time on /clock, at most
-at the pace that was asked for, and waited for at the moment when its next command is due, so that
-also its run is mostly the same on a busy machine.
+One that answers each odometry message with a command is waited for, and its run is as fast as it
+can be. One that does anything else is told the time on /clock, at most at the pace that was asked
+for, and a control period ends only when the controller is at rest: what it does because of the
+simulation, it has done by then. So both drive the same on every machine; one that goes by another
+clock, the wall's above all, or is never at rest, does not, and is told so.
 
 What is waited for is counted in ticks of the simulator's timer, not in seconds: on a busy machine
 they come later, as the answers do.
 """
 
 from collections import deque
+from collections.abc import Callable
 from enum import Enum
 import time
 
-from husky_sim.simulator_node import Pace, Periods, POLL_SEC
+from husky_sim.simulator_node import Pace, Periods
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 
-START_TICKS = round(10.0 / POLL_SEC)
+TICK_SEC = 0.002
+"""Of wall time. Where the controller must come to rest, a control period takes three at least."""
+
+START_TICKS = round(10.0 / TICK_SEC)
 """For a node that listens to odometry or publishes commands; after that time passes without."""
 
-MEET_TICKS = round(1.0 / POLL_SEC)
+MEET_TICKS = round(1.0 / TICK_SEC)
 """From a node's subscription to its publisher, or the other way round."""
 
-REPEAT_TICKS = round(2.0 / POLL_SEC)
+REPEAT_TICKS = round(2.0 / TICK_SEC)
 """A subscription that is not reliable may have missed the first message."""
 
-QUIET_TICKS = round(0.5 / POLL_SEC)
-"""So long time stands after the first command: who sends another has a clock of its own."""
+QUIET_TICKS = round(0.5 / TICK_SEC)
+"""So long time stands after the first command: who sends another does not only answer."""
 
-ANSWER_TICKS = round(5.0 / POLL_SEC)
-OVERDUE_TICKS = round(0.5 / POLL_SEC)
+PROVE_PERIODS = round(1.0 / CONTROL_PERIOD_SEC)
+"""In the first ones each answer is looked at twice: a timer may send besides, from 1 Hz on."""
+
+ANSWER_TICKS = round(5.0 / TICK_SEC)
+REST_TICKS = round(5.0 / TICK_SEC)
+"""For a controller to come to rest; after that time passes without."""
+
+OVERDUE_TICKS = round(0.5 / TICK_SEC)
+"""For a command that is due from a controller that is never at rest."""
 
 _ALONE_TURN = 10
 """Control periods a tick when there is nobody to wait for."""
@@ -52,29 +64,37 @@ class Mode(Enum):
     FIRST = 'after its only command'
     ANSWERS = 'in lockstep: each odometry message waited for its command'
     SILENT = 'in lockstep, until it fell silent'
-    CLOCKED = 'by its own clock, at {factor:g} x real time at most'
+    CLOCKED = 'on simulated time, at {factor:g} x real time at most'
+    OTHER_CLOCK = 'by a clock that is not simulated: another run may differ'
+    RESTLESS = 'by a clock of its own, for it is never at rest: another run may differ'
 
 
 class Answering(Pace):
     """
     The pace of a graded run.
 
-    :param factor: simulated seconds a second for a controller with a clock of its own.
+    :param factor: simulated seconds a second for a controller that is not in lockstep.
+    :param at_rest: tells whether the controller has nothing to do now.
     """
 
-    def __init__(self, periods: Periods, factor: float) -> None:
+    def __init__(self, periods: Periods, factor: float, at_rest: Callable[[], bool]) -> None:
         super().__init__(periods, factor)
         self.mode = Mode.STARTING
         self.alone = False
+        self._at_rest = at_rest
         self._ticks = 0  # since the last step, or since the start
+        self._rest_ticks = 0  # since it came to rest in this control period
         self._met_ticks = 0  # since there is a subscription or a publisher
         self._unanswered = 0  # first odometry messages that may be answered yet
         self._answers = 0
+        self._is_answered = False  # in this control period
+        self._to_prove = PROVE_PERIODS
+        self._is_timed = True  # whether /clock has told this control period
         self._rhythm = Rhythm()
 
     @property
     def tick_sec(self) -> float:
-        return POLL_SEC
+        return TICK_SEC
 
     def __str__(self) -> str:
         return self.mode.value.format(factor=self.factor)
@@ -89,14 +109,21 @@ class Answering(Pace):
         elif self.mode is Mode.FIRST:
             if self._ticks >= QUIET_TICKS:
                 self._change(Mode.ANSWERS)
-                self._periods.advance()
+                self._advance()
         elif self.mode is Mode.ANSWERS:
-            if self._ticks >= ANSWER_TICKS:
+            if self._is_answered:
+                self._prove()
+            elif self._ticks >= ANSWER_TICKS:
                 self._change(Mode.SILENT if self._answers else Mode.CLOCKED)
-        elif self._is_awaited():
-            self.pacer.restart()  # what it is waited for is not made up for
-        else:
-            self._keep_pace()
+        elif self.mode is Mode.RESTLESS:
+            if self._is_awaited():
+                self.pacer.restart()  # what it is waited for is not made up for
+            else:
+                self._keep_pace()
+        elif self._rest_ticks or self._at_rest():
+            self._end_period()
+        elif self._ticks >= REST_TICKS:
+            self._change(Mode.RESTLESS)
 
     def on_command(self) -> None:
         if self.alone:
@@ -104,13 +131,17 @@ class Answering(Pace):
         if self.mode in (Mode.STARTING, Mode.FIRST):
             self._unanswered -= 1
             self._change(Mode.FIRST if self._unanswered >= 0 else Mode.CLOCKED)
-        elif self.mode is not Mode.CLOCKED:
+        elif self.mode in (Mode.ANSWERS, Mode.SILENT):
             self._answers += 1
-            self._change(Mode.ANSWERS)
-            self._periods.advance()
-        if self.mode is Mode.CLOCKED:
+            self._change(Mode.CLOCKED if self._is_answered else Mode.ANSWERS)
+            self._is_answered = True
+            if not self._to_prove:
+                self._advance()
+        elif self.mode is Mode.RESTLESS:
             self._ticks = 0
             self._rhythm.hear(self._periods.time_sec)
+        elif self.mode is Mode.CLOCKED and self._rest_ticks > 1:
+            self.mode = Mode.OTHER_CLOCK  # nothing that it was told has moved it
 
     def leave_alone(self) -> None:
         """Wait for nobody any more: the controller's process has ended."""
@@ -137,7 +168,34 @@ class Answering(Pace):
         self._periods.publish()
 
     def _change(self, mode: Mode) -> None:
-        self.mode, self._ticks = mode, 0
+        self.mode, self._ticks, self._rest_ticks = mode, 0, 0
+
+    def _prove(self) -> None:
+        """Advance when the controller is at rest, and an answer was all that it has sent."""
+        if self._rest_ticks or self._at_rest():
+            self._rest_ticks += 1
+        if self._rest_ticks > 1:
+            self._to_prove -= 1
+            self._advance()
+        elif self._ticks >= QUIET_TICKS:  # it is never at rest
+            self._to_prove = 0
+            self._advance()
+
+    def _advance(self, *, tells_time: bool = True) -> None:
+        self._ticks = self._rest_ticks = 0
+        self._is_answered, self._is_timed = False, tells_time
+        self._periods.advance(tells_time=tells_time)
+
+    def _end_period(self) -> None:
+        """Tell the time when the rest of the period is handled, then wait for the next one's."""
+        if not self._is_timed:
+            self._is_timed = True
+            self._periods.publish_clock()
+            return
+        self._rest_ticks += 1
+        # By the second tick the commands that had come at the first are taken.
+        if self._rest_ticks > 1 and self.pacer.due(time.monotonic(), most=1):
+            self._advance(tells_time=False)
 
     def _is_awaited(self) -> bool:
         return self._ticks < OVERDUE_TICKS and self._rhythm.is_due(self._periods.time_sec)
@@ -150,7 +208,7 @@ class Answering(Pace):
 
 
 class Rhythm:
-    """When the next command of a node with a clock of its own is due, in simulated time."""
+    """When the next command of a controller that is never at rest is due, in simulated time."""
 
     def __init__(self) -> None:
         self._gaps_sec: deque[float] = deque(maxlen=_GAPS)

@@ -22,6 +22,7 @@ from husky_runtime.shared_memory import clean_shared_memory
 from husky_grader.jail import Jail, JailedProcess
 from husky_grader.run.diagnosis import reasons
 from husky_grader.run.printed import read_printed, shown
+from husky_grader.run.rest import tell_first
 from husky_grader.run.told import listen, Told
 from husky_grader.run.trusted import trusted
 from husky_grader.scoring.report import Report
@@ -80,8 +81,8 @@ def drive_live(
 
     :param waypoints: the file of the course.
     :param answers: what is typed into the controller, for one that asks.
-    :param real_time_factor: simulated seconds a second, for a controller that has a clock of its
-        own; one that answers each odometry message is waited for instead.
+    :param real_time_factor: simulated seconds a second at most, for a controller that does not
+        answer each odometry message; one that does is as fast as it can be.
     :param jail: where the controller runs; the simulator runs beside it.
     :param environment: of the controller, besides that of the jail.
     :param start_in: the folder in which the controller starts; that of the jail when left out.
@@ -90,11 +91,11 @@ def drive_live(
     """
     folder = folder.absolute()
     folder.mkdir(parents=True, exist_ok=True)
-    record, told = folder / FILE_NAME, folder / 'trial.json'
-    for file in (record, told):
+    record, told, first = (folder / name for name in (FILE_NAME, 'trial.json', 'controller.pid'))
+    for file in (record, told, first):
         file.unlink(missing_ok=True)
     trial = trusted('husky_grader.run.trial', '--waypoints', str(Path(waypoints).absolute()))
-    trial += ['--record', str(record), '--told', str(told)]
+    trial += ['--record', str(record), '--told', str(told), '--controller', str(first)]
     trial += ['--real-time-factor', f'{real_time_factor:g}']
     trial += ['--world', str(Path(world).absolute()) if world else '']
     theirs = {CHECK_FIELDS: '1', 'PYTHONUNBUFFERED': '1', **(environment or {})}
@@ -108,8 +109,9 @@ def drive_live(
             words = ['env', '-C', str(start_in), *words]
         printed_in = folder / 'controller.log'
         with jail.started(words, theirs, log=printed_in, answers=answers) as controller:
-            last = _watch(simulator, controller, told, folder, on_progress)
+            last = _watch(simulator, controller, told, first, on_progress)
             exit_code = controller.exit_code
+    first.unlink(missing_ok=True)
     clean_shared_memory()
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder.name}/simulator.log')
@@ -148,13 +150,19 @@ def _watch(
     simulator: ChildProcess,
     controller: JailedProcess,
     told: Path,
-    folder: Path,
+    first: Path,
     on_progress: Progress,
 ) -> Told:
-    """Wait until the simulator says that the run is over; return what it told last."""
+    """
+    Wait until the simulator says that the run is over; return what it told last.
+
+    :param first: the file from which the simulator knows the controller's first process.
+    """
     begun_sec = time.monotonic()
     heard, heard_sec, gone, late = None, begun_sec, False, False
     while not simulator.wait(POLL_SEC):
+        if not first.exists() and (number := controller.first_pid) is not None:
+            tell_first(first, number)
         if not late and time.monotonic() - begun_sec > WALL_SEC:
             late = True
             simulator.send(signal.SIGINT)
@@ -169,5 +177,5 @@ def _watch(
             break
     last = listen(told)
     if last is None or not last.ending:
-        raise LiveRunFailed(f'the simulator died; see {folder.name}/simulator.log')
+        raise LiveRunFailed(f'the simulator died; see {told.parent.name}/simulator.log')
     return replace(last, ending=f'it took {WALL_SEC:g} s on the clock') if late else last

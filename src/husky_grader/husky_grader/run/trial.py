@@ -30,6 +30,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from husky_grader.run.answering import Answering
 from husky_grader.run.referee import Referee
+from husky_grader.run.rest import Resting
 from husky_grader.run.told import tell, Told
 from husky_grader.run.trusted import limit_memory
 from husky_grader.run.watcher import GraphWatcher
@@ -42,16 +43,25 @@ class TrialRun:
     """
     A simulator with a referee.
 
-    :param factor: simulated seconds a second for a controller with a clock of its own.
+    :param factor: simulated seconds a second for a controller that is not in lockstep.
     :param told: the file that says what happens.
+    :param controller: the file in which the number of its first process will be.
     :raises SimulatorError: if the world cannot be used.
     """
 
     def __init__(
-        self, route: Route, record: str, *, world: str, factor: float, told: Path
+        self,
+        route: Route,
+        record: str,
+        *,
+        world: str,
+        factor: float,
+        told: Path,
+        controller: Path,
     ) -> None:
         self._told = told
         self._factor = factor
+        self._resting = Resting(controller)
         self._referee = Referee(route)
         self._ending = ''
         self._count = 0
@@ -70,7 +80,7 @@ class TrialRun:
         self._tell()
 
     def _new_pace(self, periods: Periods) -> Pace:
-        self._pace = Answering(periods, self._factor)
+        self._pace = Answering(periods, self._factor, self._resting.at_rest)
         return self._pace
 
     def _on_period(self) -> None:
@@ -123,6 +133,7 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('--waypoints', required=True)
     parser.add_argument('--record', required=True)
     parser.add_argument('--told', required=True, type=Path)
+    parser.add_argument('--controller', required=True, type=Path)
     parser.add_argument('--world', default='')
     parser.add_argument('--real-time-factor', type=float, default=1.0)
     options = parser.parse_args(args)
@@ -138,6 +149,7 @@ def main(args: Sequence[str] | None = None) -> int:
             world=options.world,
             factor=options.real_time_factor,
             told=options.told,
+            controller=options.controller,
         )
         gc.freeze()  # no long garbage collection of what is there now during a run
         run.node.over.add_done_callback(

@@ -156,15 +156,23 @@ class SimulatorNode(Node):
         """Publish the last control period."""
         self._topics.publish()
 
-    def advance(self) -> None:
-        """Advance by one control period and publish it, unless the run is over."""
+    def publish_clock(self) -> None:
+        """Tell the time on /clock."""
+        self._topics.publish_clock()
+
+    def advance(self, *, tells_time: bool = True) -> None:
+        """
+        Advance by one control period and publish it, unless the run is over.
+
+        :param tells_time: also on /clock; else call `publish_clock` later.
+        """
         if self.over.done():
             return
         self._topics.forget_commands()
         self.simulation.advance()
         if self._record is not None:
             self._record.append()
-        self._topics.publish()
+        self._topics.publish(tells_time=tells_time)
         if 0.0 < self._run.limit_sec <= self.simulation.time_sec:
             self.end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._topics.warn_of_timeouts()

@@ -55,11 +55,18 @@ class Periods(Protocol):
     def commanded(self) -> bool:
         """Whether every robot was commanded since the last control period."""
 
-    def advance(self) -> None:
-        """Advance by one control period and publish it."""
+    def advance(self, *, tells_time: bool = True) -> None:
+        """
+        Advance by one control period and publish it.
+
+        :param tells_time: also on /clock; else call `publish_clock` later.
+        """
 
     def publish(self) -> None:
         """Publish the last control period again."""
+
+    def publish_clock(self) -> None:
+        """Tell the time on /clock."""
 
     @property
     def time_sec(self) -> float:

@@ -89,13 +89,22 @@ class SimulationTopics:
         for topics in self._robots:
             topics.commanded = False
 
-    def publish(self) -> None:
-        """Publish a control period, first the odometry for the driver."""
+    def publish_clock(self) -> None:
+        """Tell the time on /clock."""
+        self._clock_message.pack(self._simulation.stamp)
+        self._clock.publish(self._form(self._clock_message))
+
+    def publish(self, *, tells_time: bool = True) -> None:
+        """
+        Publish a control period, first the odometry for the driver.
+
+        :param tells_time: also on /clock.
+        """
         stamp = self._simulation.stamp
         for topics in self._robots:
             topics.publish_filtered(stamp)
-        self._clock_message.pack(stamp)
-        self._clock.publish(self._form(self._clock_message))
+        if tells_time:
+            self.publish_clock()
         for topics in self._robots:
             topics.publish_rest(stamp)
         for touch in self._simulation.touches:
