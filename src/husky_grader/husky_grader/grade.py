@@ -82,7 +82,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar='F',
         type=float,
         default=1.0,
-        help='how fast time passes for a controller with a clock of its own (1.0)',
+        help='how fast time passes at most, up to 2, for one that does not just answer (1.0)',
     )
     parser.add_argument('--robot', metavar='NAME', help='which robot of the record')
     parser.add_argument(

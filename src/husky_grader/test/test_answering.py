@@ -18,6 +18,7 @@ from husky_grader.run.answering import (
     REST_TICKS,
     Rhythm,
     START_TICKS,
+    TAKEN_TICKS,
 )
 import pytest
 
@@ -91,7 +92,7 @@ def test_one_that_answers_is_in_lockstep_and_never_ahead() -> None:
         robot.tick(3)
         robot.pace.on_command()
         assert robot.periods == answered - 1, 'it should be looked whether it sends more'
-        robot.tick(2)
+        robot.tick(TAKEN_TICKS)
         assert robot.periods == answered
     for answered in range(PROVE_PERIODS + 2, PROVE_PERIODS + 20):
         robot.pace.on_command()
@@ -131,7 +132,7 @@ def test_a_slow_answer_changes_nothing() -> None:
         for _ in range(20):
             robot.tick(ticks)
             robot.pace.on_command()
-            robot.tick(2)
+            robot.tick(TAKEN_TICKS)
     assert quick.periods == slow.periods == 21
     assert quick.pace.mode is slow.pace.mode is Mode.ANSWERS
 
@@ -176,7 +177,7 @@ def test_one_that_does_not_answer_the_second_message_gets_time() -> None:
     robot.pace.on_command()
     robot.tick(QUIET_TICKS + ANSWER_TICKS)
     assert robot.pace.mode is Mode.CLOCKED
-    assert str(robot.pace) == 'on simulated time, at 1000 x real time at most'
+    assert str(robot.pace).startswith('at 1000 x real time at most')
 
 
 def test_one_that_fell_silent_is_waited_for_again_when_it_speaks() -> None:
@@ -185,10 +186,10 @@ def test_one_that_fell_silent_is_waited_for_again_when_it_speaks() -> None:
     robot.pace.on_command()
     robot.tick(QUIET_TICKS)
     robot.pace.on_command()
-    robot.tick(2 + ANSWER_TICKS)
+    robot.tick(TAKEN_TICKS + ANSWER_TICKS)
     assert robot.pace.mode is Mode.SILENT
     robot.pace.on_command()
-    robot.tick(2)
+    robot.tick(TAKEN_TICKS)
     periods = robot.periods
     robot.tick(100)
     assert (robot.pace.mode, robot.periods) == (Mode.ANSWERS, periods)
@@ -255,7 +256,7 @@ def test_a_command_from_one_at_rest_is_by_another_clock() -> None:
     robot = on_simulated_time()
     robot.pace.change(1e-3)  # time enough at rest
     robot.tick_to(1)
-    robot.tick(2)
+    robot.tick(TAKEN_TICKS)  # the first tells the time
     robot.pace.on_command()
     assert robot.pace.mode is Mode.CLOCKED, 'it may have been sent before'
     robot.tick(1)

@@ -13,8 +13,10 @@ import subprocess
 import sys
 
 from husky_grader.jail import find_sandbox, Jail
+from husky_grader.run.answering import Mode
 from husky_grader.run.live import drive_live, LiveRun, Progress
 from husky_grader.run.told import Told
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -41,6 +43,8 @@ BY_TIMER = (
 def on_timer():
     if node.get_clock().now().nanoseconds > 2e9:
         sys.exit()
+    sum(range(1_000_000))  # longer than a control period
+    message.linear.x += 0.001
     publisher.publish(message)
 node.create_subscription(Odometry, 'odometry/filtered', lambda _: None, 10)
 node.create_timer(0.1, on_timer)
@@ -138,12 +142,19 @@ def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_pat
     assert told[-1].waypoints_left == 0, 'its progress should be told'
 
 
-@pytest.mark.parametrize('program', [BY_TIMER, BY_SLEEPING], ids=['timer', 'sleeping'])
-def test_one_with_a_clock_of_its_own_drives_in_simulated_time(
-    course: str, tmp_path: Path, program: str
+def test_one_on_simulated_time_is_waited_for(course: str, tmp_path: Path) -> None:
+    run = drive_in_jail(BY_TIMER, course, tmp_path / 'run')
+    assert run.pace == Mode.CLOCKED.value.format(factor=1)
+    time_sec, speed = run.record.column(0, 'time_sec'), run.record.column(0, 'command_speed_m_s')
+    acted_sec = time_sec[:-1][np.diff(speed) != 0.0]
+    assert acted_sec == pytest.approx(np.arange(1, 21) / 10), 'each command acts when it is due'
+
+
+def test_one_with_another_clock_drives_at_the_pace_of_the_clock(
+    course: str, tmp_path: Path
 ) -> None:
-    run = drive_in_jail(program, course, tmp_path / 'run')
-    assert run.pace == 'by its own clock, at 1 x real time at most'
+    run = drive_in_jail(BY_SLEEPING, course, tmp_path / 'run')
+    assert run.pace == Mode.OTHER_CLOCK.value.format(factor=1)
     x = run.record.column(0, 'x')
     assert 0.8 < abs(x[-1] - x[0]) < 1.3, 'it should be half a metre a second for two seconds'
 

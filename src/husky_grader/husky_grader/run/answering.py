@@ -23,7 +23,7 @@ from husky_sim.simulator_node import Pace, Periods
 from husky_sim.config import CONTROL_PERIOD_SEC
 
 TICK_SEC = 0.002
-"""Of wall time. Where the controller must come to rest, a control period takes three at least."""
+"""Of wall time."""
 
 START_TICKS = round(10.0 / TICK_SEC)
 """For a node that listens to odometry or publishes commands; after that time passes without."""
@@ -43,6 +43,16 @@ PROVE_PERIODS = round(1.0 / CONTROL_PERIOD_SEC)
 ANSWER_TICKS = round(5.0 / TICK_SEC)
 REST_TICKS = round(5.0 / TICK_SEC)
 """For a controller to come to rest; after that time passes without."""
+
+TAKEN_TICKS = 2
+"""When it has come to rest in the first, the commands that had come are taken by this one."""
+
+STAND_TICKS = 4
+"""
+So long time stands at rest: a command that comes after TAKEN_TICKS is by another clock.
+
+So a control period takes five ticks at least, and real time can be had twice as fast.
+"""
 
 OVERDUE_TICKS = round(0.5 / TICK_SEC)
 """For a command that is due from a controller that is never at rest."""
@@ -64,9 +74,13 @@ class Mode(Enum):
     FIRST = 'after its only command'
     ANSWERS = 'in lockstep: each odometry message waited for its command'
     SILENT = 'in lockstep, until it fell silent'
-    CLOCKED = 'on simulated time, at {factor:g} x real time at most'
-    OTHER_CLOCK = 'by a clock that is not simulated: another run may differ'
-    RESTLESS = 'by a clock of its own, for it is never at rest: another run may differ'
+    CLOCKED = 'at {factor:g} x real time at most: each period waited until all was handled'
+    OTHER_CLOCK = (
+        'at {factor:g} x real time at most; the controller goes by another clock: runs may differ'
+    )
+    RESTLESS = (
+        'at {factor:g} x real time at most; the controller is never at rest: runs may differ'
+    )
 
 
 class Answering(Pace):
@@ -140,7 +154,7 @@ class Answering(Pace):
         elif self.mode is Mode.RESTLESS:
             self._ticks = 0
             self._rhythm.hear(self._periods.time_sec)
-        elif self.mode is Mode.CLOCKED and self._rest_ticks > 1:
+        elif self.mode is Mode.CLOCKED and self._rest_ticks >= TAKEN_TICKS:
             self.mode = Mode.OTHER_CLOCK  # nothing that it was told has moved it
 
     def leave_alone(self) -> None:
@@ -174,7 +188,7 @@ class Answering(Pace):
         """Advance when the controller is at rest, and an answer was all that it has sent."""
         if self._rest_ticks or self._at_rest():
             self._rest_ticks += 1
-        if self._rest_ticks > 1:
+        if self._rest_ticks >= TAKEN_TICKS:
             self._to_prove -= 1
             self._advance()
         elif self._ticks >= QUIET_TICKS:  # it is never at rest
@@ -193,8 +207,7 @@ class Answering(Pace):
             self._periods.publish_clock()
             return
         self._rest_ticks += 1
-        # By the second tick the commands that had come at the first are taken.
-        if self._rest_ticks > 1 and self.pacer.due(time.monotonic(), most=1):
+        if self._rest_ticks >= STAND_TICKS and self.pacer.due(time.monotonic(), most=1):
             self._advance(tells_time=False)
 
     def _is_awaited(self) -> bool:

@@ -92,5 +92,5 @@ def _threads(process: int) -> Iterator[tuple[int, bytes, bytes]]:
                     os.close(file)
                 state = status.index(_STATE) + len(_STATE)
                 yield int(thread.name), status[state : state + 1], status[status.index(_TURNS) :]
-    except (FileNotFoundError, ProcessLookupError):
-        pass  # ended meanwhile
+    except (FileNotFoundError, ProcessLookupError, PermissionError):
+        pass  # ended meanwhile, or hidden, as /proc may be mounted (hidepid)
