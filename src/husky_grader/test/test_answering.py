@@ -252,16 +252,16 @@ def test_time_is_told_when_all_else_is_handled() -> None:
     assert (robot.published, robot.timed) == (2, 1)
 
 
-def test_a_command_from_one_at_rest_is_by_another_clock() -> None:
+@pytest.mark.parametrize(
+    ('ticks', 'mode'), [(TAKEN_TICKS, Mode.CLOCKED), (TAKEN_TICKS + 1, Mode.OTHER_CLOCK)]
+)
+def test_a_command_from_one_long_at_rest_is_by_another_clock(ticks: int, mode: Mode) -> None:
     robot = on_simulated_time()
     robot.pace.change(1e-3)  # time enough at rest
     robot.tick_to(1)
-    robot.tick(TAKEN_TICKS)  # the first tells the time
+    robot.tick(ticks)  # the first tells the time
     robot.pace.on_command()
-    assert robot.pace.mode is Mode.CLOCKED, 'it may have been sent before'
-    robot.tick(1)
-    robot.pace.on_command()
-    assert robot.pace.mode is Mode.OTHER_CLOCK
+    assert robot.pace.mode is mode
 
 
 def restless() -> Robot:
