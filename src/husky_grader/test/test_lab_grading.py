@@ -152,6 +152,15 @@ def test_a_pause_of_a_publisher_does_not_change_its_rate(
     assert set(found.defects) == defects, found
 
 
+def test_a_rate_in_doubt_is_listened_to_for_longer(tmp_path: Path) -> None:
+    assert isinstance(PUBLISHES, PublisherStep)
+    program = PUBLISHER % (sys.executable, 'topic_test', 0.1)
+    late = program.replace('0.1 if number != 15 else 1.0', '0.125 if number < 24 else 0.1')
+    assert late != program
+    found = found_of(PUBLISHES, tmp_path, late)
+    assert not found.defects, found
+
+
 @pytest.mark.parametrize(
     ('rate_hz', 'told'), [(4.93, '5'), (0.51, '0.5'), (198.0, '200'), (9.6, '10'), (0.0, '0')]
 )
