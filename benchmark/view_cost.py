@@ -40,17 +40,17 @@ PORT = 18880
 VIEW = ('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p', f'viewer_port:={PORT}')
 
 
-def open_tab(port: int) -> subprocess.Popen[str]:
+def open_tab(address: str) -> subprocess.Popen[str]:
     """
     Start to read what a page gets, without a browser's own cost.
 
     It is a process of its own, as a browser is: a thread would take time from the simulator here.
     """
-    command = [sys.executable, __file__, '--tab', str(port)]
+    command = [sys.executable, __file__, '--tab', address]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
-def read_as_tab(port: int) -> None:
+def read_as_tab(address: str) -> None:
     """Read until standard input ends, then print how many messages came a second."""
     count = 0
     begun = time.monotonic() + 2.0  # by then it has the scene, and only what changes still comes
@@ -61,7 +61,7 @@ def read_as_tab(port: int) -> None:
             count += time.monotonic() > begun
 
     with connect(
-        f'ws://127.0.0.1:{port}',
+        address.replace('http', 'ws').rstrip('/'),
         subprotocols=[Subprotocol(f'viser-v{viser.__version__}')],
         max_size=None,
     ) as socket:
@@ -80,11 +80,11 @@ def view() -> Iterator[tuple[float, subprocess.Popen[str]]]:
     ) as child:
         assert child.stderr is not None
         line = next(line for line in child.stderr if 'look at' in line)
-        port = int(line.strip().rsplit(':', 1)[1])
-        with urllib.request.urlopen(f'http://127.0.0.1:{port}/', timeout=10.0) as page:
+        address = line.split('look at ')[1].strip()
+        with urllib.request.urlopen(address, timeout=10.0) as page:
             page.read()
         ready_sec = time.monotonic() - begun
-        tab = open_tab(port)
+        tab = open_tab(address)
         try:
             yield ready_sec, tab
         finally:

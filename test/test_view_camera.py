@@ -7,7 +7,7 @@ import math
 import time
 
 from husky_view.picture.camera import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
-from husky_view.server import close_server, open_server
+from husky_view.server import close_server, PageServer
 import numpy as np
 import numpy.typing as npt
 from playpen_testing.browser import drag, open_page
@@ -84,10 +84,10 @@ class Scene:
 
 @pytest.fixture(scope='module')
 def scene(browser: Browser) -> Iterator[Scene]:
-    server = open_server('127.0.0.1', 18780, title='cameras')
+    server = PageServer('127.0.0.1', 18780, title='cameras')
     server.gui.add_html('<b data-number="time">0</b>')
     cameras = Cameras(server, center=CENTER, extent_m=EXTENT_M)
-    page = open_page(browser, f'http://localhost:{server.get_port()}')
+    page = open_page(browser, server.address)
     wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
     yield Scene(server, cameras, page)
     page.close()

@@ -6,6 +6,7 @@ from pathlib import Path
 import signal
 import socket
 import time
+from urllib.parse import urlsplit
 import urllib.request
 
 from ament_index_python.packages import get_package_prefix
@@ -30,8 +31,9 @@ def test_a_launch_serves_the_page_on_the_loopback_alone(processes: Processes) ->
         *('viewer:=true', 'viewer_port:=18380'),
     )
     launch.wait_for_text('look at http://localhost:')
-    port = int(launch.output.split('look at http://localhost:')[1].split()[0])
-    with urllib.request.urlopen(f'http://127.0.0.1:{port}/', timeout=10.0) as page:
+    address = launch.output.split('look at ')[1].split()[0]
+    port = urlsplit(address).port or 0
+    with urllib.request.urlopen(address, timeout=10.0) as page:
         assert '<html' in page.read().decode()
     others = [str(row[4][0]) for row in socket.getaddrinfo(socket.gethostname(), port)]
     for host in (address for address in others if not address.startswith(('127.', '::1'))):
@@ -55,7 +57,7 @@ def test_a_taken_port_gives_the_next_and_ctrl_c_ends_in_2_s(
         port = taken.getsockname()[1]
         view = processes.start(*VIEW, f'viewer_port:={port}')
         view.wait_for_text('look at http://localhost:')
-        assert f'localhost:{port}\n' not in view.output
+        assert f'localhost:{port}/' not in view.output
         assert 'viser' not in view.output, 'one line tells the address, and no other'
         begun = time.monotonic()
         view.signal(signal.SIGINT)
@@ -135,8 +137,8 @@ def test_ten_stalled_tabs_do_not_hold_up_the_physics(
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     view = processes.start(*VIEW, 'viewer_port:=18680')
     view.wait_for_text('look at http://localhost:')
-    port = int(view.output.split('localhost:')[1].split()[0])
-    tabs = [stalled_tab(port) for _ in range(10)]
+    address = view.output.split('look at ')[1].split()[0]
+    tabs = [stalled_tab(address) for _ in range(10)]
     try:
         listener = nodes.start(Listener, {'/clock': Clock})
         begun_sec, wall_sec = stamp_sec(listener.latest('/clock')), time.monotonic()
@@ -151,14 +153,16 @@ def test_ten_stalled_tabs_do_not_hold_up_the_physics(
             tab.close()
 
 
-def stalled_tab(port: int) -> socket.socket:
+def stalled_tab(address: str) -> socket.socket:
     """Open the page's websocket, and never read from it."""
     import viser
 
-    tab = socket.create_connection(('127.0.0.1', port))
+    url = urlsplit(address)
+    tab = socket.create_connection((url.hostname, url.port or 0))
     tab.sendall(
         (
-            'GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
+            f'GET {url.path} HTTP/1.1\r\nHost: localhost\r\n'
+            'Upgrade: websocket\r\nConnection: Upgrade\r\n'
             'Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n'
             f'Sec-WebSocket-Protocol: viser-v{viser.__version__}\r\n\r\n'
         ).encode()

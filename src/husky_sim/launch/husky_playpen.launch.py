@@ -27,6 +27,7 @@ ARGUMENTS = (
     ('viewer', NOT_HEADLESS, None, 'true: the same as headless:=false'),
     ('viewer_host', '127.0.0.1', str, 'Address to serve the view at; 0.0.0.0 lets others look'),
     ('viewer_port', '8080', int, 'Port of the view; the next free one if it is taken'),
+    ('viewer_names', '', str, 'More names of this machine that the view is served under'),
     ('world', PLAYPEN, str, 'World to simulate, an MJCF file'),
     ('params_file', DEFAULTS, None, 'More parameters, as YAML'),
     ('robots', "['']", list[str], ROBOTS),
@@ -71,7 +72,7 @@ def generate_launch_description() -> LaunchDescription:
         for name, _, kind, _ in ARGUMENTS
         if kind is not None
     }
-    page = {name: given.pop(name) for name in ('viewer_host', 'viewer_port')}
+    page = {name: given.pop(name) for name in ('viewer_host', 'viewer_names', 'viewer_port')}
     return LaunchDescription(
         [
             *(

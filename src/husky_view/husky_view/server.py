@@ -2,20 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The web server of the view: its address, its end, and what is clicked on its pages."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import redirect_stdout
 import errno
 import io
-from queue import Empty, SimpleQueue
+from queue import SimpleQueue
 import socket
 from threading import Thread
+import time
 
 import viser
 
+from husky_view.gate.admission import Admission, new_token
+from husky_view.gate.gate import Gate
 from husky_view.picture.page import add_page_script
 
 PORTS_TRIED = 100
 CLOSE_SEC = 0.5
+MOST_ACTIONS, ACTIONS_SEC = 1000, 0.02
 
 
 class AddressError(Exception):
@@ -50,20 +54,36 @@ def free_port(host: str, port: int) -> int:
     )
 
 
-def open_server(host: str, port: int, *, title: str) -> viser.ViserServer:
+class PageServer(viser.ViserServer):
     """
-    Serve an empty page.
+    Serves an empty page behind a gate.
 
-    :raises AddressError: if the address cannot be had.
+    :param names: under which the page may be asked for, beside those of this machine.
+    :raises AddressError: if the address cannot be had, or a name or the token is none.
     """
-    port = free_port(host, port)
-    with redirect_stdout(io.StringIO()):  # viser prints a banner
-        server = viser.ViserServer(host=host, port=port, label=title, verbose=False)
-    server.gui.configure_theme(control_width='medium', show_logo=False, show_share_button=False)
-    server.gui.set_panel_label(title)
-    server.scene.set_up_direction('+z')
-    add_page_script(server)
-    return server
+
+    def __init__(self, host: str, port: int, *, title: str, names: Iterable[str] = ()) -> None:
+        try:
+            self._admission = Admission(new_token(), host=host, names=names)
+        except ValueError as error:
+            raise AddressError(str(error)) from error
+        gate = Gate(self._admission, title=title)
+        port = free_port(host, port)
+        with gate.in_front(), redirect_stdout(io.StringIO()):  # viser prints a banner
+            super().__init__(host=host, port=port, label=title, verbose=False)
+        gate.control_of = self.gui._gui_input_handle_from_uuid.get
+        self.gui.configure_theme(control_width='medium', show_logo=False, show_share_button=False)
+        self.scene.set_up_direction('+z')
+        add_page_script(self)
+
+    @property
+    def address(self) -> str:
+        """The URL of the page, with the token that opens it."""
+        host = self.get_host()
+        if host in ('127.0.0.1', '0.0.0.0', '::', '::1', ''):  # noqa: S104
+            host = 'localhost'
+        host = f'[{host}]' if ':' in host else host
+        return f'http://{host}:{self.get_port()}/{self._admission.token}/'
 
 
 def close_server(server: viser.ViserServer) -> None:
@@ -75,13 +95,6 @@ def close_server(server: viser.ViserServer) -> None:
         closing.join(CLOSE_SEC)
 
 
-def address_of(server: viser.ViserServer) -> str:
-    """Return the URL of the page."""
-    host = server.get_host()
-    local = host in ('127.0.0.1', '0.0.0.0', '::', '::1', 'localhost')  # noqa: S104
-    return f'http://{"localhost" if local else host}:{server.get_port()}'
-
-
 class ActionQueue:
     """
     Actions from the server's threads, run by the thread that owns everything else.
@@ -90,17 +103,25 @@ class ActionQueue:
     """
 
     def __init__(self) -> None:
+        self._urgent: SimpleQueue[Callable[[], object]] = SimpleQueue()
         self._queue: SimpleQueue[Callable[[], object]] = SimpleQueue()
 
-    def put(self, action: Callable[[], object]) -> None:
-        """Add an action; from any thread."""
-        self._queue.put(action)
+    def put(self, action: Callable[[], object], *, urgent: bool = False) -> None:
+        """
+        Add an action; from any thread.
+
+        Only an urgent one is never left out: others are where very many wait already.
+        """
+        if urgent:
+            self._urgent.put(action)
+        elif self._queue.qsize() < MOST_ACTIONS:
+            self._queue.put(action)
 
     def run(self) -> None:
-        """Run what was added since the last call."""
-        while True:
-            try:
-                action = self._queue.get_nowait()
-            except Empty:
+        """Run what was added since the last call, as much as fits into a frame; urgent first."""
+        end_sec = time.monotonic() + ACTIONS_SEC
+        while time.monotonic() < end_sec:
+            queue = self._queue if self._urgent.empty() else self._urgent
+            if queue.empty():
                 return
-            action()
+            queue.get()()

@@ -8,7 +8,7 @@ _GRAPH = '`ros2 run rqt_graph rqt_graph` shows the graph, and `ros2 doctor` what
 _DEMO = '`ros2 run topic_demo publisher` and `ros2 run topic_demo subscriber` talk'
 _HUSKY = '`ros2 launch husky_sim husky_playpen.launch.py` starts a robot in a world'
 _TELEOP = '`ros2 run husky_driver teleop` drives by the keys'
-_VIEW = f'{_HUSKY}, and with `viewer:=true` shows it at http://localhost:8080'
+_VIEW = f'{_HUSKY}, and with `viewer:=true` shows it in the browser'
 
 BY_PACKAGE = {
     **dict.fromkeys(('rviz2', 'foxglove_bridge'), _VIEW),

@@ -24,6 +24,7 @@ import numpy as np
 from husky_view.picture.geometry import to_world
 
 UNDO_STEPS = 100
+MOST_WAYPOINTS = 200
 NEAR_M = 0.3
 """A click nearer than this to a waypoint means that waypoint."""
 
@@ -50,8 +51,10 @@ class EditableCourse:
         self.selected = select
 
     def add(self, x: float, y: float) -> None:
-        """Append a waypoint and select it."""
+        """Append a waypoint and select it, if there are not too many to draw."""
         waypoints = self.course.waypoints
+        if len(waypoints) >= MOST_WAYPOINTS:
+            return
         added = Waypoint(_rounded(x), _rounded(y))
         self._change(waypoints=(*waypoints, added), select=len(waypoints))
 

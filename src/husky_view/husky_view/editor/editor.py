@@ -8,6 +8,7 @@ callbacks of viser leave actions; everything else runs on the thread that runs t
 """
 
 from collections.abc import Callable
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -79,13 +80,14 @@ class Editor:
         )
         self._dragged: int | None = None
         self._editing = False
+        self._changed = False  # since it was drawn
         with server.gui.add_folder('Waypoints', expand_by_default=False):
             self._add_elements(server.gui)
 
     def choose_robot(self, place: int) -> None:
         """Edit in the frame odom of another robot."""
         self._start = self._world.robots[place]
-        self._show()
+        self._changed = True
 
     def close(self) -> None:
         """Stop taking clicks on the ground."""
@@ -116,7 +118,7 @@ class Editor:
             self._server.scene.on_click()(self._on_click)
         else:
             self._server.scene.remove_click_callback(self._on_click)
-        self._show()
+        self._changed = True
 
     def _on_click(self, event: Any) -> None:
         place = on_ground(event.ray_origin, event.ray_direction, self._height_m)
@@ -130,7 +132,7 @@ class Editor:
             self._edited.add(x, y)
         else:
             self._edited.selected = meant
-        self._show()
+        self._changed = True
 
     def _on_drag(self, event: Any) -> None:
         if not self._editing:
@@ -146,7 +148,7 @@ class Editor:
             self._edited.begin_move(number)
         if self._dragged is not None and place is not None:
             self._edited.move(self._dragged, *to_odom(self._start, place[None])[0])
-            self._show()
+            self._changed = True
         if phase == 'end':
             self._dragged = None
 
@@ -154,11 +156,11 @@ class Editor:
         edited = self._edited
         {UNDO: edited.undo, DELETE: edited.delete_selected, CLEAR: edited.clear}[word]()
         self._show_settings()
-        self._show()
+        self._changed = True
 
     def _on_settings(self) -> None:
         self._edited.set(speed_m_s=float(self._speed.value), loop=bool(self._loop.value))
-        self._show()
+        self._changed = True
 
     def _open(self, name: str) -> None:
         if name == NEW:
@@ -173,13 +175,17 @@ class Editor:
         self._show_settings()
         self._edit.value = True
         self._set_editing(True)
-        self._show()
+        self._changed = True
 
     def _show_settings(self) -> None:
         self._speed.value = round(self._edited.course.speed_m_s, 1)
         self._loop.value = self._edited.course.loop
 
-    def _show(self) -> None:
+    def draw(self) -> None:
+        """Draw what has changed; once a frame, however much was clicked."""
+        if not self._changed:
+            return
+        self._changed = False
         self._server.scene.remove_by_name(_PATH)
         if not self._editing:
             self._discs.show(np.zeros((0, 3)))
@@ -219,7 +225,8 @@ class Editor:
     def _say(self, text: str, color: palette.Rgb) -> None:
         self._verdict.content = (
             '<div data-verdict style="margin:0 1em .6em;padding-left:.6em;font-size:.85em;'
-            f'white-space:pre-wrap;border-left:.4em solid {palette.css(color)}">{text}</div>'
+            f'white-space:pre-wrap;border-left:.4em solid {palette.css(color)}">'
+            f'{escape(text)}</div>'
         )
 
     def _save(self) -> Path | None:

@@ -29,7 +29,7 @@ from husky_view.editor.course import waypoint_folder
 from husky_view.live.links import SimulatorQuery
 from husky_view.live.panel import warning_html
 from husky_view.live.view import LiveView
-from husky_view.server import address_of, AddressError, close_server, open_server
+from husky_view.server import AddressError, close_server, PageServer
 
 TITLE = 'Husky playpen'
 _ASK_SEC = 0.05
@@ -40,6 +40,7 @@ _PARAMETERS = {
     'simulator': ('husky_sim', 'Name of the simulator node to show.'),
     'viewer_host': ('127.0.0.1', 'Address to serve the page at; 0.0.0.0 lets others look.'),
     'viewer_port': (8080, 'Port of the page; the next free one if it is taken.'),
+    'viewer_names': ('', 'More names under which the page may be asked for, as of a proxy.'),
     'waypoints_folder': ('', "Where the editor saves; empty: the workspace's config/waypoints."),
 }
 
@@ -62,7 +63,12 @@ class ViewNode(Node):
         }
         self._query = SimulatorQuery(self, settings['simulator'])
         self._folder = Path(settings['waypoints_folder'] or waypoint_folder())
-        self._server = open_server(settings['viewer_host'], settings['viewer_port'], title=TITLE)
+        self._server = PageServer(
+            settings['viewer_host'],
+            settings['viewer_port'],
+            title=TITLE,
+            names=settings['viewer_names'].split(),
+        )
 
     def show_all(self, interrupted: Future[None]) -> None:
         """
@@ -73,7 +79,7 @@ class ViewNode(Node):
         world = self._wait_for_world(interrupted)
         while world is not None:
             view = LiveView(self, self._server, self._query, world, self._folder)
-            self.get_logger().info(f'look at {address_of(self._server)}')
+            self.get_logger().info(f'look at {self._server.address}')
             try:
                 world = self._result_of(view.next_world, interrupted)
             finally:

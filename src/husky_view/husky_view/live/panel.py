@@ -43,14 +43,15 @@ class Panel:
         self.teleop = Teleop()
         self._server = server
         self._simulator = simulator
-        self._later = later = actions.put
+        self._later = actions.put
         self._paused = False
         self._stopped = False
+        self._press_stop = stop
         gui = server.gui
         self._warning = gui.add_html('', visible=False)
         self._figures = gui.add_html('')
         self._stop = gui.add_button(STOP, color='red', icon=viser.Icon.HAND_STOP)
-        self._stop.on_click(lambda _: later(lambda: stop(not self._stopped)))
+        self._stop.on_click(self._on_stop)
         self._time = gui.add_button_group('Time', (PAUSE, STEP, RESET))
         self._time.on_click(lambda event: self._on_time(event.target.value))
         factors = gui.add_button_group('Speed', tuple(FACTORS))
@@ -59,7 +60,7 @@ class Panel:
         if len(robots) > 1:
             robot = gui.add_dropdown('Robot', tuple(robots))
             robot.on_update(
-                lambda event: later(lambda: choose_robot(robots.index(event.target.value)))
+                lambda event: self._later(lambda: choose_robot(robots.index(event.target.value)))
             )
         self._add_drive_buttons(gui)
         gui.add_html(legend_html())
@@ -75,7 +76,10 @@ class Panel:
         speed = gui.add_slider('Drive at, m/s', 0.1, 1.0, 0.1, teleop.speed_m_s)
         speed.on_update(lambda event: setattr(teleop, 'speed_m_s', float(event.target.value)))
 
-    # Coroutines run on the server's own thread, and so in order.
+    # Coroutines run on the server's own thread, in order and at once.
+    async def _on_stop(self, _event: Any) -> None:
+        self._later(lambda: self._press_stop(not self._stopped), urgent=True)
+
     async def _on_hold(self, direction: Direction, event: Any) -> None:
         self.teleop.hold(event.client_id, direction, now_sec=time.monotonic())
 

@@ -190,6 +190,7 @@ class LiveView:
             self._links[self._driven].drive(*command, now_sec=now)
         for link in self._links:
             link.draw(now)
+        self._editor.draw()
         self._picture.draw(now)
         if now >= self._figures_due_sec:
             self._figures_due_sec = now + 1.0 / FIGURES_HZ

@@ -141,9 +141,10 @@ class NumberedDiscs:
     def show(self, points: Array, *, highlighted: slice = slice(0)) -> None:
         """Put a disc at each of the points (n, 3)."""
         if len(points) != len(self._labels):
-            for node in (*self._labels, *self._discs):
+            for node in (*self._labels[len(points) :], *self._discs):
                 node.remove()
-            self._labels = [self._add_label(number + 1) for number in range(len(points))]
+            more = range(len(self._labels), len(points))
+            self._labels[len(points) :] = [self._add_label(number + 1) for number in more]
             self._discs = [self._add_discs(points)] if len(points) else []
         for discs in self._discs:
             discs.batched_positions = points.astype(np.float32)

@@ -22,7 +22,7 @@ from husky_view.picture.geometry import to_world
 from husky_view.picture.picture import Picture
 from husky_view.replay.panel import Playback, ReplayPanel
 from husky_view.replay.run import load_run, RunScenes
-from husky_view.server import ActionQueue, address_of, AddressError, close_server, open_server
+from husky_view.server import ActionQueue, AddressError, close_server, PageServer
 
 WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
@@ -111,13 +111,16 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('--host', default='127.0.0.1', help='address to serve the page at')
     parser.add_argument('--port', type=int, default=8080, help='port; the next free one if taken')
     parser.add_argument(
+        '--names', nargs='+', default=(), help='more names under which the page may be asked for'
+    )
+    parser.add_argument(
         '--waypoints', help=f"the course that was to be driven (the report's {WAYPOINTS_FILE})"
     )
     options = parser.parse_args(None if args is None else list(args)[1:])
     _end_on_signal()
     try:
         run = load_run(options.record)
-        server = open_server(options.host, options.port, title='Husky replay')
+        server = PageServer(options.host, options.port, title='Husky replay', names=options.names)
     except (RecordRefused, AddressError) as error:
         print(f'replay: {error}', file=sys.stderr)
         return BAD_INPUT
@@ -126,7 +129,7 @@ def main(args: Sequence[str] | None = None) -> int:
         beside = Path(run.file).with_name(WAYPOINTS_FILE)
         if options.waypoints or beside.is_file():
             replay.show_course(Path(options.waypoints or beside))
-        print(f'replay of {run.file}: look at {address_of(server)} (Ctrl-C ends)', flush=True)
+        print(f'replay of {run.file}: look at {server.address} (Ctrl-C ends)', flush=True)
         _play(replay)
     except (SimulatorError, RecordRefused, CourseRefused) as error:
         print(f'replay: {error}', file=sys.stderr)

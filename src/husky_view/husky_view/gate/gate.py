@@ -1,0 +1,160 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The gate in front of viser's server.
+
+Nobody gets past who is not admitted, nor any message that a page of ours does not send.
+viser 1.1 takes every request and every message, and has no hook for either. It serves by
+`websockets`, which has one for both; so the gate is put in where viser starts to serve.
+"""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
+from http import HTTPStatus
+import logging
+from typing import Any
+
+from websockets.asyncio import server as websockets_server
+from websockets.asyncio.server import serve, Server, ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+from husky_view.gate.admission import Admission
+from husky_view.gate.controls import accepts
+from husky_view.gate.front_page import front_page
+from husky_view.gate.incoming import GuiUpdateMessage, read_message, Refused
+
+MOST_BYTES = 4096
+"""Of a message; a page sends half a kilobyte at most."""
+
+MOST_TABS, MOST_CONNECTIONS = 32, 256
+HANDSHAKE_SEC = 5.0
+
+RATE_HZ, BURST = 200.0, 400
+"""How many messages of a tab are read: a page sends 50 a second and some. More have to wait."""
+
+_HEADERS = {
+    'Cache-Control': 'no-store',
+    'Cross-Origin-Resource-Policy': 'same-origin',
+    'Referrer-Policy': 'no-referrer',
+    'X-Content-Type-Options': 'nosniff',
+}
+_log = logging.getLogger(__name__)
+
+
+class Gate:
+    """
+    Decides who is admitted and which messages pass. It belongs to the server's thread.
+
+    :param title: of the page.
+    """
+
+    def __init__(self, admission: Admission, *, title: str) -> None:
+        self.control_of: Callable[[str], Any] = lambda _: None  # by its uuid
+        self.is_open = False
+        self._admission = admission
+        self._page = front_page(title)
+
+    @contextmanager
+    def in_front(self) -> Iterator[None]:
+        """
+        Stand in front of the server that viser starts meanwhile.
+
+        :raises RuntimeError: at the end, if viser has not come by here.
+        """
+        before = websockets_server.serve
+        websockets_server.serve = self._serve  # type: ignore[assignment, misc]
+        try:
+            yield
+        finally:
+            websockets_server.serve = before  # type: ignore[misc]
+        if not self.is_open:
+            raise RuntimeError('viser serves in another way than 1.1: nothing would be checked')
+
+    def _serve(
+        self, handler: Callable[[ServerConnection], Awaitable[None]], *place: Any, **options: Any
+    ) -> serve:
+        self.is_open = True
+        mine = {
+            'process_request': self._process_request,
+            'create_connection': self._connection,
+            'max_size': MOST_BYTES,
+            'open_timeout': HANDSHAKE_SEC,
+            'logger': _quiet_logger(),
+        }
+        return serve(handler, *place, **{**options, **mine})
+
+    def _connection(self, *args: Any, **options: Any) -> ServerConnection:
+        return CheckedConnection(self.admits_message, *args, **options)
+
+    def _process_request(self, connection: ServerConnection, request: Request) -> Response | None:
+        headers = request.headers
+        refusal = self._admission.refusal(
+            request.path, headers.get_all('Host'), headers.get_all('Origin')
+        )
+        if refusal is not None:
+            return connection.respond(refusal.status, f'{refusal.reason}\n')
+        if 'Upgrade' in headers:
+            if len(connection.server.connections) < MOST_TABS:
+                return None
+            full = f'{MOST_TABS} tabs look at this page already: close one.\n'
+            return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, full)
+        if request.path.partition('?')[0].rstrip('/').count('/') > 1:
+            return connection.respond(HTTPStatus.NOT_FOUND, 'There is one page here.\n')
+        described = {'Content-Type': 'text/html; charset=utf-8', 'Connection': 'close'}
+        length = {'Content-Length': str(len(self._page))}
+        return Response(200, 'OK', Headers({**described, **length, **_HEADERS}), self._page)
+
+    def admits_message(self, raw: str | bytes) -> bool:
+        """Tell whether a message is one that the page may send now."""
+        try:
+            message = read_message(raw)
+        except Refused as error:
+            _log.debug('refused: %s', error)
+            return False
+        if isinstance(message, GuiUpdateMessage):
+            return accepts(self.control_of(message.uuid), message.updates.value)
+        return True
+
+
+class CheckedConnection(ServerConnection):
+    """
+    The connection of a tab, which hands on what is admitted and drops the rest.
+
+    :param admits: tells of a message whether it is admitted.
+    """
+
+    def __init__(
+        self, admits: Callable[[str | bytes], bool], protocol: Any, server: Server, **options: Any
+    ) -> None:
+        super().__init__(protocol, server, **options)
+        self._admits = admits
+        self._free_sec = 0.0  # when all that was read would have been due
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Take a connection, if there are not too many."""
+        super().connection_made(transport)
+        if len(self.server.handlers) > MOST_CONNECTIONS:
+            self.transport.abort()
+
+    async def recv(self, decode: bool | None = None) -> str | bytes:  # type: ignore[override]
+        """Wait for the next message that is admitted."""
+        while True:
+            raw = await super().recv(decode)
+            await self._keep_to_the_rate()
+            if self._admits(raw):
+                return raw
+
+    async def _keep_to_the_rate(self) -> None:
+        now = self.loop.time()
+        self._free_sec = max(self._free_sec, now - BURST / RATE_HZ) + 1.0 / RATE_HZ
+        if self._free_sec > now:
+            await asyncio.sleep(self._free_sec - now)
+
+
+def _quiet_logger() -> logging.Logger:
+    """Return a logger that leaves out what anybody can cause: garbage instead of a request."""
+    logger = logging.getLogger(f'{__name__}.server')
+    logger.addFilter(lambda record: record.getMessage() != 'opening handshake failed')
+    return logger
