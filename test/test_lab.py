@@ -7,7 +7,9 @@ import os
 from pathlib import Path
 import re
 import signal
+import sys
 
+from playpen_testing.page_client import PageClient
 from playpen_testing.processes import Process, Processes
 from playpen_testing.shared_memory import left, own_files
 from playpen_testing.waiting import wait_until
@@ -143,3 +145,50 @@ def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_pat
     python = processes.start(LAB, 'exec', *asked, cwd=tmp_path)
     assert python.wait(timeout_sec=30.0) == 0
     assert python.lines == ['False'], 'what stands in ~/.local is imported too'
+
+
+IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
+BROWSER = """#!{python}
+import sys
+sys.path[:0] = {path}
+from playpen_testing.page_client import PageClient
+with PageClient(sys.argv[1]) as tab:
+    print('STOP' in tab.control('STOP')['props']['label'], file=open({seen!r}, 'w'), flush=True)
+    open({end!r}).read()
+"""
+
+
+def test_a_drive_opens_its_page_first_and_replays_at_the_end(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen, end, browser = (tmp_path / name for name in ('seen', 'end', 'browser'))
+    os.mkfifo(end)
+    browser.write_text(
+        BROWSER.format(python=sys.executable, path=sys.path, seen=str(seen), end=str(end))
+    )
+    browser.chmod(0o700)
+    monkeypatch.setenv('BROWSER', str(browser))
+    run = processes.start(
+        *(sys.executable, '-c', IN_A_TERMINAL, LAB),
+        *('drive', '--fast', '--open', '--report', str(tmp_path / 'my report')),
+    )
+    run.wait_for_text('(Ctrl-C ends)', timeout_sec=60.0)
+    lines = run.output.replace('\r', '').splitlines()
+    (live,) = [number for number, line in enumerate(lines) if '] look at ' in line]
+    (opened,) = [number for number, line in enumerate(lines) if 'the page is open' in line]
+    (started,) = [
+        number for number, line in enumerate(lines) if '[follow_path-3]: process started' in line
+    ]
+    assert opened <= started + 1, 'the launch may tell of the start before the line that caused it'
+    assert f"  see it again: ./lab view '{tmp_path / 'my report'}'" in lines[-2:]
+    assert seen.read_text() == 'True\n'
+    address = lines[-1].split('look at ')[1].split()[0]
+    assert lines[live].endswith(address)
+    with PageClient(address) as tab:
+        assert tab.control('Seconds')['props']['max'] > 20.0
+    # The browser reads it still: it must outlive the drive.
+    os.close(os.open(end, os.O_WRONLY | os.O_NONBLOCK))
+    run.write('\x03')
+    assert run.wait(timeout_sec=15.0) == 0, run.output
+    assert 'interrupted' not in run.output
+    assert 'Traceback' not in run.output

@@ -7,12 +7,14 @@ from pathlib import Path
 import signal
 import time
 
+from husky_runtime.web_address import TOKEN_VARIABLE
 from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
+from husky_view.gate.front_page import LOST
 from playpen_testing.browser import button, errors, number, open_page, wait_for
 from playpen_testing.processes import Process, Processes
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, expect, Page
 import pytest
 
 from husky_sim.config import SimulationConfig
@@ -74,15 +76,25 @@ def test_the_slider_reaches_the_end_and_play_begins_again(page: Page) -> None:
     assert errors(page) == []
 
 
-@pytest.mark.timeout(60)
-def test_ctrl_c_ends_a_replay_within_two_seconds(report: Path) -> None:
+@pytest.mark.timeout(120)
+def test_a_page_outlives_its_replay_and_shows_the_next(
+    report: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(TOKEN_VARIABLE, 'the-same-token')
+    command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18280')
     with Processes() as processes:
-        replay = processes.start(
-            'ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18280'
-        )
-        replay.wait_for_text('look at http://')
+        first = processes.start(*command)
+        first.wait_for_text('look at http://')
+        page = open_page(browser, first.output.split('look at ')[1].split()[0])
+        expect(page).to_have_title('Husky replay')
+        waiting = page.locator('#husky-waiting')
+        expect(waiting).to_be_hidden()
         begun = time.monotonic()
-        replay.signal(signal.SIGINT)
-        assert replay.wait(timeout_sec=10.0) == 0
+        first.signal(signal.SIGINT)
+        assert first.wait(timeout_sec=10.0) == 0
         assert time.monotonic() - begun < 2.0
-        assert 'Traceback' not in replay.output
+        assert 'Traceback' not in first.output
+        expect(waiting).to_have_text('Husky replay' + LOST)
+        processes.start(*command)
+        expect(waiting).to_be_hidden()
+        page.close()

@@ -7,17 +7,22 @@ from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 import os
 from pathlib import Path
+import shlex
 import sys
 import time
 
+from husky_course.printable import printable
 from husky_course.record import FILE_NAME
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.supervise import run_to_end
+from husky_runtime.web_address import AddressError
 
 from husky_grader import check, grade
+from husky_grader.drive_page import drive_page, DrivePage, is_at_a_terminal
+from husky_grader.grade_class import NOT_PASSED, PASSED
 from husky_grader.playpen import default_course
 from husky_grader.report.files import keep_course
 
@@ -33,6 +38,12 @@ def _parser() -> argparse.ArgumentParser:
         '--fast', action='store_true', help='as fast as this computer can, in lockstep'
     )
     parser.add_argument('--no-view', action='store_true', help='without the page in the browser')
+    parser.add_argument(
+        '--open',
+        action=argparse.BooleanOptionalAction,
+        help="open the page in this desktop's browser, and wait some seconds for it; the default "
+        'in a terminal of a desktop',
+    )
     parser.add_argument('--report', metavar='DIR', default='report', help='where the report goes')
     return parser
 
@@ -43,20 +54,37 @@ def main(args: Sequence[str] | None = None) -> int:
         return status
     folder = Path(options.report)
     try:
+        page = None if options.no_view else drive_page(options.open)
         _prepare(folder, Path(options.waypoints))
         with ExitStack() as stack:
-            environment = _environment(stack)
+            environment = _environment(stack, page)
+            if page is not None:
+                page.open()
             begun = time.monotonic()
-            run_to_end(_launch(options, folder), environment)
+            run_to_end(_launch(options, folder, page), environment)
         wall_time_sec = time.monotonic() - begun
-    except (OSError, DomainError) as error:
+    except (OSError, DomainError, AddressError) as error:
         print(f'lab drive: {error}', file=sys.stderr)
         return BAD_INPUT
     if not (folder / FILE_NAME).is_file():
         print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
         return BAD_INPUT
     record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints]
-    return grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
+    status = grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
+    if status in (PASSED, NOT_PASSED):
+        _show_again(folder, page)
+    return status
+
+
+def _show_again(folder: Path, page: DrivePage | None) -> None:
+    """Say how to see the run again; in a terminal the page shows it, until Ctrl-C."""
+    try:
+        print(printable(f'  see it again: ./lab view {shlex.quote(str(folder))}'), flush=True)
+    except OSError:  # nobody reads it any more, or the disk is full
+        discard_output()
+        return
+    if page is not None and is_at_a_terminal():
+        page.replay(folder, os.environ)
 
 
 def _prepare(folder: Path, waypoints: Path) -> None:
@@ -66,17 +94,18 @@ def _prepare(folder: Path, waypoints: Path) -> None:
     keep_course(waypoints, folder)
 
 
-def _environment(stack: ExitStack) -> Mapping[str, str]:
+def _environment(stack: ExitStack, page: DrivePage | None) -> Mapping[str, str]:
     """Put the run into a domain of its own, unless the user has chosen one."""
+    environment = {**os.environ, **(page.environment if page is not None else {})}
     if os.environ.get('ROS_DOMAIN_ID'):
-        return os.environ
+        return environment
     number = stack.enter_context(OwnDomain()).number
     print(f'ROS domain {number}, of this run alone; to look in: export ROS_DOMAIN_ID={number}')
     sys.stdout.flush()
-    return {**os.environ, 'ROS_DOMAIN_ID': str(number)}
+    return {**environment, 'ROS_DOMAIN_ID': str(number)}
 
 
-def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
+def _launch(options: argparse.Namespace, folder: Path, page: DrivePage | None) -> list[str]:
     course = load_course(options.waypoints)
     arguments = {
         # The driver keeps a limit of its own; this one ends a run whose driver hangs.
@@ -85,7 +114,7 @@ def _launch(options: argparse.Namespace, folder: Path) -> list[str]:
         'record': str(folder.resolve() / FILE_NAME),
         'real_time_factor': '0.0' if options.fast else '1.0',
         'lockstep': str(options.fast).lower(),
-        'viewer': str(not options.no_view).lower(),
+        **(page.launch_arguments if page is not None else {'viewer': 'false'}),
     }
     words = [f'{name}:={value}' for name, value in arguments.items()]
     return ['ros2', 'launch', 'husky_grader', 'drive.launch.py', *words]

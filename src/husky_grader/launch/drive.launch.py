@@ -6,11 +6,14 @@ from launch import LaunchContext, LaunchDescription
 from launch.actions import (
     DeclareLaunchArgument,
     IncludeLaunchDescription,
+    OpaqueFunction,
     RegisterEventHandler,
     Shutdown,
+    TimerAction,
 )
-from launch.event_handlers import OnProcessExit
-from launch.events.process import ProcessExited
+from launch.conditions import IfCondition, UnlessCondition
+from launch.event_handlers import OnProcessExit, OnProcessIO
+from launch.events.process import ProcessExited, ProcessIO
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
@@ -23,11 +26,36 @@ OF_SIMULATOR = (
     ('real_time_factor', '1.0', '1.0 keeps pace with the wall, 0.0 is as fast as possible'),
     ('lockstep', 'false', 'true: the simulator waits for each command, so that a run repeats'),
     ('viewer', 'false', 'true: a live view in the browser'),
+    ('viewer_port', '8080', 'port of the view; the next free one if it is taken'),
 )
+
+FIRST_TAB = b'the page is open'  # the view prints it
+FIRST_TAB_SEC = 8.0
+"""No longer: nobody knows whether a browser opens it."""
 
 
 def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
     return None if context.is_shutdown else Shutdown(reason=f'{event.process_name} has ended')
+
+
+class Held:
+    """
+    A node that is started once, by whichever comes first.
+
+    :param node: what is started.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._left = [node]
+
+    def start(self, *_: object) -> list[Node]:
+        """Return the node when called first, whatever with, and nothing later."""
+        left, self._left = self._left, []
+        return left
+
+    def on_output(self, event: ProcessIO) -> list[Node]:
+        """Start it when the view has its first tab."""
+        return self.start() if FIRST_TAB in event.text else []
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -40,23 +68,34 @@ def generate_launch_description() -> LaunchDescription:
         ),
         launch_arguments={name: LaunchConfiguration(name) for name, _, _ in OF_SIMULATOR}.items(),
     )
-    driver = Node(
-        package='husky_driver',
-        executable='follow_path',
-        # No use_sim_time: the driver's clock is the stamps of the odometry.
-        parameters=[{'startup_timeout_sec': 60.0}],
-        arguments=['--waypoints', LaunchConfiguration('waypoints')],
-        output='screen',
+    driver = Held(
+        Node(
+            package='husky_driver',
+            executable='follow_path',
+            # No use_sim_time: the driver's clock is the stamps of the odometry.
+            parameters=[{'startup_timeout_sec': 60.0}],
+            arguments=['--waypoints', LaunchConfiguration('waypoints')],
+            output='screen',
+        )
     )
+    waits = LaunchConfiguration('wait_for_tab')
+    start = OpaqueFunction(function=driver.start)
     return LaunchDescription(
         [
             DeclareLaunchArgument('waypoints', description='the waypoint file to drive'),
+            DeclareLaunchArgument(
+                'wait_for_tab',
+                default_value='false',
+                description='true: the driver waits some seconds until a browser shows the view',
+            ),
             *(
                 DeclareLaunchArgument(name, default_value=default, description=description)
                 for name, default, description in OF_SIMULATOR
             ),
+            RegisterEventHandler(OnProcessIO(on_stdout=driver.on_output)),
             simulator,
-            driver,
+            OpaqueFunction(function=driver.start, condition=UnlessCondition(waits)),
+            TimerAction(period=FIRST_TAB_SEC, actions=[start], condition=IfCondition(waits)),
             RegisterEventHandler(OnProcessExit(on_exit=_end_all)),
         ]
     )

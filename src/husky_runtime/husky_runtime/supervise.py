@@ -22,10 +22,13 @@ END_WITHIN_SEC = 1.0  # the one child of a run has a record to close
 POLL_SEC = 0.02
 
 
-def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
+def run_to_end(
+    command: Sequence[str], environment: Mapping[str, str], *, ends_by_itself: bool = True
+) -> int:
     """
     Run a command until it ends, and everything that it has started with it.
 
+    :param ends_by_itself: of one that does not, Ctrl-C is the end, and no interruption.
     :returns: its exit status; minus the number of the signal that ended it.
     :raises SystemExit: when a signal has asked this process to end, with 128 and its number.
     """
@@ -49,7 +52,7 @@ def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
         clean_shared_memory()
         for number, handler in before.items():
             signal.signal(number, handler)
-    if asked:
+    if asked and (ends_by_itself or asked[0] != signal.SIGINT):
         print('\ninterrupted', file=sys.stderr)
         raise SystemExit(128 + asked[0])
     return child.exit_code or 0

@@ -4,54 +4,20 @@
 
 from collections.abc import Callable, Iterable
 from contextlib import redirect_stdout
-import errno
 import io
 from queue import SimpleQueue
-import socket
 from threading import Thread
 import time
 
+from husky_runtime.web_address import AddressError, free_port, new_token
 import viser
 
-from husky_view.gate.admission import Admission, new_token
+from husky_view.gate.admission import Admission
 from husky_view.gate.gate import Gate
 from husky_view.picture.page import add_page_script
 
-PORTS_TRIED = 100
 CLOSE_SEC = 0.5
 MOST_ACTIONS, ACTIONS_SEC = 1000, 0.02
-
-
-class AddressError(Exception):
-    """The view cannot be served at the address asked for."""
-
-
-def free_port(host: str, port: int) -> int:
-    """
-    Return the first free port from `port` on.
-
-    :raises AddressError: if the host is not one of this machine's, or every port is taken.
-    """
-    try:
-        address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-    except OSError as error:
-        raise AddressError(
-            f'viewer_host={host!r}: {error.strerror}; 127.0.0.1 is this machine alone, '
-            '0.0.0.0 lets others of the network look'
-        ) from error
-    for candidate in range(port, min(port + PORTS_TRIED, 65536)):
-        with socket.socket(address[0], socket.SOCK_STREAM) as trial:
-            trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                trial.bind((host, candidate))
-            except OSError as error:
-                if error.errno in (errno.EADDRINUSE, errno.EACCES, errno.EPERM):
-                    continue
-                raise AddressError(f'viewer_host={host!r}: {error.strerror}') from error
-            return candidate
-    raise AddressError(
-        f'viewer_port={port}: no free port from {port} to {port + PORTS_TRIED - 1}; give another'
-    )
 
 
 class PageServer(viser.ViserServer):

@@ -10,6 +10,7 @@ import socket
 
 from husky_course.record import read_record, Record, RecordRefused
 from husky_course.robot import RobotStart
+from husky_runtime.web_address import AddressError, free_port, new_token, TOKEN_VARIABLE
 from husky_sim.recording import loose_bodies, MOVED, RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
@@ -21,7 +22,6 @@ from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to
 from husky_view.picture.page import Direction
 from husky_view.replay.panel import Playback
 from husky_view.replay.run import load_run, RunScenes
-from husky_view.server import AddressError, free_port
 import numpy as np
 import pytest
 
@@ -114,6 +114,16 @@ def test_a_taken_port_is_skipped_and_a_foreign_host_refused() -> None:
         free_port('192.0.2.1', 8080)
     with pytest.raises(AddressError, match="viewer_host='no such host'"):
         free_port('no such host', 8080)
+
+
+def test_a_token_of_the_environment_is_kept_or_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(TOKEN_VARIABLE, raising=False)
+    assert new_token() != new_token()
+    monkeypatch.setenv(TOKEN_VARIABLE, 'kept-token')
+    assert new_token() == 'kept-token'
+    monkeypatch.setenv(TOKEN_VARIABLE, 'a/b')
+    with pytest.raises(AddressError, match="HUSKY_VIEW_TOKEN='a/b': letters, digits"):
+        new_token()
 
 
 def record(path: Path) -> Record:

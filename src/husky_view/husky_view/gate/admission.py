@@ -14,18 +14,8 @@ from dataclasses import dataclass
 import hmac
 from http import HTTPStatus
 from ipaddress import ip_address
-import os
-import re
-import secrets
 import socket
 from urllib.parse import urlsplit
-
-TOKEN_VARIABLE = 'HUSKY_VIEW_TOKEN'
-"""Environment variable with the token to ask for, so that one page can take over from another."""
-
-_TOKEN = re.compile(r'[A-Za-z0-9_-]{8,64}')
-_TOKENS = 10**20
-"""So many that nobody can try them all; of digits alone, for whoever types it on a phone."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +24,6 @@ class Refusal:
 
     status: HTTPStatus
     reason: str
-
-
-def new_token() -> str:
-    """Return the token of the environment, or else a new one."""
-    return os.environ.get(TOKEN_VARIABLE) or f'{secrets.randbelow(_TOKENS):020}'
 
 
 class Admission:
@@ -50,15 +35,10 @@ class Admission:
 
     :param host: where the page is served.
     :param names: more names that the user allows, as of a proxy in front.
-    :raises ValueError: if one of them is no name, or the token cannot stand in an address.
+    :raises ValueError: if one of them is no name.
     """
 
     def __init__(self, token: str, *, host: str, names: Iterable[str] = ()) -> None:
-        if not _TOKEN.fullmatch(token):
-            raise ValueError(
-                f'{TOKEN_VARIABLE}={token!r}: letters, digits, _ and - are allowed, 8 to 64; '
-                'leave it out for a new one'
-            )
         self.token = token
         self._allowed = frozenset(name.lower() for name in names)
         for name in self._allowed:

@@ -1,21 +1,69 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page that a browser loads: viser's, with our title."""
+"""The page that a browser loads: viser's, under our title, with words for the time of waiting."""
 
 from html import escape
+import json
 from pathlib import Path
 
 import viser
 
+LOADING = 'Loading the scene ...'
+LATE = 'Nothing comes. Does the program that served this page still run? Its terminal says more.'
+LOST = 'What was shown here has ended. What follows at this address opens here by itself.'
+
+# viser looks for a lost server only while somebody types into the page, and writes the address of
+# its websocket behind ours.
+_BEFORE = """
+document.hasFocus = () => true;
+history.replaceState = () => {};
+"""
+
+_STYLE = """
+#husky-waiting { position: fixed; z-index: 10000; inset: 0; display: flex; flex-direction: column;
+  align-items: center; justify-content: center; gap: .6em; padding: 1em; text-align: center;
+  background: #eef3fa; color: #234; font: 1em/1.4 system-ui, sans-serif; }
+#husky-waiting.lost { inset: 0 0 auto 0; background: #c40; color: #fff; }
+#husky-waiting.lost b { display: none; }
+#husky-waiting[hidden] { display: none; }
+"""
+
+_SCRIPT = """
+const cover = document.getElementById('husky-waiting'), words = cover.lastElementChild;
+const told = TOLD;
+let since = performance.now();
+const say = (text, lost) => {
+  cover.classList.toggle('lost', lost);
+  cover.hidden = !text;
+  if (text && words.textContent !== text) words.textContent = text;
+};
+setInterval(() => {
+  const panel = document.querySelector('.husky-page, [data-trouble]');
+  const connected = panel && getComputedStyle(panel).pointerEvents !== 'none';
+  const now = performance.now();
+  if (connected) since = now;
+  const waits = now - since;
+  if (connected || (panel && waits < 1500)) say('', false);
+  else if (panel) say(told.lost, true);
+  else say(waits < 10000 ? told.loading : told.late, false);
+}, 100);
+"""
+
 
 def front_page(title: str) -> bytes:
-    """Return viser's page, which is one file, under a title."""
+    """
+    Return viser's page, which is one file, with ours around it.
+
+    Until the panel has come, it covers everything with words; viser dims a panel whose server is
+    gone, by which that is found out.
+    """
     file = Path(viser.__file__).parent / 'client' / 'build' / 'index.html'
-    head, found, rest = file.read_text(encoding='utf-8').partition('<title>Viser</title>')
-    title_html = f'<title>{escape(title)}</title><script>{_KEEP_ADDRESS}</script>' * bool(found)
-    return f'{head}{title_html}{rest}'.encode()
-
-
-_KEEP_ADDRESS = (
-    'history.replaceState = () => {};'  # viser would write a second address behind ours
-)
+    words = json.dumps({'loading': LOADING, 'late': LATE, 'lost': LOST})
+    cover = (
+        f'<div id="husky-waiting"><b>{escape(title)}</b><span>{LOADING}</span></div>'
+        f'<script>(() => {{{_SCRIPT.replace("TOLD", words)}}})();</script>'
+    )
+    head = f'<title>{escape(title)}</title><style>{_STYLE}</style><script>{_BEFORE}</script>'
+    page = file.read_text(encoding='utf-8')
+    page = page.replace('<title>Viser</title>', head, 1).replace('<body>', f'<body>{cover}', 1)
+    return page.encode()

@@ -16,6 +16,7 @@ import time
 from typing import Any
 
 from husky_runtime.executor import future_of_signal, spin
+from husky_runtime.web_address import AddressError
 from husky_sim.errors import SimulatorError
 from husky_sim.world import load_world, World
 from rcl_interfaces.msg import ParameterDescriptor
@@ -29,9 +30,12 @@ from husky_view.editor.course import waypoint_folder
 from husky_view.live.links import SimulatorQuery
 from husky_view.live.panel import warning_html
 from husky_view.live.view import LiveView
-from husky_view.server import AddressError, close_server, PageServer
+from husky_view.server import close_server, PageServer
 
 TITLE = 'Husky playpen'
+FIRST_TAB = 'the page is open'
+"""drive.launch.py may wait for this line."""
+
 _ASK_SEC = 0.05
 _HINT_AFTER_SEC = 3.0
 _EXIT_SEC = 1.2
@@ -61,6 +65,7 @@ class ViewNode(Node):
             ).value
             for name, (default, text) in _PARAMETERS.items()
         }
+        self._looked_at = False
         self._query = SimulatorQuery(self, settings['simulator'])
         self._folder = Path(settings['waypoints_folder'] or waypoint_folder())
         self._server = PageServer(
@@ -69,6 +74,12 @@ class ViewNode(Node):
             title=TITLE,
             names=settings['viewer_names'].split(),
         )
+        self._server.on_client_connect(self._on_tab)
+
+    def _on_tab(self, _: object) -> None:
+        if not self._looked_at:
+            self._looked_at = True
+            print(FIRST_TAB, flush=True)
 
     def show_all(self, interrupted: Future[None]) -> None:
         """
@@ -79,7 +90,8 @@ class ViewNode(Node):
         world = self._wait_for_world(interrupted)
         while world is not None:
             view = LiveView(self, self._server, self._query, world, self._folder)
-            self.get_logger().info(f'look at {self._server.address}')
+            # Not to the log, which is a topic, too: the address has the token.
+            print(f'look at {self._server.address}', flush=True)
             try:
                 world = self._result_of(view.next_world, interrupted)
             finally:

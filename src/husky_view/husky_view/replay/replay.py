@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from husky_course.record import Record, RecordRefused
 from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.web_address import AddressError
 from husky_sim.errors import SimulatorError
 from husky_sim.world import load_world
 import numpy as np
@@ -22,7 +23,7 @@ from husky_view.picture.geometry import to_world
 from husky_view.picture.picture import Picture
 from husky_view.replay.panel import Playback, ReplayPanel
 from husky_view.replay.run import load_run, RunScenes
-from husky_view.server import ActionQueue, AddressError, close_server, PageServer
+from husky_view.server import ActionQueue, close_server, PageServer
 
 WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0

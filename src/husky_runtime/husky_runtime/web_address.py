@@ -1,0 +1,65 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where a page is served: a free port, and the token that its address ends in."""
+
+import errno
+import os
+import re
+import secrets
+import socket
+
+PORTS_TRIED = 100
+
+TOKEN_VARIABLE = 'HUSKY_VIEW_TOKEN'
+"""Environment variable with the token to ask for, so that one page can take over from another."""
+
+_TOKEN = re.compile(r'[A-Za-z0-9_-]{8,64}')
+_TOKENS = 10**20
+"""So many that nobody can try them all; of digits alone, for whoever types it on a phone."""
+
+
+class AddressError(Exception):
+    """A page cannot be served at the address asked for."""
+
+
+def free_port(host: str, port: int) -> int:
+    """
+    Return the first free port from `port` on.
+
+    :raises AddressError: if the host is not one of this machine's, or every port is taken.
+    """
+    try:
+        address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except OSError as error:
+        raise AddressError(
+            f'viewer_host={host!r}: {error.strerror}; 127.0.0.1 is this machine alone, '
+            '0.0.0.0 lets others of the network look'
+        ) from error
+    for candidate in range(port, min(port + PORTS_TRIED, 65536)):
+        with socket.socket(address[0], socket.SOCK_STREAM) as trial:
+            trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                trial.bind((host, candidate))
+            except OSError as error:
+                if error.errno in (errno.EADDRINUSE, errno.EACCES, errno.EPERM):
+                    continue
+                raise AddressError(f'viewer_host={host!r}: {error.strerror}') from error
+            return candidate
+    raise AddressError(
+        f'viewer_port={port}: no free port from {port} to {port + PORTS_TRIED - 1}; give another'
+    )
+
+
+def new_token() -> str:
+    """
+    Return the token of the environment, or else a new one.
+
+    :raises AddressError: if that of the environment cannot stand in an address.
+    """
+    token = os.environ.get(TOKEN_VARIABLE) or f'{secrets.randbelow(_TOKENS):020}'
+    if not _TOKEN.fullmatch(token):
+        raise AddressError(
+            f'{TOKEN_VARIABLE}={token!r}: letters, digits, _ and - are allowed, 8 to 64; leave it '
+            'out for a new one'
+        )
+    return token
