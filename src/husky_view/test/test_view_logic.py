@@ -19,7 +19,8 @@ from husky_view.editor.course import EditableCourse
 from husky_view.live.checks import RealTimeFactor
 from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
 from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
-from husky_view.picture.page import Direction
+from husky_view.picture.page import Direction, in_decimals
+from husky_view.picture.picture import first_of_run
 from husky_view.replay.panel import Playback
 from husky_view.replay.run import load_run, RunScenes
 import numpy as np
@@ -102,6 +103,24 @@ def test_a_playback_stops_at_its_end_and_begins_again() -> None:
     playback.jump(99.0)
     assert playback.time_sec == 10.0
     assert playback.step(1.0)
+
+
+@pytest.mark.parametrize(
+    ('time_sec', 'first'),
+    [
+        ([5.0, 5.1, 5.2], None),
+        ([0.0, 0.1], 0),
+        ([5.0, 5.1, 0.0, 0.1], 2),
+        ([5.0, 0.0, 0.2, 0.1], 3),
+    ],
+)
+def test_a_run_begins_where_time_goes_back(time_sec: list[float], first: int | None) -> None:
+    assert first_of_run(np.array(time_sec), after_sec=4.9) == first
+
+
+def test_no_figure_is_minus_zero() -> None:
+    assert [in_decimals(value, 2) for value in (-0.004, -0.0, -0.006)] == ['0.00', '0.00', '-0.01']
+    assert in_decimals(-0.0004, 3, sign='+') == '+0.000'
 
 
 def test_a_taken_port_is_skipped_and_a_foreign_host_refused() -> None:

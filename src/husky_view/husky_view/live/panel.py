@@ -13,7 +13,14 @@ import viser
 from husky_view.live.links import SimulatorControl
 from husky_view.live.teleop import HOLD_HZ, Teleop
 from husky_view.picture.camera import add_camera_buttons
-from husky_view.picture.page import Direction, figures_html, legend_html, RELEASE, STOP
+from husky_view.picture.page import (
+    Direction,
+    figures_html,
+    in_decimals,
+    legend_html,
+    RELEASE,
+    STOP,
+)
 from husky_view.server import ActionQueue
 
 PAUSE, RESUME, STEP, RESET = 'Pause', 'Resume', 'Step', 'Reset'
@@ -118,13 +125,13 @@ class Panel:
             self._paused = paused
             self._time.options = (RESUME if paused else PAUSE, STEP, RESET)
         factor = '–' if real_time_factor is None else f'{real_time_factor:.2f}'
-        cross = '–' if cross_track_m is None else f'{cross_track_m:+.3f} m'
+        cross = '–' if cross_track_m is None else f'{in_decimals(cross_track_m, 3, sign="+")} m'
         left = '–' if waypoints_left is None else str(waypoints_left)
         table = figures_html(
             (
                 ('sim time', f'{time_sec:.1f} s', 'time'),
                 ('real time ×', factor, 'factor'),
-                ('speed', f'{speed_m_s:.2f} m/s'.replace('-0.00', '0.00'), 'speed'),
+                ('speed', f'{in_decimals(speed_m_s, 2)} m/s', 'speed'),
                 ('off the path', cross, 'cross'),
                 ('waypoints left', left, 'left'),
                 ('collisions', str(collisions), 'collisions'),

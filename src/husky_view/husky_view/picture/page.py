@@ -16,6 +16,7 @@ from viser._messages import RunJavascriptMessage
 from husky_view.picture.palette import css, LEGEND
 
 STOP, RELEASE = 'STOP', 'Release the stop'
+PLAY = 'Play'
 
 
 class Direction(Enum):
@@ -93,8 +94,18 @@ const makeRoom = () => {
   const box = canvas.parentElement.parentElement;
   if (box.style.height !== height) box.style.height = height;
 };
+let waiting = null;
+const play = () => {
+  const legend = document.querySelector('[data-plays]');
+  if (legend === waiting) return;
+  waiting = legend;
+  const press = () => { if (legend.isConnected) button(PLAY)?.click(); };
+  // The second of two frames begins when the first one is drawn.
+  if (legend) requestAnimationFrame(() => requestAnimationFrame(press));
+};
 const arrange = () => {
   makeRoom();
+  play();
   for (const sign in areas) {
     const cell = button(sign)?.parentElement;
     if (!cell || cell.style.gridArea) continue;
@@ -117,6 +128,7 @@ def add_page_script(server: viser.ViserServer) -> None:
     script = (
         _SCRIPT.replace('KEYS', json.dumps({d.key: d.sign for d in Direction}))
         .replace('AREAS', json.dumps({d.sign: d.area for d in Direction}))
+        .replace('PLAY', json.dumps(PLAY))
         .replace('STOPS', json.dumps([STOP, RELEASE]))
         .replace('STYLE', json.dumps(_STYLE))
     )
@@ -125,8 +137,12 @@ def add_page_script(server: viser.ViserServer) -> None:
     server.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
 
 
-def legend_html() -> str:
-    """Return the legend: a coloured bar and a word for each. The script finds the panel by it."""
+def legend_html(*, plays: bool = False) -> str:
+    """
+    Return the legend: a coloured bar and a word for each. The script finds the panel by it.
+
+    :param plays: whether the script is to press Play, as soon as the scene is drawn.
+    """
     rows = ''.join(
         '<span style="display:inline-flex;align-items:center;gap:.4em;margin-right:.9em">'
         f'<i style="width:1.4em;height:.35em;border-radius:.2em;background:{css(color)};'
@@ -135,7 +151,13 @@ def legend_html() -> str:
         for color, name in LEGEND
     )
     style = 'padding:0 1em .6em;font-size:.8em;line-height:1.5'
-    return f'<div class="husky-page"><div style="{style}">{rows}</div></div>'
+    mark = ' data-plays' if plays else ''
+    return f'<div class="husky-page"{mark}><div style="{style}">{rows}</div></div>'
+
+
+def in_decimals(value: float, decimals: int, *, sign: str = '') -> str:
+    """Return a number in so many decimals, 0.00 and never -0.00; sign '+' shows that, too."""
+    return f'{round(value, decimals) + 0.0:{sign}.{decimals}f}'
 
 
 def figures_html(cells: Sequence[tuple[str, str, str]], *, red: str = '') -> str:

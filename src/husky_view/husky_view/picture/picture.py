@@ -121,6 +121,17 @@ class RobotMarks:
         self.set_look_ahead(None)
 
 
+def first_of_run(time_sec: Array, *, after_sec: float) -> int | None:
+    """
+    Return the first entry of a run that has begun in between, or None.
+
+    A message has what came before a reset, too: drawn as one trail, it would lead from the end of
+    the last run to the start of the next.
+    """
+    back = np.flatnonzero(np.diff(time_sec, prepend=after_sec) < 0.0)
+    return int(back[-1]) if len(back) else None
+
+
 class Picture:
     """All that is drawn of a run."""
 
@@ -138,14 +149,15 @@ class Picture:
         self.followed = 0
 
     def show(self, scene: Scene) -> None:
-        """Draw a scene; one of an earlier time or of another run begins a new run."""
-        if scene.time_sec[-1] < self._time_sec or scene.run != (self._run or scene.run):
+        """Draw a scene; one of another run, or with a time that goes back, begins a new run."""
+        first = first_of_run(scene.time_sec, after_sec=self._time_sec)
+        if first is not None or scene.run != (self._run or scene.run):
             self.clear()
         self._run = scene.run
         self._time_sec = float(scene.time_sec[-1])
         self.scene.show(scene.qpos)
         for place, robot in enumerate(self.robots):
-            robot.move(scene.track[:, place])
+            robot.move(scene.track[first:, place])
 
     def draw(self, now_sec: float) -> None:
         """Send what grew, animate flashes and cameras; now is of a steady wall clock."""

@@ -10,10 +10,10 @@ from husky_course.record import Collision
 import viser
 
 from husky_view.picture.camera import add_camera_buttons
-from husky_view.picture.page import figures_html, legend_html
+from husky_view.picture.page import figures_html, in_decimals, legend_html, PLAY
 from husky_view.server import ActionQueue
 
-PLAY, PAUSE, RESTART = 'Play', 'Pause', 'From the start'
+PAUSE, RESTART = 'Pause', 'From the start'
 FACTORS = {'¼×': 0.25, '1×': 1.0, '2×': 2.0, '5×': 5.0, '20×': 20.0}
 MOST_BUTTONS = 30
 
@@ -59,7 +59,11 @@ class Playback:
 
 
 class ReplayPanel:
-    """The elements of the panel; what is clicked is left as actions."""
+    """
+    The elements of the panel; what is clicked is left as actions.
+
+    It stands at first: the first tab presses Play, when it has drawn the scene.
+    """
 
     def __init__(
         self,
@@ -69,11 +73,12 @@ class ReplayPanel:
         collisions: Sequence[Collision],
         choose_camera: Callable[[viser.ClientHandle, str], None],
     ) -> None:
+        playback.playing = False
         self._playback = playback
         self._later = actions.put
         gui = server.gui
         self._figures = gui.add_html('')
-        self._play = gui.add_button_group('Time', (PAUSE, RESTART))
+        self._play = gui.add_button_group('Time', (PLAY, RESTART))
         self._play.on_click(lambda event: self._on_time(event.target.value))
         # The slider's range is a whole number of steps, or its end could not be reached.
         end = max(math.ceil(playback.duration_sec / 0.1) * 0.1, 0.1)
@@ -94,7 +99,7 @@ class ReplayPanel:
                 button.on_click(self._jumper(collision.time_sec))
             if not collisions:
                 gui.add_html('<div style="padding:0 1em .4em">none</div>')
-        gui.add_html(legend_html())
+        self._legend = gui.add_html(legend_html(plays=True))
 
     def _on_time(self, word: str) -> None:
         if word == RESTART:
@@ -126,6 +131,8 @@ class ReplayPanel:
     def show(self, *, speed_m_s: float, drift_m: float, collisions: int) -> None:
         """Show the figures and the time."""
         playback = self._playback
+        if playback.playing:
+            self._legend.content = legend_html()
         if (PLAY in self._play.options) == playback.playing:
             self._play.options = (PAUSE if playback.playing else PLAY, RESTART)
         now = min(round(playback.time_sec, 1), self._slider.max)
@@ -138,7 +145,7 @@ class ReplayPanel:
             (
                 ('sim time', f'{playback.time_sec:.1f} s', 'time'),
                 ('of', f'{playback.duration_sec:.1f} s', 'duration'),
-                ('speed', f'{speed_m_s:.2f} m/s', 'speed'),
+                ('speed', f'{in_decimals(speed_m_s, 2)} m/s', 'speed'),
                 ('odometry is off', f'{drift_m:.3f} m', 'drift'),
                 ('collisions so far', str(collisions), 'collisions'),
             )
