@@ -27,8 +27,9 @@ def test_ruff_finds_nothing(command: str) -> None:
 
 
 @pytest.mark.timeout(300)
-def test_mypy_strict_finds_nothing(tmp_path: Path) -> None:
-    mypy = [sys.executable, '-m', 'mypy', '--cache-dir', str(tmp_path)]
+def test_mypy_strict_finds_nothing() -> None:
+    # What it knows of files that have not changed is in .mypy_cache: a sixth of the time.
+    mypy = [sys.executable, '-m', 'mypy']
     packages = [path.parent for path in sorted(ROOT.glob('src/*/package.xml'))]
     distributions = [path.parent for path in sorted(ROOT.glob('underlay/*/package.xml'))]
     sources = [path / path.name for path in (*distributions, *packages)]
