@@ -6,8 +6,7 @@ What is drawn, looked at pixel by pixel.
 PLAYPEN_PICTURES=docs keeps the pictures there, for the README.
 """
 
-from collections.abc import Iterator
-import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 import shutil
 
@@ -23,6 +22,7 @@ from playpen_testing.browser import (
     button,
     errors,
     keep_still,
+    KEPT,
     number,
     open_page,
     pixels_of,
@@ -31,22 +31,29 @@ from playpen_testing.browser import (
 from playpen_testing.processes import Processes
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, Page
 import pytest
 
 from husky_sim.config import SimulationConfig
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSE = ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'
-DESK, PHONE = (1200, 750), (390, 844)
+DESK, PHONE = (1200, 750) if KEPT else (900, 560), (390, 844)
 
 
 @pytest.fixture(scope='module')
-def pictures(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    wanted = os.environ.get('PLAYPEN_PICTURES')
-    folder = ROOT / wanted if wanted else tmp_path_factory.mktemp('pictures')
-    yield folder
-    for file in folder.glob('view_*.png'):
+def keep() -> Iterator[Callable[[Page, str], None]]:
+    """Keep a picture of a page, if pictures are to be kept."""
+    folder = ROOT / (KEPT or '')
+    kept = list[Path]()
+
+    def keep_picture(page: Page, name: str) -> None:
+        if KEPT:
+            kept.append(folder / name)
+            keep_still(page, folder / name)
+
+    yield keep_picture
+    for file in kept:
         # By coverage, or the few pixels of a trail would take on the colour of something else;
         # dithered, or the sky would come in steps.
         whole = Image.open(file).convert('RGB')
@@ -76,7 +83,9 @@ def red(png: bytes) -> int:
 
 
 @pytest.mark.timeout(180)
-def test_a_drive_shows_path_and_trail_in_the_legends_colours(lab: Lab, pictures: Path) -> None:
+def test_a_drive_shows_path_and_trail_in_the_legends_colours(
+    lab: Lab, keep: Callable[[Page, str], None]
+) -> None:
     driver = lab.drive(COURSE)
     wait_until(
         lambda: lab.truth.pose.pose.position.x > 3.2,
@@ -94,7 +103,7 @@ def test_a_drive_shows_path_and_trail_in_the_legends_colours(lab: Lab, pictures:
         return [what for what, color in shown.items() if count(png, color) < 25]
 
     wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
-    keep_still(page, pictures / 'view_live.png')
+    keep(page, 'view_live.png')
     assert errors(page) == []
     assert int(number(page, 'left').inner_text()) < 13
     assert abs(float(number(page, 'cross').inner_text().split()[0])) < 0.3
@@ -103,7 +112,9 @@ def test_a_drive_shows_path_and_trail_in_the_legends_colours(lab: Lab, pictures:
 
 
 @pytest.mark.timeout(180)
-def test_the_editor_shows_where_a_course_passes_too_near(lab: Lab, pictures: Path) -> None:
+def test_the_editor_shows_where_a_course_passes_too_near(
+    lab: Lab, keep: Callable[[Page, str], None]
+) -> None:
     lab.pause()
     through = lab.folder / 'through.yaml'
     through.write_text('waypoints:\n  - [0, 0]\n  - [-3, 2]\n  - [0, 4]\n  - [4.2, -3.2]\n')
@@ -125,12 +136,14 @@ def test_the_editor_shows_where_a_course_passes_too_near(lab: Lab, pictures: Pat
         return [what for what, color in colors.items() if count(png, color) < before[what] + 60]
 
     wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
-    keep_still(page, pictures / 'view_editor.png')
+    keep(page, 'view_editor.png')
     page.close()
 
 
 @pytest.mark.timeout(180)
-def test_a_phone_shows_the_playpen_above_the_controls(lab: Lab, pictures: Path) -> None:
+def test_a_phone_shows_the_playpen_above_the_controls(
+    lab: Lab, keep: Callable[[Page, str], None]
+) -> None:
     lab.pause()  # `still` is only what stands
     page = lab.open(*PHONE, drawn=True)
 
@@ -139,13 +152,13 @@ def test_a_phone_shows_the_playpen_above_the_controls(lab: Lab, pictures: Path) 
         return asphalt(screenshot(page)) > 40000
 
     wait_until(is_seen, timeout_sec=60.0, what='asphalt above the panel')
-    keep_still(page, pictures / 'view_phone.png')
+    keep(page, 'view_phone.png')
     page.close()
 
 
 @pytest.mark.timeout(180)
 def test_a_replay_shows_the_collision_in_red(
-    browser: Browser, tmp_path: Path, pictures: Path, processes: Processes
+    browser: Browser, tmp_path: Path, keep: Callable[[Page, str], None], processes: Processes
 ) -> None:
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
     record = RunRecorder(simulation, tmp_path / 'run.record')
@@ -166,5 +179,5 @@ def test_a_replay_shows_the_collision_in_red(
         timeout_sec=60.0,
         what='the red mark of a collision',
     )
-    keep_still(page, pictures / 'view_replay.png')
+    keep(page, 'view_replay.png')
     page.close()

@@ -16,6 +16,7 @@ from playwright.sync_api import Browser, expect, Locator, Page, sync_playwright
 from playpen_testing.chromium import Program
 from playpen_testing.waiting import wait_until
 
+KEPT = os.environ.get('PLAYPEN_PICTURES')  # the folder for pictures that are to be kept, if any
 FLAGS = (
     *('--disable-gpu', '--use-angle=swiftshader', '--disable-quic'),
     # Drawing without a graphics processor may take long, but it has not hung.
@@ -34,7 +35,14 @@ for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced', 'draw
 """
 _DRAW_SELDOM = """
 const soon = window.requestAnimationFrame.bind(window);
-window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 100);
+window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 250);
+"""
+# Smooth edges take most of the time; only pictures to keep have them.
+_DRAW_ROUGHLY = """
+const context = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, given) {
+  return context.call(this, kind, {...given, antialias: false});
+};
 """
 
 _IS_CANVAS_LOST = """(() => {
@@ -73,7 +81,10 @@ def open_page(
     """
     page = browser.new_page(viewport={'width': width, 'height': height}, is_mobile=width < 600)
     page.set_default_timeout(60_000 if drawn else 30_000)
-    page.add_init_script(_DRAW_SELDOM if drawn else _DRAW_NOTHING)
+    if drawn:
+        page.add_init_script(_DRAW_SELDOM + ('' if KEPT else _DRAW_ROUGHLY))
+    else:
+        page.add_init_script(_DRAW_NOTHING)
     page.goto(url, wait_until='commit')
     expect(number(page, 'time')).not_to_be_empty()
     if drawn:
