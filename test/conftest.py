@@ -28,6 +28,14 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope='session')
+def short_course(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a course with a bend, for what is the same at the end of any drive."""
+    course = tmp_path_factory.mktemp('course') / 'short.yaml'
+    course.write_text('speed: 0.8\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n')
+    return course
+
+
+@pytest.fixture(scope='session')
 def built_packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Build every package as a copy; what `./lab` itself has built are links."""
     folder = tmp_path_factory.mktemp('built')

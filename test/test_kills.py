@@ -64,15 +64,15 @@ def running(processes: list[psutil.Process]) -> list[str]:
 
 
 @pytest.fixture(scope='module')
-def trajectory_sha256() -> str:
-    """Drive the default course in this process, where nothing was killed."""
-    route = plan_route(load_course(ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'))
+def trajectory_sha256(short_course: Path) -> str:
+    """Drive in this process, where nothing was killed."""
+    route = plan_route(load_course(short_course))
     return read_run(drive_route(route)[0]).trajectory_sha256
 
 
 @pytest.mark.parametrize('name', PARTS)
 def test_a_killed_part_ends_the_run_in_3_s(
-    processes: Processes, tmp_path: Path, trajectory_sha256: str, name: str
+    processes: Processes, tmp_path: Path, short_course: Path, trajectory_sha256: str, name: str
 ) -> None:
     options = () if name == 'view' else ('--no-view',)
     run = processes.start(LAB, 'drive', '--report', str(tmp_path), *options)
@@ -92,7 +92,8 @@ def test_a_killed_part_ends_the_run_in_3_s(
         what=lambda: f'the end of {running(members)}; the run printed:\n{run.output}',
     )
     assert 'Traceback' not in run.output
-    following = processes.start(LAB, 'drive', '--fast', '--no-view', '--report', str(tmp_path))
+    again = ('--fast', '--no-view', '--waypoints', str(short_course))
+    following = processes.start(LAB, 'drive', *again, '--report', str(tmp_path))
     assert following.wait(timeout_sec=60.0) == 0, following.output
     report = json.loads((tmp_path / 'report.json').read_text())
     assert report['trajectory_sha256'] == trajectory_sha256

@@ -74,14 +74,14 @@ def test_drive_refuses_a_bad_file_before_anything_starts(
 
 
 def test_the_same_file_gives_the_same_run_on_a_loaded_machine(
-    processes: Processes, tmp_path: Path
+    processes: Processes, tmp_path: Path, short_course: Path
 ) -> None:
     burners = [processes.start('bash', '-c', 'while :; do :; done') for _ in range(2)]
-    run = drive(processes, tmp_path, '--fast')
+    course = str(short_course)
+    run = drive(processes, tmp_path, '--fast', '--waypoints', course)
     assert run.wait(timeout_sec=90.0) == 0, run.output
     for burner in burners:
         burner.signal(signal.SIGKILL)
-    course = str(ROOT / 'config' / 'waypoints' / 'central_barrier.yaml')
     graded = processes.start(LAB, 'grade', course, '--report', str(tmp_path / 'graded'))
     assert graded.wait(timeout_sec=60.0) == 0, graded.output
     (report,) = (tmp_path / 'graded').rglob('report.json')
@@ -92,21 +92,24 @@ def test_the_same_file_gives_the_same_run_on_a_loaded_machine(
     assert over_dds == in_one_process
 
 
-def test_a_full_disk_loses_the_report_not_the_result(processes: Processes, tmp_path: Path) -> None:
+def test_a_full_disk_loses_the_report_not_the_result(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
     # A limit of the size of each file stands in for the disk: enough for the course, not the rest.
     run = processes.start(
         *('bash', '-c', 'ulimit -f 8; exec "$@"', 'bash', LAB),
         *('drive', '--fast', '--no-view', '--report', str(tmp_path)),
+        *('--waypoints', str(short_course)),
     )
     assert run.wait(timeout_sec=60.0) == 2, run.output
     assert 'the record of the run ends here: free some space' in run.output
-    assert 'central_barrier: NOT PASSED' in run.output
+    assert 'short: NOT PASSED' in run.output
     assert 'the report cannot be written: File too large; free some space' in run.output
     assert 'Traceback' not in run.output
 
 
 def test_a_home_that_cannot_be_written_costs_no_run(
-    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    processes: Processes, tmp_path: Path, short_course: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ('ROS_LOG_DIR', 'ROS_HOME'):
         monkeypatch.delenv(name, raising=False)
@@ -115,7 +118,7 @@ def test_a_home_that_cannot_be_written_costs_no_run(
     shown = processes.start(LAB, 'exec', 'printenv', 'ROS_LOG_DIR')
     assert shown.wait() == 0, shown.output
     assert shown.lines == [str(tmp_path / f'ros_log-{os.getuid()}')]
-    run = drive(processes, tmp_path, '--fast')
+    run = drive(processes, tmp_path, '--fast', '--waypoints', str(short_course))
     assert run.wait(timeout_sec=60.0) == 0, run.output
     assert 'Traceback' not in run.output
 
