@@ -15,7 +15,7 @@ SWEEP = Path(__file__).resolve().parent.parent / 'benchmark' / 'interrupts.py'
 @pytest.mark.parametrize('command', ['lab drive', 'lab test', 'lab grade', 'rqt_graph'])
 def test_a_command_that_is_interrupted_at_once_ends_clean(command: str, domain_id: int) -> None:
     sweep = subprocess.run(
-        [sys.executable, str(SWEEP), '--step', '0.125', command],
+        [sys.executable, str(SWEEP), '--step', '0.25', command],
         capture_output=True,
         text=True,
         timeout=80.0,

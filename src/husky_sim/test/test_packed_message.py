@@ -22,7 +22,7 @@ import rclpy.serialization
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import NavSatFix
 
-PROCESSES = 20  # 200 of them: benchmark/fresh_packing.py
+PROCESSES = 6  # 200 of them: benchmark/fresh_packing.py
 PROGRAM = """
 from hashlib import sha256
 from husky_sim.messages.messages import packed_messages
