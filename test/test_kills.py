@@ -11,7 +11,7 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.run.in_process import drive_route
 from playpen_testing.processes import Process, Processes
-from playpen_testing.shared_memory import left, own_files
+from playpen_testing.shared_memory import Files, left, own_files
 from playpen_testing.waiting import wait_until
 import psutil
 import pytest
@@ -63,23 +63,28 @@ def running(processes: list[psutil.Process]) -> list[str]:
     return found
 
 
-@pytest.fixture(scope='module')
-def trajectory_sha256(short_course: Path) -> str:
-    """Drive in this process, where nothing was killed."""
-    route = plan_route(load_course(short_course))
-    return read_run(drive_route(route)[0]).trajectory_sha256
-
-
-@pytest.mark.parametrize('name', PARTS)
-def test_a_killed_part_ends_the_run_in_3_s(
-    processes: Processes, tmp_path: Path, short_course: Path, trajectory_sha256: str, name: str
+@pytest.mark.timeout(300)
+def test_each_killed_part_ends_its_run_in_3_s_and_spoils_no_other(
+    processes: Processes, tmp_path: Path, short_course: Path
 ) -> None:
+    shared = [kill_in_a_run(processes, tmp_path, name) for name in PARTS]
+    again = ('--fast', '--no-view', '--waypoints', str(short_course))
+    following = processes.start(LAB, 'drive', *again, '--report', str(tmp_path))
+    assert following.wait(timeout_sec=60.0) == 0, following.output
+    report = json.loads((tmp_path / 'report.json').read_text())
+    undisturbed = read_run(drive_route(plan_route(load_course(short_course)))[0])
+    assert report['trajectory_sha256'] == undisturbed.trajectory_sha256
+    assert [file for files in shared for file in left(files)] == [], 'shared memory is left'
+
+
+def kill_in_a_run(processes: Processes, folder: Path, name: str) -> Files:
+    """Kill a part of a run, and wait for the end of the rest; return the run's shared memory."""
     options = () if name == 'view' else ('--no-view',)
-    run = processes.start(LAB, 'drive', '--report', str(tmp_path), *options)
+    run = processes.start(LAB, 'drive', '--report', str(folder), *options)
     wait_until(
         lambda: all(part(run, PARTS[each]) for each in PARTS if each != 'view' or name == 'view'),
         timeout_sec=40.0,
-        what=lambda: f'all parts of the run; it printed:\n{run.output}',
+        what=lambda: f'all parts of a run, to kill its {name}; it printed:\n{run.output}',
     )
     members = family(run)
     victim = part(run, PARTS[name])
@@ -89,15 +94,10 @@ def test_a_killed_part_ends_the_run_in_3_s(
     wait_until(
         lambda: not running(members),
         timeout_sec=3.0,
-        what=lambda: f'the end of {running(members)}; the run printed:\n{run.output}',
+        what=lambda: f'the end of {running(members)} after its {name}; it printed:\n{run.output}',
     )
-    assert 'Traceback' not in run.output
-    again = ('--fast', '--no-view', '--waypoints', str(short_course))
-    following = processes.start(LAB, 'drive', *again, '--report', str(tmp_path))
-    assert following.wait(timeout_sec=60.0) == 0, following.output
-    report = json.loads((tmp_path / 'report.json').read_text())
-    assert report['trajectory_sha256'] == trajectory_sha256
-    assert left(shared) == [], 'shared memory is left'
+    assert 'Traceback' not in run.output, run.output
+    return shared
 
 
 def test_a_killed_simulator_ends_its_launch(processes: Processes) -> None:
