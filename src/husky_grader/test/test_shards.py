@@ -26,6 +26,7 @@ from husky_grader.playpen import config_folder
 import pytest
 
 SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-%g, 0]]\n'
+ONE = ['--jobs', '1']  # a worker takes longer to start than these files
 
 
 @pytest.fixture(autouse=True)
@@ -53,7 +54,7 @@ def serial(tmp_path_factory: pytest.TempPathFactory) -> Serial:
     files = list(map(str, places))
     out = io.StringIO()
     with redirect_stdout(out):
-        assert grade([*files, '--report', str(folder / 'report')]) == 1
+        assert grade([*files, *ONE, '--report', str(folder / 'report')]) == 1
     return Serial(files, out.getvalue().splitlines()[:7], tables(folder / 'report'))
 
 
@@ -103,7 +104,7 @@ def test_2000_results_in_shards_that_died_are_the_serial_ones(tmp_path: Path) ->
 def test_the_files_of_collected_shards_are_those_of_one_call(
     serial: Serial, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    command = [*serial.files, '--report']
+    command = [*serial.files, *ONE, '--report']
     folders = [str(tmp_path / f'shard_{number}') for number in (1, 2, 3)]
     Path(folders[1]).mkdir()  # the second one never began
     for number in (1, 3):
@@ -122,12 +123,12 @@ def tables(report: Path) -> str:
 
 def test_a_forged_shard_is_graded_again(serial: Serial, tmp_path: Path) -> None:
     shard, files = tmp_path / 'shard', serial.files
-    grade([files[0], files[1], '--report', str(shard)])
+    grade([*files[:2], *ONE, '--report', str(shard)])
     report = shard / 's0' / 'report.json'
     report.write_text(report.read_text().replace('"score": 100.0', '"score": 101.0'))
     assert '101.0' in report.read_text()
     everything = ['--report', str(tmp_path / 'all'), '--collect', str(shard)]
-    grade([files[0], files[1], *everything])
+    grade([*files[:2], *ONE, *everything])
     assert ',101.0,' not in tables(tmp_path / 'all')
 
 
@@ -173,10 +174,10 @@ def test_machines_that_share_a_secret_take_results_of_each_other(
         monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of one'))
         monkeypatch.setenv('HUSKY_GRADING_SECRET', 'a' * 32)
         there, here = tmp_path / f'there {secret[0]}', tmp_path / f'here {secret[0]}'
-        grade([*files[:2], '--report', str(there)])
+        grade([*files[:2], *ONE, '--report', str(there)])
         monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of another'))
         monkeypatch.setenv('HUSKY_GRADING_SECRET', secret)
-        grade([*files[:2], '--report', str(here), '--collect', str(there)])
+        grade([*files[:2], *ONE, '--report', str(here), '--collect', str(there)])
         written = [folder / 's0' / 'report.json' for folder in (there, here)]
         times[secret[0]] = [path.stat().st_mtime_ns for path in written]
     assert times['a'][0] == times['a'][1]
@@ -239,7 +240,7 @@ def test_a_cluster_that_loses_a_worker_has_the_same_table(
     serial: Serial, tmp_path: Path, dask: tuple[str, list[subprocess.Popen[bytes]]]
 ) -> None:
     address, workers = dask
-    command = [sys.executable, '-m', 'husky_grader.grade', *serial.files]
+    command = [sys.executable, '-m', 'husky_grader.grade', *serial.files[:5]]
     command += ['--executor', f'dask:{address}', '--report', str(tmp_path / 'cluster')]
     environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
     with subprocess.Popen(
@@ -247,12 +248,12 @@ def test_a_cluster_that_loses_a_worker_has_the_same_table(
     ) as running:
         assert running.stderr is not None
         first = running.stderr.readline()
-        assert ' of 7 ' in first, first + running.stderr.read()
+        assert ' of 5 ' in first, first + running.stderr.read()
         workers[0].send_signal(signal.SIGKILL)
         printed, said = running.communicate(timeout=120.0)
     assert running.returncode == 1, said
-    assert printed.splitlines()[:7] == serial.printed
-    assert tables(tmp_path / 'cluster') == serial.csv
+    assert printed.splitlines()[:5] == serial.printed[:5]
+    assert tables(tmp_path / 'cluster').splitlines() == serial.csv.splitlines()[:6]
 
 
 def test_where_no_cluster_answers_one_line_says_so(
