@@ -103,9 +103,9 @@ class Measured(SimulatorNode):
         self._finished = finished
         self._end_sec = time.perf_counter() + seconds
 
-    def advance(self) -> None:
+    def advance(self, *, tells_time: bool = True) -> None:
         self.begun.append((time.perf_counter(), time.process_time()))
-        super().advance()
+        super().advance(tells_time=tells_time)
         if self.begun[-1][0] > self._end_sec and not self._finished.done():
             self._finished.set_result(None)
 
