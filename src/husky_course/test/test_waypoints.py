@@ -104,7 +104,7 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
         ('a: *b', "line 1, column 4: alias '*b' is not allowed"),
         ('waypoints: !!python/tuple [1]', 'line 1, column 12: tag'),
         ('waypoints: [[0, 0], [1, 0]]\n---\na: 1', "line 2, column 1: a second document ('---')"),
-        ('waypoints:\n\t- [0, 0]', 'indent with spaces, not with tabs'),
+        ('waypoints:\n\t- [0, 0]', 'line 2, column 1: a tab (U+0009); write plain spaces'),
         ('[' * 50_000, 'line 1, column 9: nested deeper than 8 levels'),
         ('a: \x00', 'line 1, column 4: character U+0000 is not allowed'),
         ('waypoints: [[0, 0], [999, 0], [-999, 0]]', '2997 m from first to last'),
@@ -114,14 +114,93 @@ def test_a_mistake_is_refused_with_place_and_allowed_values(text: str, expected:
     assert any(expected in line for line in problems(text))
 
 
+ITEMS = '  - [0, 0]\n  - [1, 0]\n'
+COURSE = f'waypoints:\n{ITEMS}'
+SAME = 'write both in the same column'
+
+
+@pytest.mark.parametrize(
+    ('text', 'expected'),
+    [
+        (f'frame odom\n{COURSE}', "1, column 6: a colon is missing; write 'frame: odom'"),
+        (
+            f'loop: true\nframe odom\n{COURSE}',
+            "2, column 6: a colon is missing; write 'frame: odom'",
+        ),
+        (f'speed = 0.5\n{COURSE}', "1, column 6: a colon is missing; write 'speed: 0.5'"),
+        (
+            f'loop: true\nspeed:0.5\n{COURSE}',
+            "2, column 7: a space is missing; write 'speed: 0.5'",
+        ),
+        (f'{COURSE}speed:0.5\n', "4, column 7: a space is missing; write 'speed: 0.5'"),
+        (
+            f'frame: odom speed: 1\n{COURSE}',
+            '1, column 13: speed is a second field in this line; ',
+        ),
+        (
+            f'frame: odom\n  speed: 0.5\n{COURSE}',
+            f'2, column 3: speed stands in column 3, but frame of line 1 in column 1; {SAME}',
+        ),
+        (
+            f' frame: odom\nspeed: 1\n{COURSE}',
+            '1, column 2: begins in column 2; begin in column 1',
+        ),
+        (
+            f'{COURSE}    - [2, 0]\n',
+            f'4, column 5: the dash stands in column 5, but that of line 3 in column 3; {SAME}',
+        ),
+        (
+            f'{COURSE}- [2, 0]\n',
+            f'4, column 1: the dash stands in column 1, but that of line 3 in column 3; {SAME}',
+        ),
+        (
+            'waypoints:\n  - x: 0\n    y: 0\n  - x: 1  # far\n   y: 0\n',
+            f'5, column 4: y stands in column 4, but x of line 4 in column 5; {SAME}',
+        ),
+        ('waypoints:\n  [0, 0]\n  [1, 0]\n', "2, column 3: a dash is missing; write '- [0, 0]'"),
+        (
+            f'speed:\u00a00.5\n{COURSE}',
+            '1, column 7: a no-break space (U+00A0); write plain spaces',
+        ),
+        ('waypoints:\n  - [0, 0\n  - [1, 0]\n', '2, column 5: the [ has no ] in this line'),
+        ('waypoints:\n  - {x: 0 y: 0}\n', '2, column 12: a comma or the } is missing before this'),
+        (f'frame: "odom\n{COURSE}', '1, column 8: the " that begins here has no end'),
+    ],
+)
+def test_a_broken_layout_is_told_where_a_person_broke_it(text: str, expected: str) -> None:
+    (line,) = problems(text)
+    assert line.startswith(f'course.yaml: line {expected}')
+
+
+@pytest.mark.parametrize(
+    ('text', 'expected'),
+    [
+        (f'speed: -0.5\n{COURSE}', '; to drive backwards write reverse: true into a waypoint'),
+        (f'{COURSE}  - {{x: 2, y: 0, speed: -1}}', '; to drive backwards write reverse: true'),
+        (f'reverse: true\n{COURSE}', 'it belongs into a waypoint: {x: .., y: .., reverse: ..}'),
+        (
+            f'{COURSE}  - [2, 0, 0.0]',
+            '3 values instead of 2; write [x, y], without z: the ground ',
+        ),
+        (f'{COURSE}  - [2,5, 0]', 'write [x, y], without z, and with a decimal point and not a '),
+        (f'{COURSE}  - [2 0]', '1 value instead of 2; write [x, y], with a comma between them'),
+        (f'{COURSE}  - {{x: 2, y:0}}', "y:0 is no field; write 'y: 0', with a space"),
+        ('waypoints:\n  -[0, 0]\n', 'write a space after the dash'),
+        (f'{COURSE}  - [2,\u00a00]', 'it has a no-break space (U+00A0): write a plain space'),
+    ],
+)
+def test_a_value_that_means_something_else_is_told_what(text: str, expected: str) -> None:
+    assert any(expected in line for line in problems(text))
+
+
 def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / 'square.yaml').write_bytes(b'speed: \xff')
     (tmp_path / 'large.yaml').write_bytes(b'#' * 200_000)
     for path, reason in {
         'square.yaml': 'line 1, column 8: byte 0xff is not UTF-8',
         'large.yaml': 'line 1, column 1: larger than 100000 bytes',
-        'squre.yaml': 'no such file; did you mean .*square.yaml',
-        '.': 'not a file',
+        'squre.yaml': r'squre.yaml: no such file; did you mean .*square.yaml',
+        '.': f'{tmp_path}: not a file',
         'nul\0': 'cannot be read|no such file',
     }.items():
         with pytest.raises(FileRefused, match=reason):

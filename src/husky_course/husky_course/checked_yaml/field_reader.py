@@ -11,6 +11,7 @@ import re
 from typing import Any
 
 from husky_course.checked_yaml.fields import Field, Table
+from husky_course.checked_yaml.layout import odd_space
 from husky_course.checked_yaml.yaml_tree import FileRefused, Problem, Value
 
 _NUMBER = re.compile(r'[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?', re.ASCII)
@@ -25,6 +26,11 @@ class FieldReader:
         self.problems: list[Problem] = []
 
     def wrong(self, where: Value, name: str, message: str) -> None:
+        # Both also look right on a screen, so that the value alone would not tell.
+        if found := odd_space(where.text):
+            message += f'; it has {found[1]}: write a plain space, or nothing'
+        elif where.kind == 'scalar' and re.match(r'-[^ \d.]', where.text):
+            message += '; write a space after the dash'
         self.problems.append(Problem(where.line, where.column, name, message))
 
     def refuse_if_wrong(self) -> None:
@@ -66,7 +72,8 @@ class FieldReader:
         result: dict[str, object] = {}
         for key, value in mapping.pairs:
             if key.kind != 'scalar' or key.text not in allowed:
-                self.wrong(key, prefix.rstrip('.'), f'{key} is no field; {choice(key, allowed)}')
+                hint = self.field_hint(key, allowed) or choice(key, allowed)
+                self.wrong(key, prefix.rstrip('.'), f'{key} is no field; {hint}')
                 continue
             name = prefix + key.text
             if key.text in seen:
@@ -128,6 +135,11 @@ class FieldReader:
             self.wrong(value, name, f'{value} is out of range; {allowed}{hint}')
             return None
         return number
+
+    def field_hint(self, key: Value, allowed: Mapping[str, Field]) -> str:
+        """Return what a key may have meant that is no field; nothing where unknown."""
+        name, colon, value = key.text.partition(':')
+        return f"write '{name}: {value}', with a space" if colon and name in allowed else ''
 
     def range_hint(self, field: Field, value: Value) -> str:  # noqa: ARG002
         """Return what a number may have meant that is out of range; nothing where unknown."""

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import yaml
 
+from husky_course.checked_yaml.layout import explain
 from husky_course.printable import printable
 
 MAX_BYTES = 100_000
@@ -23,7 +24,7 @@ MAX_DEPTH = 8
 
 @dataclass(frozen=True, order=True)
 class Problem:
-    """One thing that is wrong in a file; lines and columns count from 1."""
+    """One thing that is wrong in a file; lines and columns count from 1, or are 0: of the file."""
 
     line: int
     column: int
@@ -32,7 +33,8 @@ class Problem:
 
     def text(self, file: str) -> str:
         field = f'{self.field}: ' if self.field else ''
-        return f'{file}: line {self.line}, column {self.column}: {field}{self.message}'
+        place = f'line {self.line}, column {self.column}: ' if self.line else ''
+        return f'{file}: {place}{field}{self.message}'
 
 
 class FileRefused(ValueError):
@@ -85,16 +87,16 @@ def _read_text(path: Path, name: str) -> str:
 
     try:
         if not path.exists():
-            raise refused(f'no such file{_nearest_file(path)}')
+            raise refused(f'no such file{_nearest_file(path)}', 0, 0)
         if not path.is_file():
-            raise refused('not a file; give the path of one .yaml file')
+            raise refused('not a file; give the path of one .yaml file', 0, 0)
         with path.open('rb') as stream:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL byte in the path
         if isinstance(error, FileRefused):
             raise
         reason = getattr(error, 'strerror', None) or str(error)
-        raise refused(f'cannot be read: {reason}') from None
+        raise refused(f'cannot be read: {reason}', 0, 0) from None
     if len(data) > MAX_BYTES:
         raise refused(f'larger than {MAX_BYTES} bytes; 1000 waypoints need less')
     try:
@@ -136,15 +138,14 @@ def parse_yaml(text: str, name: str) -> Value:
 
 
 def _syntax_problem(error: yaml.MarkedYAMLError, text: str) -> Problem:
+    if found := explain(error, text):
+        line, column, message = found
+        return Problem(line, column, '', message)
     mark = error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-    hint = ''
-    lines = text.splitlines()
-    if line <= len(lines) and '\t' in lines[line - 1]:
-        hint = '; indent with spaces, not with tabs'
     problem = ' '.join(str(error.problem or error.context or 'cannot be understood').split())
     context = f' ({" ".join(error.context.split())})' if error.problem and error.context else ''
-    return Problem(line, column, '', f'not valid YAML: {problem}{context}{hint}')
+    return Problem(line, column, '', f'not valid YAML: {problem}{context}')
 
 
 class _Builder:

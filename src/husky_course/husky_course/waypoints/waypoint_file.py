@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read a waypoint file into a checked, frozen course; every mistake is named at once."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 import math
@@ -59,8 +60,15 @@ class _CourseReader(FieldReader):
     def _pair(self, value: Value, name: str) -> Waypoint | None:
         if len(value.items) != 2:
             count = len(value.items)
-            comma = ', with a decimal point and not a comma' if count in (3, 4) else ''
-            self.wrong(value, name, f'{count} values instead of 2; write [x, y]{comma}')
+            hint = {
+                1: ', with a comma between them',
+                3: ', without z: the ground is flat'
+                if any('.' in item.text for item in value.items)
+                else ', without z, and with a decimal point and not a comma',
+                4: ', with a decimal point and not a comma',
+            }.get(count, '')
+            values = 'value' if count == 1 else 'values'
+            self.wrong(value, name, f'{count} {values} instead of 2; write [x, y]{hint}')
             return None
         given = {}
         for axis, item in zip(WAYPOINT.required, value.items, strict=True):
@@ -68,9 +76,15 @@ class _CourseReader(FieldReader):
             given[field.attribute] = self.value(field, item, f'{name}.{axis}')
         return None if None in given.values() else Waypoint(line=value.line, **given)  # type: ignore[arg-type]
 
+    def field_hint(self, key: Value, allowed: Mapping[str, Field]) -> str:
+        if key.text in WAYPOINT.fields and allowed is COURSE.fields:
+            return f'it belongs into a waypoint: {{x: .., y: .., {key.text}: ..}}'
+        return super().field_hint(key, allowed)
+
     def range_hint(self, field: Field, value: Value) -> str:
         if field.attribute == 'speed_m_s' and value.text.startswith('-'):
-            return '; to drive backwards write reverse: true'
+            where = ' into a waypoint' if field is COURSE.fields['speed'] else ''
+            return f'; to drive backwards write reverse: true{where}'
         if field.attribute == 'yaw_rad' and 2 * math.pi < abs(float(value.text)) <= 720:
             radians = math.remainder(math.radians(float(value.text)), 2 * math.pi)
             return f'; {value.text} degrees would be {radians:.4f}'
