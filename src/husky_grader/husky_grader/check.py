@@ -31,8 +31,12 @@ def main(args: Sequence[str] | None = None) -> int:
         help='where the robot starts in the world: m, m, rad (0 0 0)',
     )
     parser.add_argument('--draw', metavar='FILE', help='draw the course: a .png or .svg file')
-    parser.add_argument(
-        '--refuse', action='store_true', help='fail when it passes too near, instead of a warning'
+    strictness = parser.add_mutually_exclusive_group()
+    strictness.add_argument(
+        '--refuse', action='store_true', help='fail also when it passes too near to an obstacle'
+    )
+    strictness.add_argument(
+        '--warn', action='store_true', help='only warn, also when it goes through an obstacle'
     )
     options = parser.parse_args(args)
     if options.draw and len(options.files) > 1:
@@ -55,6 +59,8 @@ def _check(name: str, options: argparse.Namespace) -> int:
     for near in found.near:
         print(printable(f'{name}: {near}'), file=sys.stderr)
     print(printable(f'{name}: {describe(route, found)}'))
+    if found.touched and not options.warn:
+        return BAD_INPUT
     return TOO_NEAR if found.near and options.refuse else 0
 
 
@@ -63,6 +69,8 @@ def describe(route: Route, found: Survey) -> str:
     course = route.course
     places = 'one place' if len(found.near) == 1 else f'{len(found.near)} places'
     verdict = f'too near in {places}' if found.near else 'ok'
+    if found.touched:
+        verdict = f'goes through {" and ".join(found.touched)}'
     back = ' (the last is the first again)' if course.loop else ''
     nearest = ''
     if found.least_m is not None:

@@ -108,7 +108,10 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         ),
         ('kind: package, points: 1', 'steps[1].package: give package or package_with'),
         (f'kind: publisher, {PROGRAM}, topic: 7up, {STRING}', '7up is no topic or service'),
-        (f'kind: drive, {PROGRAM}, courses: [{{file: nowhere.yaml}}]', 'nowhere.yaml: no such file'),
+        (
+            f'kind: drive, {PROGRAM}, courses: [{{file: nowhere.yaml}}]',
+            'nowhere.yaml: no such file',
+        ),
         ('kind: build, points: 1', 'steps[1].name: build is the name of another step, too'),
         (
             'kind: workspace, points: 1, needs: [publisher]',

@@ -284,7 +284,8 @@ def test_the_preview_has_no_clearance_inside_the_barrier() -> None:
     edited = EditableCourse()
     edited.add(0.0, 0.0)
     edited.add(5.0, 0.0)
-    line, clearance_m = course.preview(edited.course, RobotStart(), simulation.world.obstacles)
-    assert clearance_m[0] > 0.5
-    assert clearance_m.min() == 0.0
-    assert json.dumps(line[-1].tolist()) == '[5.0, 0.0]'
+    seen = course.preview(edited.course, RobotStart(), simulation.world.obstacles)
+    assert seen.clearance_m[0] > 0.5
+    assert seen.clearance_m.min() == 0.0
+    assert seen.nearest == 'jersey_barrier_15'
+    assert json.dumps(seen.line[-1].tolist()) == '[5.0, 0.0]'

@@ -30,12 +30,17 @@ class NearPass:
     x: float  # in the frame world
     y: float
 
+    @property
+    def touches(self) -> bool:
+        return self.clearance_m <= 0.0
+
     def __str__(self) -> str:
         """Return the warning for the person who wrote the course."""
-        how = 'touches' if self.clearance_m <= 0.0 else f'passes {self.clearance_m:.2f} m from'
+        how = 'touches' if self.touches else f'passes {self.clearance_m:.2f} m from'
         return (
             f'line {self.line}: on the way to waypoint {self.waypoint + 1} the robot {how} '
-            f'{self.obstacle} near ({self.x:.2f}, {self.y:.2f}); keep {ENOUGH_M} m away'
+            f'{self.obstacle} near ({self.x:.2f}, {self.y:.2f}); keep {ENOUGH_M} m from '
+            'its bumpers and wheels'
         )
 
 
@@ -47,6 +52,11 @@ class Survey:
     near: tuple[NearPass, ...]
     least_m: float | None
     nearest: str
+
+    @property
+    def touched(self) -> tuple[str, ...]:
+        """The obstacles that the robot would drive into, in the order of the way."""
+        return tuple(dict.fromkeys(near.obstacle for near in self.near if near.touches))
 
 
 def survey_route(

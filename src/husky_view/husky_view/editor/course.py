@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
 import re
-from typing import Any
+from typing import Any, NamedTuple
 
 from husky_course.files import replacing
 from husky_course.frames import Array
@@ -132,18 +132,31 @@ def _entry_of(waypoint: Waypoint) -> str:
     return f'  - {{x: {x}, y: {y}{more}}}\n' if more else f'  - [{x}, {y}]\n'
 
 
-def preview(
-    course: Course, start: RobotStart, obstacles: Sequence[Outline]
-) -> tuple[Array, Array]:
+class Preview(NamedTuple):
     """
-    Return the path (n, 2) that the driver would take, and its clearances, in the frame world.
+    The path (n, 2) that the driver would take, in the frame world, and its clearances (n,).
+
+    :param nearest: the obstacle that it passes nearest to; empty if there is none.
+    """
+
+    line: Array
+    clearance_m: Array
+    nearest: str
+
+
+def preview(course: Course, start: RobotStart, obstacles: Sequence[Outline]) -> Preview:
+    """
+    Return what the driver would do.
 
     :raises CourseRefused: if the driver would refuse it.
     """
     poses = _path(_parsed(text_of(course), 'the draft'))
     poses[:, :2] = to_world(start, poses[:, :2])
     poses[:, 2] += start.yaw
-    return poses[:, :2], clearances(poses, obstacles)
+    clearance_m = clearances(poses, obstacles)
+    worst = poses[clearance_m.argmin()][None]
+    nearest = min(obstacles, key=lambda each: clearances(worst, [each])[0], default=None)
+    return Preview(poses[:, :2], clearance_m, nearest.name if nearest else '')
 
 
 def _path(course: Course) -> Array:

@@ -197,18 +197,18 @@ class Editor:
             highlighted=slice(0) if place is None else slice(place, place + 1),
         )
         try:
-            line, clearance_m = course.preview(
-                self._edited.course, self._start, self._world.obstacles
-            )
+            seen = course.preview(self._edited.course, self._start, self._world.obstacles)
         except course.CourseRefused as error:
             few = len(points) < 2
             self._say('two waypoints make a course' if few else str(error), palette.SCARCE)
             return
-        self._show_path(line, clearance_m)
-        least = float(clearance_m.min())
-        words = 'touches something' if least <= 0.0 else f'passes {least:.2f} m from something'
+        self._show_path(seen.line, seen.clearance_m)
+        least = float(seen.clearance_m.min())
+        words = f'passes {least:.2f} m from {seen.nearest}' if seen.nearest else 'nothing near'
+        if least <= 0.0:
+            words = f'touches {seen.nearest}'
         color = _clearance_color(least)
-        enough = '' if least >= ENOUGH_M else f'; keep {SCARCE_M} m at least'
+        enough = '' if least >= ENOUGH_M else f'; keep {SCARCE_M} m from bumpers and wheels'
         self._say(f'{len(points)} waypoints; {words}{enough}', color)
 
     def _show_path(self, line: Array, clearance_m: Array) -> None:
