@@ -50,11 +50,6 @@ def pytest_sessionstart() -> Iterator[None]:
 TOGETHER = {'test_view': 'in a browser', 'test_packages': 'built', 'test_workspace': 'built'}
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put what takes longest first, or one process would work on it alone at the end."""
-    items.sort(key=lambda item: not item.path.name.startswith('test_view'))
-
-
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """Keep the tests of a file together, and those of some files."""
