@@ -43,11 +43,11 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
     with programs.jail() as jail, jail.started(command, theirs, log=log) as program:
         found = _observe(step, jail, program, log)
         exit_code = program.exit_code
-    if exit_code == NO_PROGRAM and found.score == 0.0:
+    if exit_code == NO_PROGRAM:
         return nothing(
             f'{step.executable} cannot be started: there is no such program as its first line says'
         )
-    if exit_code is not None and found.score == 0.0:
+    if exit_code is not None:  # what was heard may be of a daemon that it has left behind
         return nothing(how_it_ended(exit_code, read_printed(log)))
     return found
 
