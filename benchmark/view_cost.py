@@ -76,10 +76,10 @@ def view() -> Iterator[tuple[float, subprocess.Popen[str]]]:
     """Start the view; yield the seconds to its page and a tab that shows it."""
     begun = time.monotonic()
     with subprocess.Popen(
-        VIEW, stderr=subprocess.PIPE, text=True, start_new_session=True
+        VIEW, stdout=subprocess.PIPE, text=True, start_new_session=True
     ) as child:
-        assert child.stderr is not None
-        line = next(line for line in child.stderr if 'look at' in line)
+        assert child.stdout is not None
+        line = next(line for line in child.stdout if 'look at' in line)
         address = line.split('look at ')[1].strip()
         with urllib.request.urlopen(address, timeout=10.0) as page:
             page.read()

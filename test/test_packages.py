@@ -276,7 +276,7 @@ def test_the_driver_runs_without_mujoco(only_declared: dict[str, Path]) -> None:
     program = 'import sys\nfrom husky_driver.follow_path import main\n'
     program += 'sys.exit(main(["follow_path", "--waypoints", "none.yaml"]))'
     done = run_alone(folder, program)
-    assert (done.returncode, done.stderr) == (2, 'none.yaml: line 1, column 1: no such file\n')
+    assert (done.returncode, done.stderr) == (2, 'none.yaml: no such file\n')
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,11 @@ setup(
             'share/ament_index/resource_index/husky_sim.view',
             ['resource/husky_sim.view/husky_view'],
         ),
+        # Where `drive` looks for what plays its run.
+        (
+            'share/ament_index/resource_index/husky_grader.replay',
+            ['resource/husky_grader.replay/husky_view'],
+        ),
     ],
     install_requires=[
         'setuptools',

@@ -8,11 +8,14 @@ import os
 from pathlib import Path
 import sys
 
+from ament_index_python import get_resource, get_resources
 from husky_runtime.browser import open_when_served
 from husky_runtime.supervise import run_to_end
 from husky_runtime.web_address import free_port, new_token, TOKEN_VARIABLE
 
 HOST, FIRST_PORT = '127.0.0.1', 8080
+REPLAYS = 'husky_grader.replay'
+"""Type of the resource in the ament index by which a package registers a program for replays."""
 
 
 @dataclass(frozen=True)
@@ -47,9 +50,11 @@ class DrivePage:
             open_when_served(f'http://localhost:{self.port}/{self.token}/')
 
     def replay(self, folder: Path, environment: Mapping[str, str]) -> None:
-        """Play the run of a report's folder on it, until Ctrl-C."""
-        command = ['ros2', 'run', 'husky_view', 'replay', str(folder), '--port', str(self.port)]
-        run_to_end(command, {**environment, **self.environment}, ends_by_itself=False)
+        """Play the run of a report's folder on it, until Ctrl-C; nothing where no package can."""
+        for package in list(get_resources(REPLAYS))[:1]:
+            program = get_resource(REPLAYS, package)[0].strip()
+            command = ['ros2', 'run', package, program, str(folder), '--port', str(self.port)]
+            run_to_end(command, {**environment, **self.environment}, ends_by_itself=False)
 
 
 def drive_page(opens: bool | None) -> DrivePage:

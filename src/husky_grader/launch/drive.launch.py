@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drive one course in the playpen: the simulator and follow_path, until one of them ends."""
 
+from typing import Any
+
 from launch import LaunchContext, LaunchDescription
 from launch.actions import (
     DeclareLaunchArgument,
@@ -29,9 +31,9 @@ OF_SIMULATOR = (
     ('viewer_port', '8080', 'port of the view; the next free one if it is taken'),
 )
 
-FIRST_TAB = b'the page is open'  # the view prints it
-FIRST_TAB_SEC = 8.0
-"""No longer: nobody knows whether a browser opens it."""
+SERVED, FIRST_TAB = b'look at http://', b'the page is open'  # the view prints them
+SERVED_SEC, FIRST_TAB_SEC = 30.0, 8.0
+"""A driver that waits for a tab waits no longer: nobody knows whether a browser opens."""
 
 
 def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
@@ -53,9 +55,17 @@ class Held:
         left, self._left = self._left, []
         return left
 
-    def on_output(self, event: ProcessIO) -> list[Node]:
-        """Start it when the view has its first tab."""
-        return self.start() if FIRST_TAB in event.text else []
+    def start_after(self, period_sec: float, **options: Any) -> TimerAction:
+        """Return what starts it after a time of the wall."""
+        return TimerAction(
+            period=period_sec, actions=[OpaqueFunction(function=self.start)], **options
+        )
+
+    def on_output(self, event: ProcessIO) -> list[Node] | TimerAction | None:
+        """Start it when the view has its first tab, or some time after it could have one."""
+        if FIRST_TAB in event.text:
+            return self.start()
+        return self.start_after(FIRST_TAB_SEC) if SERVED in event.text else None
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -79,7 +89,6 @@ def generate_launch_description() -> LaunchDescription:
         )
     )
     waits = LaunchConfiguration('wait_for_tab')
-    start = OpaqueFunction(function=driver.start)
     return LaunchDescription(
         [
             DeclareLaunchArgument('waypoints', description='the waypoint file to drive'),
@@ -95,7 +104,7 @@ def generate_launch_description() -> LaunchDescription:
             RegisterEventHandler(OnProcessIO(on_stdout=driver.on_output)),
             simulator,
             OpaqueFunction(function=driver.start, condition=UnlessCondition(waits)),
-            TimerAction(period=FIRST_TAB_SEC, actions=[start], condition=IfCondition(waits)),
+            driver.start_after(SERVED_SEC, condition=IfCondition(waits)),
             RegisterEventHandler(OnProcessExit(on_exit=_end_all)),
         ]
     )

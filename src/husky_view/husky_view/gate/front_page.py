@@ -10,7 +10,10 @@ import viser
 
 LOADING = 'Loading the scene ...'
 LATE = 'Nothing comes. Does the program that served this page still run? Its terminal says more.'
-LOST = 'What was shown here has ended. What follows at this address opens here by itself.'
+LOST = (
+    'This has ended. If a replay of it follows, that opens here by itself; a new start has an '
+    'address of its own.'
+)
 
 # viser looks for a lost server only while somebody types into the page, and writes the address of
 # its websocket behind ours.
