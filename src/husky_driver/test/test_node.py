@@ -303,7 +303,7 @@ def test_a_namespace_and_remaps_apply(
         ),
         (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
         (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be of numbers'),
-        (['--waypoints', 'no.yaml'], 'no.yaml: line 1, column 1: no such file'),
+        (['--waypoints', 'no.yaml'], 'no.yaml: no such file'),
         ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
     ],
 )

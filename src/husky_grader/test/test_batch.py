@@ -93,7 +93,7 @@ def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
     (tmp_path / 'zero.yaml').symlink_to('/dev/zero')  # whoever reads it never ends
     files = [str(tmp_path / name) for name in ('pipe.yaml', 'zero.yaml', 'none.yaml')]
     results = graded(files, tmp_path / 'report')
-    assert all('line 1, column 1: not a file' in result.refused for result in results[:2])
+    assert all('.yaml: not a file' in result.refused for result in results[:2])
     assert 'no such file' in results[2].refused
 
 
