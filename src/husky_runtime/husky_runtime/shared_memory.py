@@ -21,12 +21,19 @@ def clean_shared_memory() -> None:
     """Remove the files of this user that no process has mapped."""
     if not Path('/proc/self/maps').exists():  # not Linux
         return
-    deadline = time.monotonic() + 2 * _MADE_SEC
-    while (files := unused_files()) and time.monotonic() < deadline:
-        for file, age_sec in files.items():
-            if age_sec > _MADE_SEC:
-                file.unlink(missing_ok=True)
-        time.sleep(_MADE_SEC / 10)
+    # A second look and no deadline: on a busy machine one look at all processes takes long.
+    if young_sec := _remove_older():
+        time.sleep(max(0.0, _MADE_SEC - young_sec[0]))
+        _remove_older()
+
+
+def _remove_older() -> list[float]:
+    """Remove the unused files that are older than the time to map one; return the others' ages."""
+    files = unused_files()
+    for file, age_sec in files.items():
+        if age_sec > _MADE_SEC:
+            file.unlink(missing_ok=True)
+    return sorted(age_sec for age_sec in files.values() if age_sec <= _MADE_SEC)
 
 
 def unused_files() -> dict[Path, float]:
