@@ -34,8 +34,17 @@ def drive(processes: Processes, folder: Path, *options: str) -> Process:
     )
 
 
-def test_drive_ends_with_a_report_and_success(processes: Processes, tmp_path: Path) -> None:
-    run = drive(processes, tmp_path, '--fast')
+IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
+
+
+def test_drive_ends_with_a_report_and_success(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('CI', 'true')  # where nobody is at the terminal
+    run = processes.start(
+        *(sys.executable, '-c', IN_A_TERMINAL, LAB),
+        *('drive', '--fast', '--report', str(tmp_path)),
+    )
     assert run.wait(timeout_sec=60.0) == 0, run.output
     assert re.search(r'\d0 %: +[\d.]+ m left', run.output), f'no progress:\n{run.output}'
     report = json.loads((tmp_path / 'report.json').read_text())
@@ -150,7 +159,6 @@ def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_pat
     assert python.lines == ['False'], 'what stands in ~/.local is imported too'
 
 
-IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
 BROWSER = """#!{python}
 import sys
 sys.path[:0] = {path}
@@ -171,6 +179,7 @@ def test_a_drive_opens_its_page_first_and_replays_at_the_end(
     )
     browser.chmod(0o700)
     monkeypatch.setenv('BROWSER', str(browser))
+    monkeypatch.delenv('CI', raising=False)
     run = processes.start(
         *(sys.executable, '-c', IN_A_TERMINAL, LAB),
         *('drive', '--fast', '--open', '--report', str(tmp_path / 'my report')),

@@ -70,13 +70,12 @@ def drive_page(opens: bool | None) -> DrivePage:
 
 
 def is_at_a_terminal() -> bool:
-    """Tell whether somebody can press Ctrl-C here."""
-    return sys.stdin.isatty() and sys.stdout.isatty()
+    """Tell whether somebody can press Ctrl-C here; some services for CI have a terminal, too."""
+    return sys.stdin.isatty() and sys.stdout.isatty() and not os.environ.get('CI')
 
 
 def _is_on_a_desktop() -> bool:
     """Tell whether somebody sits at this machine's own screen."""
     given = os.environ.get
     screen = given('DISPLAY') or given('WAYLAND_DISPLAY')
-    elsewhere = given('CI') or given('SSH_CONNECTION')
-    return is_at_a_terminal() and bool(screen) and not elsewhere
+    return is_at_a_terminal() and bool(screen) and not given('SSH_CONNECTION')

@@ -17,6 +17,7 @@ from husky_view.gate.admission import Admission
 from husky_view.gate.gate import BURST, MOST_BYTES, MOST_CONNECTIONS, MOST_TABS
 from husky_view.server import close_server, PageServer
 from msgspec.msgpack import encode
+from playpen_testing.page_client import CAMERA
 import pytest
 import viser
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -27,18 +28,6 @@ from websockets.typing import Subprotocol
 TOKEN = 'xyz-xyz-xyz'
 HERE = 'localhost:8080'
 FORBIDDEN, MISDIRECTED = HTTPStatus.FORBIDDEN, HTTPStatus.MISDIRECTED_REQUEST
-CAMERA = {
-    'type': 'ViewerCameraMessage',
-    'wxyz': [1, 0, 0, 0],
-    'position': [0.0, 0.0, 1.0],
-    'fov': 1.0,
-    'near': 0.01,
-    'far': 1000,
-    'image_height': 10,
-    'image_width': 10,
-    'look_at': [0, 0, 0],
-    'up_direction': [0, 0, 1],
-}
 
 
 @pytest.mark.parametrize(
