@@ -40,11 +40,13 @@ def grade_file(
     folder: Path,
     *,
     world: str = '',
+    picture: bool = True,
     each_second: Callable[[], object] = lambda: None,
 ) -> Grade:
     """
     Drive the course of a file in the simulator and write the report on it.
 
+    :param picture: whether the report has path.png, which takes a sixth of the time.
     :param each_second: called with every second of simulated time.
     :raises OSError: when the report cannot be written.
     """
@@ -64,4 +66,4 @@ def grade_file(
         report = replace(report, reasons=(*report.reasons, f'gave up: {drive.failure}'))
     text = summary(report)
     keep_course(Path(file), folder)
-    return Grade(file, write_report(folder, report, run, route), text)
+    return Grade(file, write_report(folder, report, run, route, picture=picture), text)

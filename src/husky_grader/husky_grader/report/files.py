@@ -19,7 +19,8 @@ from husky_grader.report.plot import MAX_POINTS, Plot
 from husky_grader.scoring.report import FORMULA, FULL_TRACKING_M, Report
 
 COURSE_FILE = 'waypoints.yaml'
-REPORT_FILES = ('report.json', 'report.html', 'path.png')
+PICTURE = 'path.png'
+REPORT_FILES = ('report.json', 'report.html', PICTURE)
 JSON_KEYS = (
     *('course', 'passed', 'completed', 'ended_early', 'waypoints_reached', 'waypoints_total'),
     *('collisions', 'disturbances'),
@@ -53,14 +54,23 @@ def is_report(content: object) -> bool:
     )
 
 
-def write_report(folder: Path, report: Report, run: Run, route: Route) -> dict[str, Any]:
-    """Write the three files, each whole or not at all; return what report.json holds."""
+def write_report(
+    folder: Path, report: Report, run: Run, route: Route, *, picture: bool = True
+) -> dict[str, Any]:
+    """
+    Write the report's files, each whole or not at all; return what report.json holds.
+
+    :param picture: whether path.png is written; what it shows is in report.html, too.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     content = as_json(report)
     _write(folder / 'report.json', json.dumps(content, indent=2) + '\n')
     scene = run_map(run, route, report)
-    with replacing(folder / 'path.png') as part:
-        write_picture(scene, part)
+    if picture:
+        with replacing(folder / PICTURE) as part:
+            write_picture(scene, part)
+    else:
+        (folder / PICTURE).unlink(missing_ok=True)  # it would be of another run
     _write(folder / 'report.html', page(report, run, map_svg(scene), map_key(scene)))
     return content
 

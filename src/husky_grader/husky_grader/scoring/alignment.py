@@ -96,22 +96,18 @@ def _places(curve: Curve) -> list[float]:
 
 def _best_steps(path: Array, poses: Array) -> list[int]:
     """Return the index into the path for each pose: never decreasing, least squares."""
-    count = len(path)
-    came_from = np.empty((len(poses), count), dtype=np.int16)
-    cost = np.zeros(count)
-    indices = np.arange(count)
-    for k, pose in enumerate(poses):
-        lowest = np.minimum.accumulate(cost)
-        fresh = np.empty(count, dtype=bool)
-        fresh[0], fresh[1:] = True, cost[1:] < lowest[:-1]
-        came_from[k] = np.maximum.accumulate(np.where(fresh, indices, 0))
-        away = path - pose
-        cost = lowest + np.einsum('ij,ij->i', away, away)
+    xs, ys = np.ascontiguousarray(path.T)
+    costs = np.empty((len(poses), len(path)))  # of having come to each place, before each pose
+    cost = np.zeros(len(path))
+    for k, (x, y) in enumerate(poses.tolist()):
+        costs[k] = cost
+        dx, dy = xs - x, ys - y
+        cost = np.minimum.accumulate(cost) + (dx * dx + dy * dy)
     place = int(np.argmin(cost))
     steps = [0] * len(poses)
     for k in range(len(poses) - 1, -1, -1):
         steps[k] = place
-        place = int(came_from[k][place])
+        place = int(np.argmin(costs[k, : place + 1]))
     return steps
 
 
