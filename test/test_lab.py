@@ -10,7 +10,7 @@ import signal
 import sys
 
 from playpen_testing.page_client import PageClient
-from playpen_testing.processes import Process, Processes
+from playpen_testing.processes import IN_A_TERMINAL, Process, Processes
 from playpen_testing.shared_memory import left, own_files
 from playpen_testing.waiting import wait_until
 import pytest
@@ -32,9 +32,6 @@ def drive(processes: Processes, folder: Path, *options: str) -> Process:
     return processes.start(
         LAB, 'drive', '--no-view', '--report', str(folder), *options, cwd=folder
     )
-
-
-IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
 
 
 def test_drive_ends_with_a_report_and_success(

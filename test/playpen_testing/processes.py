@@ -15,6 +15,9 @@ from husky_runtime.parent_death import die_with_parent
 
 from playpen_testing.waiting import wait_until
 
+IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
+"""A program for `python3 -c` that runs a command in a terminal."""
+
 
 class Process:
     """
