@@ -59,7 +59,7 @@ def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_pa
     course = tmp_path / 'waypoints.yaml'  # which is where the report keeps the one driven
     through = 'speed: 0.6\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n'
     course.write_text(through)
-    run = drive(processes, tmp_path, '--fast', '--waypoints', 'waypoints.yaml')
+    run = drive(processes, tmp_path, '--fast', 'waypoints.yaml')
     assert run.wait(timeout_sec=60.0) == 1, run.output
     assert course.read_text() == through
     report = json.loads((tmp_path / 'report.json').read_text())

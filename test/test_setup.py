@@ -192,6 +192,30 @@ def test_only_a_range_of_the_users_own_goes_beyond_this_machine(
     assert done.stdout.strip() == range_now, done.stderr
 
 
+def test_a_new_waypoint_file_builds_the_package_that_installs_it(clone: Path) -> None:
+    (clone / 'colcon.meta').touch()
+    for folder in ('husky_sim', 'husky_driver', 'husky_view'):
+        (clone / 'src' / folder).mkdir()
+        (clone / 'src' / folder / 'package.xml').touch()
+    for folder in ('config', 'worlds', '.venv'):
+        (clone / folder).mkdir()
+    (clone / '.venv' / '.ready').touch()
+    script = 'source "$0" help >/dev/null; cd "$root/src"; for p in *; do package_key $p; done'
+    packages = sorted(folder.name for folder in (clone / 'src').iterdir())
+
+    def keys() -> list[str]:
+        done = subprocess.run(
+            ['bash', '-c', script, clone / 'lab'], capture_output=True, text=True
+        )
+        return done.stdout.split()
+
+    before = keys()
+    (clone / 'config' / 'my_path.yaml').touch()
+    now = keys()
+    changed = [package for package, a, b in zip(packages, before, now, strict=True) if a != b]
+    assert changed == ['husky_driver']
+
+
 def test_a_platform_without_wheels_is_told_what_to_do(clone: Path, tmp_path: Path) -> None:
     path = program(tmp_path / 'bin', 'uname', '[ "$1" = -s ] && echo Darwin || echo arm64')
     refused(lab(clone, 'exec', 'true', PATH=path), 'Darwin arm64', 'RoboStack', 'source')

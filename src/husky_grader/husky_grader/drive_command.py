@@ -32,8 +32,9 @@ START_SEC = 90.0  # simulated time in which the driver must have begun
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(prog='lab drive', description=__doc__, allow_abbrev=False)
     parser.add_argument(
-        '--waypoints', metavar='FILE', default=str(default_course()), help='waypoint file to drive'
+        'file', metavar='FILE', nargs='?', help='waypoint file to drive (central_barrier.yaml)'
     )
+    parser.add_argument('--waypoints', metavar='FILE', help='the same, by its name')
     parser.add_argument(
         '--fast', action='store_true', help='as fast as this computer can, in lockstep'
     )
@@ -49,7 +50,11 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    options = _parser().parse_args(args)
+    parser = _parser()
+    options = parser.parse_args(args)
+    if options.file and options.waypoints:
+        parser.error(f'{options.file} and {options.waypoints}: give one waypoint file')
+    options.waypoints = options.file or options.waypoints or str(default_course())
     # A course through a barrier may be driven: what happens is in the report.
     if status := check.main(['--warn', options.waypoints]):
         return status

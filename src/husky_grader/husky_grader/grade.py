@@ -31,6 +31,7 @@ from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
 
 INTERRUPTED = 130
+YAML = ('.yaml', '.yml')
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -41,7 +42,9 @@ def _parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument('files', metavar='FILE', nargs='*', help='waypoint files to grade')
+    parser.add_argument(
+        'files', metavar='FILE', nargs='*', help='waypoint files to grade, or folders of them'
+    )
     parser.add_argument('--record', metavar='FILE', help="what the simulator's 'record' wrote")
     parser.add_argument('--waypoints', metavar='FILE', help='the course of a record or controller')
     parser.add_argument(
@@ -138,6 +141,7 @@ def main(args: Sequence[str] | None = None) -> int:
     if wrong := wrong_of_class(options):
         parser.error(wrong)
     try:
+        options.files = [file for given in options.files for file in _waypoint_files(given)]
         status = _grade(options)
         sys.stdout.flush()
         return status
@@ -170,6 +174,23 @@ def _grade(options: argparse.Namespace) -> int:
         file, folder = options.files[0], Path(options.report)
         return _show_one(grade_file(file, folder, world=options.world), options)
     return grade_files(options)
+
+
+def _waypoint_files(given: str) -> list[str]:
+    """
+    Return the waypoint files in a folder, or the one file that is given.
+
+    :raises ValueError: if a folder has none.
+    """
+    if not Path(given).is_dir():
+        return [given]
+    files = sorted(str(file) for file in Path(given).glob('*') if file.suffix in YAML)
+    if not files:
+        raise ValueError(
+            f'{given}: no waypoint file lies in this folder (*.yaml); what was handed in for a '
+            f'lab is graded by --lab {given}'
+        )
+    return files
 
 
 def _make_gradescope(options: argparse.Namespace) -> int:

@@ -135,6 +135,10 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
         (['--lab', '.', '--answers', '1'], '--lab takes courses and answers from the rubric'),
         (['--record', 'x.record'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: no such file'),
+        (
+            ['{empty}'],
+            'no waypoint file lies in this folder (*.yaml); what was handed in for a lab',
+        ),
         (['{course}', '--world', 'no.xml'], 'no.xml'),
         (['--record', 'no.record', '--waypoints', '{course}'], 'no.record: cannot be read'),
         (['--record', '{course}', '--waypoints', '{course}'], 'not the record of a run'),
@@ -148,7 +152,9 @@ def test_bad_input_is_refused_with_one_line(
     expected: str,
 ) -> None:
     course = str(courses / 'straight.yaml')
-    arguments = [argument.replace('{course}', course) for argument in arguments]
+    (tmp_path / 'empty').mkdir()
+    places = {'{course}': course, '{empty}': str(tmp_path / 'empty')}
+    arguments = [places.get(argument, argument) for argument in arguments]
     try:
         code = grade([*arguments, '--report', str(tmp_path)])
     except SystemExit as stopped:
@@ -157,6 +163,16 @@ def test_bad_input_is_refused_with_one_line(
     assert code == 2
     assert expected in printed
     assert len(printed.splitlines()) == 1
+
+
+def test_a_folder_stands_for_its_waypoint_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ('b.yml', 'a.yaml', 'notes.txt'):
+        (tmp_path / name).write_text('waypoints: []\n')
+    assert grade([str(tmp_path), '--jobs', '1', '--report', str(tmp_path / 'report')]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines[:-1]] == ['a', 'b']
 
 
 def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
