@@ -9,6 +9,7 @@ the trajectory is the same, bit for bit, in a fraction of the time.
 
 from collections.abc import Callable
 from functools import lru_cache
+import gc
 import math
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -117,7 +118,9 @@ def _at_start(world: str, start: Pose) -> Simulation:
 @lru_cache(maxsize=1)
 def _loaded(config: SimulationConfig) -> Simulation:
     """Keep the last world: a class drives a hundred courses in the same one."""
-    return Simulation(config, visual=False)
+    simulation = Simulation(config, visual=False)
+    gc.freeze()  # garbage collections look no more at what stays
+    return simulation
 
 
 def _odometry(time_sec: float, robot: SimulatedRobot, odometry: str) -> Odometry:
