@@ -62,7 +62,7 @@ def test_every_step_of_the_sheet_comes_out_as_it_says(home: Path, terminals: Ter
     if SOURCED:  # rqt_graph is a window there, if it is installed: what it saves is put there
         blocks = [block for block in blocks if 'rqt_graph' not in block.text]
         (home / WORKSPACE).mkdir()
-        (home / WORKSPACE / 'graph.png').write_bytes(b'the picture')
+        (home / WORKSPACE / 'rosgraph.png').write_bytes(b'the picture')
     for number, block in enumerate(blocks):
         if block.language == 'bash':
             following = next(
@@ -122,7 +122,7 @@ def _save_picture(terminal: Terminal, workspace: Path) -> None:
     if page := re.search(r'graph is at (http://\S+/)', terminal.screen):
         shown = urlopen(page[1] + 'graph.svg', timeout=20).read().decode()
         assert _without_places(shown) == _without_places((DOCS / 'topic_graph.svg').read_text())
-        (workspace / 'graph.png').write_bytes(urlopen(page[1] + 'graph.png', timeout=20).read())
+        (workspace / 'rosgraph.png').write_bytes(urlopen(page[1] + 'graph.png', timeout=20).read())
 
 
 def _without_places(svg: str) -> str:

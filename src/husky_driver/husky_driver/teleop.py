@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drive the Husky by the keys of a terminal."""
 
+import argparse
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -129,7 +130,13 @@ def raw_terminal(terminal: int) -> Iterator[None]:
 
 def main(args: Sequence[str] | None = None) -> int:
     argv = list(sys.argv if args is None else args)
-    parser = Parser(prog='teleop', description=f'{__doc__}', epilog=HELP, allow_abbrev=False)
+    parser = Parser(
+        prog='teleop',
+        description=__doc__,
+        epilog=HELP,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
     parser.parse_args(remove_ros_args(argv)[1:])
     if not sys.stdin.isatty():
         print('teleop: needs a terminal to read keys from; run it in one', file=sys.stderr)

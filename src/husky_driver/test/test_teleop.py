@@ -12,8 +12,9 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
-from husky_driver.keys import Keyboard, MOVES, split_keys
+from husky_driver.keys import HELP, Keyboard, MOVES, split_keys
 from husky_driver.motion import Command, STOP
+from husky_driver.teleop import main
 from husky_runtime.executor import make_executor
 import pytest
 import rclpy
@@ -44,6 +45,12 @@ def test_a_key_means_what_it_means_in_teleop_twist_keyboard(
     keyboard = Keyboard()
     keyboard.press(key, 10.0)
     assert keyboard.command(10.1) == command
+
+
+def test_the_help_keeps_the_table_of_the_keys(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(['teleop', '--help'])
+    assert HELP in capsys.readouterr().out
 
 
 def test_a_released_key_stops_the_robot() -> None:
