@@ -16,6 +16,7 @@ its own neighbours, and they theirs; so what is loose is looked at with all arou
 SLACK_M, too.
 """
 
+from itertools import combinations
 import math
 
 from husky_course.frames import Array
@@ -50,7 +51,7 @@ class BroadPhase:
         self._bodies = np.array(bodies, dtype=np.int64)
         self._solid: Flags = np.isin(self._bodies, list(solid))
         self._loose: Flags = model.body_treeid[self._bodies] >= 0
-        self._can_be_alone = len(self._bases) == 1 and solid <= set(bodies)
+        self._can_be_alone = solid <= set(bodies)
         self._bits = [
             (field, field[self._bodies].copy())
             for field in (model.body_contype, model.body_conaffinity)
@@ -76,7 +77,7 @@ class BroadPhase:
         """
         Choose for the coming control period.
 
-        Afterwards `alone` tells whether a single robot can meet nothing but the ground.
+        Afterwards `alone` tells whether each robot can meet nothing but the ground.
         """
         places = [self._places[base].tolist() for base in self._bases]
         gone_m = _farthest_m(places, self._before)
@@ -89,7 +90,7 @@ class BroadPhase:
                 self._include_all()
         elif self._all or not _farthest_m(places, self._looked) <= AGAIN_M:
             self._looked = places
-            self._include(self._near(places))
+            self._include(self._near(places), apart=self._are_apart(places))
 
     def _near(self, places: Places) -> Flags:
         """Tell for each body whether a robot could reach the box around it."""
@@ -127,9 +128,18 @@ class BroadPhase:
         np.maximum.at(high, model.geom_bodyid, middle + half)
         return low[self._bodies], high[self._bodies]
 
-    def _include(self, near: Flags) -> None:
+    def _are_apart(self, places: Places) -> bool:
+        """Tell whether no robot can reach another."""
+        return all(
+            math.dist(one, other) > one_m + other_m
+            for (one, one_m), (other, other_m) in combinations(
+                zip(places, self._reach_m, strict=True), 2
+            )
+        )
+
+    def _include(self, near: Flags, *, apart: bool) -> None:
         self._all = False
-        self.alone = self._can_be_alone and not (near & self._solid).any()
+        self.alone = self._can_be_alone and apart and not (near & self._solid).any()
         for field, bits in self._bits:
             field[self._bodies] = np.where(near, bits, 0)
 
