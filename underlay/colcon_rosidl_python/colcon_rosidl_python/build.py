@@ -1,0 +1,163 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Build packages of ament_cmake that need no compiler into a prefix.
+
+    python -m colcon_rosidl_python.build [--symlink-install] PREFIX FOLDER...
+
+What the definitions name is looked for in AMENT_PREFIX_PATH and in the prefix. Of a package with a
+mistake nothing is installed; what was installed before stays.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+import hashlib
+import os
+from pathlib import Path
+import sys
+import tempfile
+
+from ament_index_python import get_package_share_directory, PackageNotFoundError
+from catkin_pkg.package import InvalidPackage, Package, parse_package
+
+from colcon_rosidl_python.cmake_commands import CMakeListsError
+from colcon_rosidl_python.cmake_package import CMakePackage, read_cmake_package
+from colcon_rosidl_python.definitions import mistakes
+from colcon_rosidl_python.files import install_files, install_interfaces, install_manifest
+
+GROUP = 'rosidl_interface_packages'
+
+
+class BuildError(RuntimeError):
+    """A package cannot be built; the message says why, a line for each reason."""
+
+
+def main() -> int:
+    arguments = _parser().parse_args()
+    prefix = arguments.prefix.absolute()
+    known = os.environ.get('AMENT_PREFIX_PATH')
+    os.environ['AMENT_PREFIX_PATH'] = os.pathsep.join(filter(None, (str(prefix), known)))
+    for folder in arguments.folders:
+        try:
+            build(folder.absolute(), prefix, link=arguments.symlink_install)
+        except (BuildError, CMakeListsError, InvalidPackage) as error:
+            for line in str(error).splitlines():
+                print(f'{folder.name}: {line}', file=sys.stderr)
+            return 2
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description='Build packages of ament_cmake into a prefix.')
+    parser.add_argument('--symlink-install', action='store_true')
+    parser.add_argument('prefix', type=Path)
+    parser.add_argument('folders', type=Path, nargs='+')
+    return parser
+
+
+def build(folder: Path, prefix: Path, *, link: bool) -> None:
+    """
+    Install a package; of its interfaces only what has changed.
+
+    :param link: to files instead of a copy of them.
+    :raises BuildError: if a definition, or what it needs, is wrong.
+    :raises CMakeListsError: if it asks for what cannot be done here.
+    """
+    manifest = parse_package(folder)
+    package = read_cmake_package(folder)
+    if package.interfaces:
+        _build_interfaces(folder, prefix, manifest, package)
+    install_files(folder, prefix, package, link=link)
+    install_manifest(manifest, prefix)
+
+
+def _build_interfaces(
+    folder: Path, prefix: Path, manifest: Package, package: CMakePackage
+) -> None:
+    shares = dict(_shares(package))
+    known = _Known(manifest.name, package, shares)
+    reasons = list(_wrong_in_manifest(manifest, package))
+    for path in package.interfaces:
+        reasons += mistakes(manifest.name, folder, path, known)
+    if reasons:
+        raise BuildError('\n'.join(reasons))
+    key = _key(folder, package, shares)
+    stamp = prefix / 'share' / manifest.name / '.interfaces'
+    if stamp.is_file() and stamp.read_text() == key:
+        return
+    # to import the generators takes longer than all else, where nothing has changed
+    from colcon_rosidl_python.generator import generate, GenerationError
+
+    with tempfile.TemporaryDirectory() as new:
+        try:
+            generate(manifest.name, package.interfaces, folder, Path(new), shares)
+        except GenerationError as error:
+            raise BuildError(str(error)) from None
+        install_interfaces(manifest.name, Path(new), prefix)
+    stamp.write_text(key)
+
+
+def _shares(package: CMakePackage) -> Iterator[tuple[str, Path]]:
+    for name in package.dependencies:
+        try:
+            yield name, Path(get_package_share_directory(name))
+        except PackageNotFoundError:
+            raise BuildError(
+                f'CMakeLists.txt: DEPENDENCIES names {name}, which is not found: mend the name, '
+                'or put that package into the workspace'
+            ) from None
+
+
+def _wrong_in_manifest(manifest: Package, package: CMakePackage) -> Iterator[str]:
+    if not any(group.name == GROUP for group in manifest.member_of_groups):
+        yield f'package.xml: add <member_of_group>{GROUP}</member_of_group>'
+    declared = {dependency.name for dependency in manifest.build_depends}
+    for name in package.dependencies:
+        if name not in declared:
+            yield f'package.xml: add <depend>{name}</depend>; CMakeLists.txt names it'
+
+
+class _Known:
+    """Says whether a message is one that definitions of a package may name."""
+
+    def __init__(self, name: str, package: CMakePackage, shares: dict[str, Path]) -> None:
+        self._name = name
+        self._own = [path.stem for path in package.interfaces if _kind(path) == 'msg']
+        self._shares = shares
+
+    def __call__(self, package: str, message: str) -> str:
+        if package == self._name:
+            if message in self._own:
+                return ''
+            own = f'its messages are {", ".join(self._own)}' if self._own else 'it has no messages'
+            return f'CMakeLists.txt names no msg/{message}.msg; {own}'
+        if package not in self._shares:
+            return f'of {package}: add {package} to DEPENDENCIES in CMakeLists.txt'
+        folder = self._shares[package] / 'msg'
+        if not (folder / f'{message}.json').is_file():
+            names = ', '.join(sorted(path.stem for path in folder.glob('*.json')))
+            return f'{package} has no such message; it has {names}'
+        return ''
+
+
+def _kind(path: Path) -> str:
+    return path.parent.name if path.suffix == '.idl' else path.suffix[1:]
+
+
+def _key(folder: Path, package: CMakePackage, shares: dict[str, Path]) -> str:
+    """Name everything that what is installed depends on."""
+    own = sorted(Path(__file__).parent.glob('*.py'))
+    described = sorted(path for share in shares.values() for path in share.glob('*/*.json'))
+    manifest = [folder / 'package.xml', folder / 'CMakeLists.txt']
+    files = [*own, *described, *manifest, *(folder / path for path in package.interfaces)]
+    digest = hashlib.sha256()
+    for path in files:
+        data = path.read_bytes()
+        digest.update(f'{path} {len(data)}\n'.encode() + data)
+    return digest.hexdigest()
+
+
+if __name__ == '__main__':
+    sys.exit(main())

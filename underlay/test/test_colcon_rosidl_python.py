@@ -1,0 +1,214 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is refused in definitions and in CMakeLists.txt, by file, line and what is allowed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from colcon_rosidl_python.build import build, BuildError
+from colcon_rosidl_python.cmake_commands import CMakeListsError
+from colcon_rosidl_python.cmake_package import Install, read_cmake_package
+import pytest
+
+MANIFEST = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>own_msgs</name>
+  <version>0.0.0</version>
+  <description>for tests</description>
+  <maintainer email="someone@example.org">someone</maintainer>
+  <license>Apache-2.0</license>
+  <depend>geometry_msgs</depend>
+  <member_of_group>rosidl_interface_packages</member_of_group>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / 'package.xml').write_text(MANIFEST)
+    return tmp_path
+
+
+def write_cmake(folder: Path, text: str) -> None:
+    (folder / 'CMakeLists.txt').write_text(f'project(own_msgs)\n{text}\n')
+
+
+def refusal(folder: Path, name: str, text: str, dependencies: str = 'geometry_msgs') -> str:
+    """Build a package with one definition, and return why that is refused."""
+    write_cmake(
+        folder,
+        f'rosidl_generate_interfaces(${{PROJECT_NAME}} "msg/Known.msg" "{name}"\n'
+        f'  DEPENDENCIES {dependencies})',
+    )
+    for path, content in (('msg/Known.msg', 'int8 x'), (name, text)):
+        (folder / path).parent.mkdir(exist_ok=True)
+        (folder / path).write_text(content)
+    with pytest.raises(BuildError) as refused:
+        build(folder, folder / 'prefix', link=False)
+    assert not (folder / 'prefix').exists()
+    return str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ('text', 'reason'),
+    [
+        (
+            'int64 a\nint b',
+            "msg/Own.msg:2: 'int' is no type: did you mean int8? allowed are bool,",
+        ),
+        ('Int64 a', 'msg/Own.msg:1: Int64: CMakeLists.txt names no msg/Int64.msg; its messages'),
+        ('Int64 a', 'did you mean int64?'),
+        ('float a', "msg/Own.msg:1: 'float' is no type: did you mean float"),
+        ('int64', "msg/Own.msg:1: 'int64' is no field: write TYPE NAME, as in 'int64 num'"),
+        ('int64 Num', "'Num' is no name of a field: allowed are small letters, digits and"),
+        ('int64 a__b', "'a__b' is no name of a field"),
+        ('int64 class', "'class' is a word of Python: choose another name"),
+        ('int64 a\n\nint8 a', "msg/Own.msg:3: 'a' stands in line 1 already: rename one"),
+        ('  int64 a', "'int64 a' does not begin at the margin: take the spaces away"),
+        ('int8 answer=1', "'answer' is no name of a constant: allowed are capital letters"),
+        ('int8 A=300', "value '300' can not be converted to type 'int8': must be a valid integer"),
+        ('uint8 a 256', "value '256' can not be converted to type 'uint8'"),
+        ('bool a maybe', "value 'maybe' can not be converted to type 'bool'"),
+        ('int8[2] a [1]', 'array must have exactly 2 elements, not 1'),
+        ('geometry_msgs/Point p 1', 'only numbers, bool and text have defaults'),
+        ('int8[0] a', "'int8[0]': allowed are TYPE, TYPE[], TYPE[3], TYPE[<=3], and string<=10"),
+        ('int8<=3 a', "'int8<=3': allowed are TYPE"),
+        ('int8[ a', "'int8[': allowed are TYPE"),
+        ('time t', 'time is of ROS 1: use builtin_interfaces/Time'),
+        ('geometry_msgs/Pont p', 'Pont: geometry_msgs has no such message; it has Accel,'),
+        ('nav_msgs/Path p', 'Path: of nav_msgs: add nav_msgs to DEPENDENCIES in CMakeLists.txt'),
+        ('int8 a;', "'a;' is no name of a field"),
+        ('int8 a\n---\nint8 b', 'msg/Own.msg: 1 lines of ---, not 0: a .msg has fields'),
+    ],
+)
+def test_a_mistake_in_a_message_is_told_by_its_line(folder: Path, text: str, reason: str) -> None:
+    assert reason in refusal(folder, 'msg/Own.msg', text)
+
+
+@pytest.mark.parametrize(
+    ('name', 'text', 'reason'),
+    [
+        ('srv/Own.srv', 'int8 a', '0 lines of ---, not 1: a .srv has request, ---, response'),
+        ('srv/Own.srv', 'int8 a\n---\nint8 a\nstrng b', "srv/Own.srv:4: 'strng' is no type: did"),
+        ('action/Own.action', '---', '1 lines of ---, not 2: a .action has goal, ---, result,'),
+        ('msg/own.msg', 'int8 a', "'own' is no name of an interface: allowed are letters and"),
+        ('msg/Own.txt', 'int8 a', 'msg/Own.txt: allowed are .msg, .srv, .action and .idl'),
+        ('msg/Own.idl', 'module own_msgs {\n  struct', 'msg/Own.idl:2: this is no IDL: '),
+        (
+            'msg/Own.idl',
+            'module m {\nmodule msg {\nstruct Own { char c; }; }; };',
+            'char is no ty',
+        ),
+    ],
+)
+def test_a_mistake_in_other_definitions_is_told_by_its_line(
+    folder: Path, name: str, text: str, reason: str
+) -> None:
+    assert reason in refusal(folder, name, text)
+
+
+def test_every_mistake_is_told_at_once(folder: Path) -> None:
+    reasons = refusal(folder, 'msg/Own.msg', 'int a\nint8\nint8 b', 'geometry_msgs std_msgs')
+    assert [line.partition(': ')[0] for line in reasons.splitlines()] == [
+        'package.xml',
+        'msg/Own.msg:1',
+        'msg/Own.msg:2',
+    ]
+    assert 'package.xml: add <depend>std_msgs</depend>; CMakeLists.txt names it' in reasons
+
+
+def test_a_text_that_is_no_utf8_is_told_by_its_line(folder: Path) -> None:
+    refusal(folder, 'msg/Own.msg', 'int8')
+    (folder / 'msg' / 'Own.msg').write_bytes(b'int8 a\n# \xe4\n')
+    with pytest.raises(BuildError, match=r'msg/Own\.msg:2: this is not UTF-8'):
+        build(folder, folder / 'prefix', link=False)
+
+
+def test_what_is_named_and_not_there_is_told(folder: Path) -> None:
+    write_cmake(folder, 'rosidl_generate_interfaces(${PROJECT_NAME} "msg/Lost.msg")')
+    with pytest.raises(BuildError, match=r'msg/Lost\.msg: there is no such file'):
+        build(folder, folder / 'prefix', link=False)
+    assert 'DEPENDENCIES names lost_msgs, which is not found' in refusal(
+        folder, 'msg/Own.msg', 'int8 a', 'lost_msgs'
+    )
+    manifest = MANIFEST.replace('<member_of_group>rosidl_interface_packages</member_of_group>', '')
+    (folder / 'package.xml').write_text(manifest)
+    assert refusal(folder, 'msg/Own.msg', 'int8 a').startswith('package.xml: add <member_of_group')
+
+
+@pytest.mark.parametrize(
+    ('text', 'reason'),
+    [
+        (
+            'add_executable(talker src/talker.cpp)',
+            r':2: add_executable\(\.\.\.\): needs a C\+\+ co',
+        ),
+        (
+            'install(TARGETS talker\n  DESTINATION lib)',
+            r':2: install\(\.\.\.\): needs a C\+\+ comp',
+        ),
+        (
+            '\nfoo(bar)',
+            r':3: foo\(\.\.\.\): is not understood here; what is: ament_python_install',
+        ),
+        ('if(WIN32)\ninstall(FILES a DESTINATION b)\nendif()', r'stands in if\(WIN32\)'),
+        ('install(FILES lost DESTINATION share)', r'there is no lost: mend the name'),
+        ('install(FILES package.xml DESTINATION ../..)', r'only what is in the package'),
+        ('install(FILES package.xml DESTINATION /etc)', r'only what is in the package'),
+        ('install(SCRIPT x)', r'allowed is FILES, PROGRAMS or DIRECTORY with a DESTINATION'),
+        ('ament_python_install_package(lost)', r'there is no lost/__init__\.py'),
+        ('install(FILES a', r':2: install\( has no'),
+        ('set(a "b)', r":2: '\"' is not closed"),
+        (')', r":2: '\)' closes nothing"),
+    ],
+)
+def test_what_cannot_be_built_is_told_by_its_line(folder: Path, text: str, reason: str) -> None:
+    write_cmake(folder, text)
+    with pytest.raises(CMakeListsError, match=rf'^CMakeLists\.txt.*{reason}'):
+        read_cmake_package(folder)
+
+
+def test_a_cmake_file_is_read_as_cmake_reads_it(folder: Path) -> None:
+    (folder / 'msg').mkdir()
+    for name in ('A', 'B'):
+        (folder / 'msg' / f'{name}.msg').touch()
+    write_cmake(
+        folder,
+        '#[[ add_executable(no)\n ]] # neither\n'
+        'SET(files msg/C.msg;"msg/D.msg")\n'
+        'file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/msg/*.msg)\n'
+        'list(APPEND files ${found} ${nothing})\n'
+        'rosidl_generate_interfaces(${PROJECT_NAME}_x ${files} "srv/E.srv"\n'
+        '  DEPENDENCIES std_msgs # (not) this\n'
+        '  geometry_msgs LIBRARY_NAME ${PROJECT_NAME} ADD_LINTER_TESTS)\n'
+        'if(BUILD_TESTING AND (NOT WIN32))\n  anything(here)\nendif()\n'
+        'install(FILES "package.xml" DESTINATION ${CMAKE_INSTALL_PREFIX}/share/${PROJECT_NAME}\n'
+        '  RENAME other.xml)\n',
+    )
+    package = read_cmake_package(folder)
+    assert [path.stem for path in package.interfaces] == ['C', 'D', 'A', 'B', 'E']
+    assert package.dependencies == ['std_msgs', 'geometry_msgs']
+    assert package.installs == [Install(Path('package.xml'), Path('share/own_msgs/other.xml'))]
+
+
+def test_folders_and_modules_are_installed(folder: Path) -> None:
+    for path in ('data/a.txt', 'data/deep/b.txt', 'data/c.bak', 'own_tools/__init__.py'):
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).touch()
+    write_cmake(
+        folder,
+        'install(DIRECTORY data/ DESTINATION share/one FILES_MATCHING PATTERN "*.txt")\n'
+        'install(DIRECTORY data DESTINATION share/two PATTERN deep EXCLUDE)\n'
+        'ament_python_install_package(own_tools)\n',
+    )
+    prefix = folder / 'prefix'
+    build(folder, prefix, link=True)
+    files = {str(path.relative_to(prefix)) for path in prefix.rglob('*') if path.is_file()}
+    assert {name for name in files if name.startswith(('share/one', 'share/two'))} == {
+        'share/one/a.txt', 'share/one/deep/b.txt', 'share/two/data/a.txt', 'share/two/data/c.bak',
+    }  # fmt: skip
+    assert (prefix / 'share/one/a.txt').is_symlink()
+    assert any(name.endswith('-packages/own_tools/__init__.py') for name in files)
