@@ -7,15 +7,12 @@ import json
 import os
 from pathlib import Path
 import re
-import sys
-import types
 from typing import Any
 
 from launch import LaunchContext, LaunchDescription, LaunchService
 from launch.conditions import IfCondition
 from launch_ros.actions import (
     ComposableNodeContainer,
-    LoadComposableNodes,
     PushRosNamespace,
     SetParametersFromFile,
     SetRemap,
@@ -244,34 +241,24 @@ def test_component_containers_are_refused_in_one_line(
 ) -> None:
     del launch_environment
     composable = ComposableNode(package='a', plugin='a::B', parameters=[{'x': 1}])
-    actions = [
-        ComposableNodeContainer(
-            name='box',
-            namespace='',
-            package='rclcpp_components',
-            executable='component_container',
-            composable_node_descriptions=[composable],
-        ),
-        LoadComposableNodes(composable_node_descriptions=[composable], target_container='box'),
-    ]
-    for action in actions:
-        service = LaunchService()
-        service.include_launch_description(LaunchDescription([action]))
-        assert service.run() == 1
-        (line,) = [
-            text for text in capsys.readouterr().out.splitlines() if text.startswith('[ERROR]')
-        ]
-        assert 'component containers are C++ programs' in line
+    container = ComposableNodeContainer(
+        name='box',
+        namespace='',
+        package='rclcpp_components',
+        executable='component_container',
+        composable_node_descriptions=[composable],
+    )
+    service = LaunchService()
+    service.include_launch_description(LaunchDescription([container]))
+    assert service.run() == 1
+    (line,) = [text for text in capsys.readouterr().out.splitlines() if text.startswith('[ERROR]')]
+    assert 'component containers are C++ programs' in line
 
 
 def test_a_container_is_asked_for_what_the_scope_and_the_node_say(
-    launch_environment: None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    launch_environment: None, tmp_path: Path
 ) -> None:
     del launch_environment
-    services = types.ModuleType('composition_interfaces.srv')
-    services.LoadNode = types.SimpleNamespace(Request=types.SimpleNamespace)  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, 'composition_interfaces', types.ModuleType('c'))
-    monkeypatch.setitem(sys.modules, 'composition_interfaces.srv', services)
     file = tmp_path / 'parameters.yaml'
     file.write_text(
         '/**: {ros__parameters: {all: 1, own: 2}}\n/deep: {me: {ros__parameters: {own: 3}}}\n'

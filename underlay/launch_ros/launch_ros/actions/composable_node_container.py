@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from ament_index_python import PackageNotFoundError
 from launch.action import Action
 from launch.frontend import Entity, expose_action, Parser
 from launch.launch_context import LaunchContext
@@ -45,13 +46,18 @@ class ComposableNodeContainer(Node):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        from .load_composable_nodes import load_node_service, LoadComposableNodes
+        from .load_composable_nodes import LoadComposableNodes
 
+        try:
+            entities = super().execute(context) or []
+        except PackageNotFoundError as error:
+            raise RuntimeError(
+                f'{error.args[0]}: component containers are C++ programs; run the node as a Node '
+                'with an executable of its package, or use a full ROS 2 Jazzy'
+            ) from None
         wanted = [node for node in self.__descriptions if node.is_wanted(context)]
         if not wanted:
-            return super().execute(context)
-        load_node_service()  # before the container runs
-        entities = super().execute(context) or []
+            return entities
         return [
             *entities,
             LoadComposableNodes(composable_node_descriptions=wanted, target_container=self),

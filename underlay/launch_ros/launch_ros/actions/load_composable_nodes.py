@@ -40,22 +40,6 @@ from .composable_node_container import ComposableNodeContainer
 _POLL_SEC = 0.1
 
 
-def load_node_service() -> Any:
-    """Return the class of the service that loads a node.
-
-    :raises RuntimeError: its package is not installed.
-    """
-    try:
-        from composition_interfaces.srv import LoadNode  # type: ignore[import-not-found]
-    except ModuleNotFoundError:
-        raise RuntimeError(
-            'component containers are C++ programs, and their package composition_interfaces is '
-            'not installed: run the node as a Node with an executable of its package, or use a '
-            'full ROS 2 Jazzy'
-        ) from None
-    return LoadNode
-
-
 @expose_action('load_composable_node')
 class LoadComposableNodes(Action):
     """Has a running container load nodes, one after the other.
@@ -93,7 +77,7 @@ class LoadComposableNodes(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        service = load_node_service()
+
         if isinstance(self.__target_container, ComposableNodeContainer):
             self.__container_name = self.__target_container.node_name
         else:
@@ -108,8 +92,10 @@ class LoadComposableNodes(Action):
         ]
         if not requests:
             return
+        from composition_interfaces.srv import LoadNode
+
         self.__client = get_ros_node(context).create_client(
-            service, f'{self.__container_name}/_container/load_node'
+            LoadNode, f'{self.__container_name}/_container/load_node'
         )
         assert context.asyncio_loop is not None
         context.add_completion_future(
@@ -159,7 +145,9 @@ def get_composable_node_load_request(
     def perform(subs: Any) -> str:
         return '' if subs is None else perform_substitutions(context, subs)
 
-    request = load_node_service().Request()
+    from composition_interfaces.srv import LoadNode
+
+    request = LoadNode.Request()
     request.package_name = perform(node.package)
     request.plugin_name = perform(node.node_plugin)
     request.node_name = perform(node.node_name)

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Components: those that packages register, and those in running containers.
 
-The node that asks, `node`, is a node of rclpy or one of ros2cli. What speaks to a container needs
-the package composition_interfaces, which is not among the wheels: each such function raises
-`UsageError` where it is missing.
+The node that asks, `node`, is a node of rclpy or one of ros2cli. Containers are programs in C++:
+with the wheels there is none on this computer, but there may be on others.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from typing import Any, NamedTuple
 
 from ament_index_python import get_resource, get_resources, has_resource
 from ros2cli import arguments, discovery
-from ros2cli.errors import CommandError, UsageError
+from ros2cli.errors import CommandError
 from ros2node.api import get_service_server_info, NodeName
 from ros2pkg.api import get_executable_paths, PackageNotFound
 from rtps_graph.graph import Role
@@ -111,11 +110,11 @@ def get_components_in_containers(
     """Ask several containers side by side; see `get_components_in_container`."""
     if not remote_containers_node_names:
         return {}
+    from composition_interfaces.srv import ListNodes
     from ros2cli import calls
 
-    service = services().ListNodes
     names = {f'{name}/_container/list_nodes': name for name in remote_containers_node_names}
-    answers = calls.call_all(node, service, {name: service.Request() for name in names})
+    answers = calls.call_all(node, ListNodes, {name: ListNodes.Request() for name in names})
     found: dict[str, tuple[bool, list[ComponentInfo] | str]] = {}
     for name, answer in answers.items():
         if isinstance(answer, Exception):
@@ -145,9 +144,9 @@ def load_component_into_container(
     :param parameters: each 'name:=value'; so are `extra_arguments`, which the container reads.
     :raises RuntimeError: the container does not answer, or refuses.
     """
+    from composition_interfaces.srv import LoadNode
     from ros2cli import calls
 
-    service = services().LoadNode
     given = {
         'node_name': node_name,
         'node_namespace': node_namespace,
@@ -156,13 +155,13 @@ def load_component_into_container(
         'parameters': _parameters(parameters),
         'extra_arguments': _parameters(extra_arguments),
     }
-    request = service.Request(
+    request = LoadNode.Request(
         package_name=package_name,
         plugin_name=plugin_name,
         **{name: value for name, value in given.items() if value is not None},
     )
     response = calls.call(
-        node, service, f'{remote_container_node_name}/_container/load_node', request
+        node, LoadNode, f'{remote_container_node_name}/_container/load_node', request
     )
     if not response.success:
         raise CommandError(f'Failed to load component: {response.error_message.capitalize()}')
@@ -176,12 +175,12 @@ def unload_component_from_container(
 
     :raises RuntimeError: the container does not answer.
     """
+    from composition_interfaces.srv import UnloadNode
     from ros2cli import calls
 
-    service = services().UnloadNode
     name = f'{remote_container_node_name}/_container/unload_node'
     for uid in component_uids:
-        response = calls.call(node, service, name, service.Request(unique_id=uid))
+        response = calls.call(node, UnloadNode, name, UnloadNode.Request(unique_id=uid))
         yield uid, not response.success, response.error_message
 
 
@@ -193,26 +192,14 @@ def run_standalone_container(*, container_node_name: str) -> subprocess.Popen[by
     try:
         paths = get_executable_paths(package_name='rclcpp_components')
     except PackageNotFound:
-        raise CommandError("Package 'rclcpp_components' not found") from None
+        raise CommandError(
+            "Package 'rclcpp_components' not found: containers are programs in C++, which the "
+            'wheels have not; run the node by `ros2 run`, or source a ROS 2 Jazzy'
+        ) from None
     path = next((path for path in paths if 'component_container' in path), None)
     if path is None:
         raise CommandError('No component container node found!')
     return subprocess.Popen([path, '--ros-args', '-r', f'__node:={container_node_name}'])
-
-
-def services() -> Any:
-    """Return the module of the services of a container.
-
-    :raises UsageError: it is not there.
-    """
-    try:
-        import composition_interfaces.srv
-    except ImportError:
-        raise UsageError(
-            'To speak to component containers takes the package composition_interfaces, which '
-            'has no wheel; install ROS 2 itself (ros-jazzy-composition-interfaces) and source it'
-        ) from None
-    return composition_interfaces.srv
 
 
 def _parameters(texts: Sequence[str] | None) -> list[Any] | None:

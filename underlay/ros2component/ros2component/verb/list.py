@@ -43,7 +43,6 @@ class ListVerb(verb.VerbExtension):
 def _components(args: argparse.Namespace, found: list[str]) -> dict[str, tuple[bool, Any]]:
     if not found:
         return {}
-    api.services()
     from ros2cli.node.direct import command_node
 
     with command_node(args) as node:

@@ -20,7 +20,6 @@ class LoadVerb(verb.VerbExtension):
         arguments.add_flags(parser, {'-q --quiet': 'Only print component unique IDs and names'})
 
     def main(self, *, args: argparse.Namespace) -> None:
-        api.services()
         container = verb.find_container(args)
         from ros2cli.node.direct import command_node
 

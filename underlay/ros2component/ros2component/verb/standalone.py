@@ -26,7 +26,6 @@ class StandaloneVerb(verb.VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int:
-        api.services()
         from ros2cli.node.direct import command_node
 
         container = api.run_standalone_container(container_node_name=args.container_node_name)
