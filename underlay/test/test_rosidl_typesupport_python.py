@@ -15,7 +15,9 @@ from typing import Any
 from ament_index_python import get_package_share_directory
 from example_interfaces.msg import Float64MultiArray
 from geometry_msgs.msg import Point, Pose
+from husky_runtime.domains import in_own_domain
 from husky_sim.messages.cdr import decode, encode
+from playpen_testing import interface_stress
 from playpen_testing.random_messages import random_message
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
@@ -180,3 +182,12 @@ def test_a_package_made_again_has_the_hashes_of_its_wheel(package: str, tmp_path
     for path in definitions:
         ours = (tmp_path / 'share' / package / path.relative_to(share)).with_suffix('.json')
         assert json.loads(ours.read_text()) == json.loads(path.with_suffix('.json').read_text())
+
+
+def test_many_threads_at_once_neither_hang_nor_mix_up() -> None:
+    with in_own_domain():
+        words = [sys.executable, interface_stress.__file__, '3']
+        done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    counts = json.loads(done.stdout)
+    assert all(counts.get(what) for what in ('heard', 'called', 'acted', 'feedback')), counts
