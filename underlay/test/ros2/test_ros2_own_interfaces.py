@@ -21,6 +21,7 @@ import rclpy
 from rclpy.serialization import deserialize_message, serialize_message
 
 WORKSPACE = Path(__file__).resolve().parent.parent / 'workspace'
+SPHERE_HASH = 'RIHS01_df3d7dcce529c7e935610cfd7d44e5fd03cedd44163fd7e01b7f62d5cc21cd1b'
 SOURCED = 'source install/setup.bash && env -0'
 
 
@@ -113,7 +114,7 @@ def test_topic_commands_know_an_own_type(shapes: None, ros2: Any) -> None:
     told = ros2('topic', 'info', '-v', '/sphere').out
     # as an installation of Jazzy with the C++ type supports tells it
     assert 'Topic type: tutorial_interfaces/msg/Sphere' in told
-    assert 'RIHS01_df3d7dcce529c7e935610cfd7d44e5fd03cedd44163fd7e01b7f62d5cc21cd1b' in told
+    assert SPHERE_HASH in told
 
 
 def test_topic_pub_sends_an_own_type(shapes: None, ros2: Any, shared_processes: Any) -> None:
@@ -128,6 +129,25 @@ def test_topic_pub_sends_an_own_type(shapes: None, ros2: Any, shared_processes: 
 def test_service_call_asks_an_own_service(shapes: None, ros2: Any) -> None:
     words = ('/add_three_ints', 'tutorial_interfaces/srv/AddThreeInts', '{a: 1, b: 2, c: -39}')
     assert 'AddThreeInts_Response(sum=-36)' in ros2('service', 'call', *words).out
+
+
+def test_service_echo_shows_requests_and_answers(shapes: None, shared_processes: Any) -> None:
+    words = ('/add_three_ints', 'tutorial_interfaces/srv/AddThreeInts', '{a: 1, c: -39}')
+    shared_processes.ros2('service', 'call', '-r', '5', *words)
+    echo = shared_processes.ros2('service', 'echo', '/add_three_ints', ready='c: -39')
+    assert any('sum: -38' in line for line in echo.stdout), 'no answer is shown'
+
+
+def test_a_node_describes_its_own_types(shapes: None, ros2: Any) -> None:
+    request = (
+        f'{{type_name: tutorial_interfaces/msg/Sphere, type_hash: {SPHERE_HASH}, '
+        'include_type_sources: true}'
+    )
+    kind = 'type_description_interfaces/srv/GetTypeDescription'
+    told = ros2('service', 'call', '/shapes/get_type_description', kind, request).out
+    assert 'successful=True' in told
+    assert "name='radius'" in told
+    assert 'float64 radius  # [m]' in told, 'not the source'
 
 
 def test_action_send_goal_carries_out_an_own_action(shapes: None, ros2: Any) -> None:

@@ -8,6 +8,8 @@ from rclpy.action import ActionServer
 from rclpy.action.server import ServerGoalHandle
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.qos import qos_profile_system_default
+from rclpy.service_introspection import ServiceIntrospectionState
 from tutorial_interfaces.action import Fibonacci
 from tutorial_interfaces.msg import Sphere
 from tutorial_interfaces.srv import AddThreeInts
@@ -20,7 +22,10 @@ class Shapes(Node):
         self._spheres = self.create_publisher(Sphere, 'sphere', 10)
         self._everything = self.create_publisher(Nested, 'everything', 10)
         self.create_timer(0.1, self._on_timer)
-        self.create_service(AddThreeInts, 'add_three_ints', self._on_add)
+        service = self.create_service(AddThreeInts, 'add_three_ints', self._on_add)
+        service.configure_introspection(
+            self.get_clock(), qos_profile_system_default, ServiceIntrospectionState.CONTENTS
+        )
         self._server = ActionServer(self, Fibonacci, 'fibonacci', self._on_goal)
 
     def _on_timer(self) -> None:
