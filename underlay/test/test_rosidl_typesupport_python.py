@@ -184,6 +184,27 @@ def test_a_package_made_again_has_the_hashes_of_its_wheel(package: str, tmp_path
         assert json.loads(ours.read_text()) == json.loads(path.with_suffix('.json').read_text())
 
 
+@pytest.mark.parametrize(
+    ('name', 'type_hash'),
+    [  # as a Jazzy with C++ type supports announces them
+        (
+            'tf2_msgs/msg/TFMessage',
+            'e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087',
+        ),
+        (
+            'example_interfaces/srv/AddTwoInts',
+            'e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a',
+        ),
+    ],
+)
+def test_shipped_types_have_the_hashes_of_jazzy(name: str, type_hash: str) -> None:
+    package, _, interface = name.partition('/')
+    described = Path(get_package_share_directory(package), f'{interface}.json').read_text()
+    assert {'type_name': name, 'hash_string': f'RIHS01_{type_hash}'} in json.loads(described)[
+        'type_hashes'
+    ]
+
+
 def test_many_threads_at_once_neither_hang_nor_mix_up() -> None:
     with in_own_domain():
         words = [sys.executable, interface_stress.__file__, '3']
