@@ -46,6 +46,9 @@ def main() -> int:
             for line in str(error).splitlines():
                 print(f'{folder.name}: {line}', file=sys.stderr)
             return 2
+        except KeyboardInterrupt:
+            print(f'{folder.name}: interrupted', file=sys.stderr)
+            return 130
     return 0
 
 

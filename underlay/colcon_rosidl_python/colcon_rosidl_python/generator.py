@@ -12,11 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 import contextlib
+import ctypes
 from functools import cache, partial
 import json
 import os
 from pathlib import Path
 import shutil
+import signal
 import tempfile
 
 from ament_index_python import get_package_share_directory
@@ -55,6 +57,7 @@ __getattr__ = capsules_of(
 )
 '''
 
+_PR_SET_PDEATHSIG = 1  # linux/prctl.h
 _PER_PROCESS = 4  # definitions for which it is worth to start another process
 
 
@@ -81,13 +84,19 @@ def generate(
     make = partial(_make, package, source, share, python)
     processes = min(len(os.sched_getaffinity(0)), len(definitions) // _PER_PROCESS)
     if processes > 1:
-        with ProcessPoolExecutor(processes) as pool:
+        with ProcessPoolExecutor(processes, initializer=_end_with_parent) as pool:
             made = list(pool.map(make, definitions))
     else:
         made = [make(path) for path in definitions]
     idl = [path for path, _ in made]
     _describe(package, dict(made), share, shares)
     _write_modules(package, idl, python)
+
+
+def _end_with_parent() -> None:
+    # the parent, which waits for this process, tells of an interrupt
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _make(

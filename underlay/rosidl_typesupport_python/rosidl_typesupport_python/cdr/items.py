@@ -108,7 +108,7 @@ class Numbers:
 
     def write(self, out: bytearray, value: Any) -> None:
         write_count(out, len(value), self.size, self.most)
-        if not value:
+        if len(value) == 0:
             return
         align(out, struct.calcsize(self.code))
         try:
