@@ -18,7 +18,7 @@ import os
 import subprocess
 import sys
 
-from husky_sim.messages.messages import packed_messages
+from husky_sim.messages.layouts import packed_messages
 from husky_sim.messages.packed_message import prove
 
 DIGITS = 64

@@ -12,8 +12,9 @@ from typing import Any
 from unittest import mock
 
 from geometry_msgs.msg import Point, Twist
-from husky_sim.messages import messages, packed_message
+from husky_sim.messages import packed_message
 from husky_sim.messages.cdr import decode, encode
+from husky_sim.messages.layouts import packed_messages
 from husky_sim.messages.packed_message import PackedMessage, prove, proven_form
 from nav_msgs.msg import Odometry
 import numpy as np
@@ -25,7 +26,7 @@ from sensor_msgs.msg import NavSatFix
 PROCESSES = 6  # 200 of them: benchmark/fresh_packing.py
 PROGRAM = """
 from hashlib import sha256
-from husky_sim.messages.messages import packed_messages
+from husky_sim.messages.layouts import packed_messages
 from husky_sim.messages.packed_message import prove
 
 for message in packed_messages():
@@ -47,7 +48,7 @@ def distinct(message: PackedMessage) -> PackedMessage:
     return message
 
 
-@pytest.mark.parametrize('make', [type(each) for each in messages.packed_messages()])
+@pytest.mark.parametrize('make', [type(each) for each in packed_messages()])
 def test_padding_of_any_byte_changes_nothing(make: Callable[[], PackedMessage]) -> None:
     plain = distinct(make())
     expected = plain.unpacked()
@@ -62,7 +63,7 @@ def test_padding_of_any_byte_changes_nothing(make: Callable[[], PackedMessage]) 
             assert decode(plain.kind, data) == expected
 
 
-@pytest.mark.parametrize('make', [type(each) for each in messages.packed_messages()])
+@pytest.mark.parametrize('make', [type(each) for each in packed_messages()])
 def test_what_the_memory_held_gets_into_no_message(
     make: Callable[[], PackedMessage], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -103,7 +104,7 @@ def test_fresh_processes_all_pack_the_same() -> None:
 
 
 def test_equal_messages_have_equal_bytes() -> None:
-    for one, other in zip(messages.packed_messages(), messages.packed_messages(), strict=True):
+    for one, other in zip(packed_messages(), packed_messages(), strict=True):
         assert bytes(one) == bytes(other) == encode(one.unpacked())
 
 
@@ -130,7 +131,7 @@ def test_several_fields_are_packed_over_the_padding_between() -> None:
 
 def test_with_this_middleware_bytes_are_published() -> None:
     log = Log()
-    assert proven_form(messages.packed_messages(), log) is bytes
+    assert proven_form(packed_messages(), log) is bytes
     assert log == []
 
 

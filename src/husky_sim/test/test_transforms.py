@@ -1,25 +1,23 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-Transforms against the places of the same things in the physics.
-
-tf2_msgs has no wheel, so a plain class stands in for TFMessage.
-"""
+"""Transforms against the places of the same things in the physics."""
 
 from collections.abc import Callable
-from copy import deepcopy
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
+from husky_sim.messages.transforms import TransformsMessage
 from husky_sim.ros import transforms
 from husky_sim.simulation import Simulation
 import mujoco
 import numpy as np
 import pytest
 from rclpy.qos import DurabilityPolicy
+from rclpy.serialization import deserialize_message
+from tf2_msgs.msg import TFMessage
 
 from husky_sim.config import SimulationConfig
 
@@ -36,10 +34,11 @@ class Recorder:
 
     def create_publisher(self, _: Any, topic: str, qos: Any) -> Any:
         self.said[topic], self.qos[topic] = [], qos
-        return SimpleNamespace(publish=lambda message: self.said[topic].append(deepcopy(message)))
+        return SimpleNamespace(publish=self.said[topic].append)
 
-    def last(self, topic: str) -> dict[str, TransformStamped]:
-        return {each.child_frame_id: each for each in self.said[topic][-1].transforms}
+
+def by_child(message: TFMessage) -> dict[str, TransformStamped]:
+    return {each.child_frame_id: each for each in message.transforms}
 
 
 @pytest.fixture
@@ -50,16 +49,10 @@ def simulation(worlds: Path, drive: Drive) -> Simulation:
     return driven
 
 
-@pytest.fixture
-def publish(simulation: Simulation, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Recorder]:
-    def once(*, localization: bool = True, namespace: str = '') -> Recorder:
-        monkeypatch.setattr(transforms, 'TFMessage', SimpleNamespace)
-        recorder = Recorder()
-        topics = transforms.TransformTopics(recorder, namespace, localization=localization)
-        topics.publish((STAMP.sec, STAMP.nanosec), simulation.robots[0])
-        return recorder
-
-    return once
+def moving(simulation: Simulation, *, localization: bool = True) -> dict[str, TransformStamped]:
+    packed = TransformsMessage(localization=localization)
+    packed.pack((STAMP.sec, STAMP.nanosec), simulation.robots[0])
+    return by_child(deserialize_message(bytes(packed), TFMessage))
 
 
 def place(transform: TransformStamped) -> list[float]:
@@ -81,9 +74,9 @@ def in_base(simulation: Simulation, position: np.ndarray, matrix: np.ndarray) ->
 
 
 def test_the_wheels_are_where_the_physics_has_them(
-    simulation: Simulation, publish: Callable[..., Recorder]
+    simulation: Simulation,
 ) -> None:
-    frames = publish().last('tf')
+    frames = moving(simulation)
     for name in ('front_left', 'front_right', 'rear_left', 'rear_right'):
         wheel = simulation.data.body(f'husky/{name}_wheel_link')
         position, matrix = in_base(simulation, wheel.xpos, wheel.xmat)
@@ -94,22 +87,19 @@ def test_the_wheels_are_where_the_physics_has_them(
         assert turn(frame) == pytest.approx(matrix, abs=1e-9)
 
 
-def test_only_the_filter_publishes_odom_to_base_link(
-    simulation: Simulation, publish: Callable[..., Recorder]
-) -> None:
-    base = publish().last('tf')['base_link']
+def test_only_the_filter_publishes_odom_to_base_link(simulation: Simulation) -> None:
+    base = moving(simulation)['base_link']
     estimate = simulation.robots[0].filtered
     assert (base.header.frame_id, base.header.stamp) == ('odom', STAMP)
     assert place(base) == [estimate.x, estimate.y, 0.0]
     assert turn(base)[0, 0] == pytest.approx(np.cos(estimate.yaw))
-    assert 'base_link' not in publish(localization=False).last('tf')
+    assert 'base_link' not in moving(simulation, localization=False)
 
 
-def test_sensors_stand_where_the_physics_has_them(
-    simulation: Simulation, publish: Callable[..., Recorder]
-) -> None:
-    recorder = publish()
-    frames = recorder.last('tf_static')
+def test_sensors_stand_where_the_physics_has_them(simulation: Simulation) -> None:
+    recorder = Recorder()
+    transforms.create_transform_topics(recorder, '', localization=True)
+    frames = by_child(recorder.said['tf_static'][0])
     assert recorder.qos['tf_static'].durability == DurabilityPolicy.TRANSIENT_LOCAL
     for name in ('imu_link', 'front_laser'):
         site = simulation.data.site(f'husky/{name}')
@@ -123,12 +113,14 @@ def test_sensors_stand_where_the_physics_has_them(
     assert place(frames['base_footprint'])[2] == pytest.approx(-0.13228)
 
 
-def test_each_of_many_robots_has_a_tree_of_its_own(publish: Callable[..., Recorder]) -> None:
-    assert set(publish(namespace='alpha/').said) == {'alpha/tf', 'alpha/tf_static'}
+def test_each_of_many_robots_has_a_tree_of_its_own() -> None:
+    recorder = Recorder()
+    transforms.create_transform_topics(recorder, 'alpha/', localization=True)
+    assert set(recorder.said) == {'alpha/tf', 'alpha/tf_static'}
 
 
 def test_without_tf2_msgs_nothing_is_published(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(transforms, 'TFMessage', None)
     recorder = Recorder()
-    transforms.TransformTopics(recorder, '', localization=True)
+    assert transforms.create_transform_topics(recorder, '', localization=True) == []
     assert recorder.said == {}

@@ -193,14 +193,6 @@ class ClockMessage(PackedMessage):
         self._stamp(*stamp)
 
 
-def packed_messages() -> list[PackedMessage]:
-    """Return one of each kind, to prove their layouts."""
-    return [
-        *(WheelOdometryMessage(), FilteredOdometryMessage(), GroundTruthMessage()),
-        *(ImuMessage(), JointStateMessage(), CommandMessage(), FixMessage(), ClockMessage()),
-    ]
-
-
 def new_collision(touch: Collision) -> DiagnosticStatus:
     """Make the message of a collision."""
     x, y, z = touch.position

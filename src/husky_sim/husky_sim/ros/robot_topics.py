@@ -22,7 +22,7 @@ from husky_sim.messages.messages import Stamp
 from husky_sim.messages.packed_message import Form
 from husky_sim.robot.contacts import Collision
 from husky_sim.ros.sensor_topics import SensorTopics
-from husky_sim.ros.transforms import TransformTopics
+from husky_sim.ros.transforms import create_transform_topics
 from husky_sim.simulation import SimulatedRobot, Simulation
 
 # Reliable and volatile: a subscription that is slow for a moment loses nothing.
@@ -96,7 +96,7 @@ class RobotTopics:
         self._read = self._rest  # those of them that have subscriptions
         self._count_again_sec = 0.0
         self._sensors = SensorTopics(node, simulation, robot, namespace, QOS, form)
-        self._transforms = TransformTopics(
+        self._rest += create_transform_topics(
             node, namespace, localization=self.filtered_publisher is not None
         )
         self.command_subscription: Subscription = node.create_subscription(
@@ -169,7 +169,6 @@ class RobotTopics:
             message.pack(stamp, self.robot)
             publisher.publish(self._form(message))
         self._sensors.publish(stamp)
-        self._transforms.publish(stamp, self.robot)
 
     def publish_collision(self, touch: Collision) -> None:
         """Publish one collision."""

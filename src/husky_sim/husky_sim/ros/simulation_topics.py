@@ -7,7 +7,8 @@ from collections.abc import Callable
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
-from husky_sim.messages.messages import ClockMessage, packed_messages
+from husky_sim.messages.layouts import packed_messages
+from husky_sim.messages.messages import ClockMessage
 from husky_sim.messages.packed_message import proven_form
 from husky_sim.ros.robot_topics import QOS, RobotTopics
 from husky_sim.simulation import Simulation
