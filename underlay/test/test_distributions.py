@@ -25,6 +25,7 @@ KEYS = {
     'argcomplete': 'python3-argcomplete',
     'catkin_pkg': 'python3-catkin-pkg-modules',
     'colcon_core': 'python3-colcon-core',
+    'em': 'python3-empy',
     'lark': 'python3-lark-parser',
     'mcap': 'python3-mcap-pip',
     'numpy': 'python3-numpy',

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+import gc
 import hashlib
 import os
 from pathlib import Path
@@ -36,6 +37,7 @@ class BuildError(RuntimeError):
 
 def main() -> int:
     arguments = _parser().parse_args()
+    gc.disable()  # a fifth of the time, in a process that keeps what it reads and ends soon
     prefix = arguments.prefix.absolute()
     known = os.environ.get('AMENT_PREFIX_PATH')
     os.environ['AMENT_PREFIX_PATH'] = os.pathsep.join(filter(None, (str(prefix), known)))

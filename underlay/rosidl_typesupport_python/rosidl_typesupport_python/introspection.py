@@ -17,7 +17,7 @@ from typing import Any
 
 from rosidl_parser import definition as idl
 
-from rosidl_typesupport_python.cdr.codec import class_of
+from rosidl_typesupport_python.cdr import class_of
 from rosidl_typesupport_python.memory import keep, pointer_in, text
 
 # field_types.h

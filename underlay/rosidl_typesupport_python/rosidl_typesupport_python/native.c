@@ -8,7 +8,8 @@
  *
  * Fast DDS calls serialize, deserialize and serialized_size with its locks held, and rclpy may
  * wait for these with the interpreter's: whatever needs the interpreter there ends in a deadlock.
- * So it is needed by convert_from_py and convert_to_py alone, which rclpy calls.
+ * So it is needed by convert_from_py and convert_to_py alone, which rclpy calls. Bytes that are not
+ * those of the type are dropped there, as compiled types drop them: the receiver goes on.
  *
  * No header is included but TinyCC's own: a user need not have those of Python, ROS or libc.
  */
@@ -27,6 +28,8 @@ void *realloc(void *data, size_t size);
 void free(void *data);
 void *memcpy(void *to, const void *from, size_t size);
 int strcmp(const char *one, const char *other);
+size_t strlen(const char *text);
+ptrdiff_t write(int file, const void *data, size_t size);
 
 /* ---- Fast CDR 2.2: Cdr.h, FastBuffer.h; native.py checks that the places are right ----------- */
 
@@ -45,26 +48,65 @@ struct cdr {
 struct {
     bool (*jump)(struct cdr *cdr, size_t size);
     char *(*position)(struct cdr *cdr);
-    unsigned (*endianness)(const struct cdr *cdr);
 } fast_cdr;
 
-#define LITTLE_ENDIAN 1
+/* ---- the shape of a type, as far as it says where a message ends ------------------------------- */
+
+struct shape { /* a field; a field of size 0 stands behind the last */
+    unsigned size;             /* of each item, which is aligned to it */
+    bool has_length;           /* a uint32 before the items says how many there are */
+    size_t count;              /* of items; the most that are allowed, where that says how many */
+    const struct shape *items; /* of what each consists, where that is no number */
+};
+
+static size_t aligned(size_t place, size_t size)
+{
+    return (place + size - 1) / size * size;
+}
+
+/* Returns where a value ends that begins at a place; more than the size if it is no such value. */
+static size_t end_of(const struct shape *field, const char *data, size_t size, size_t place)
+{
+    for (; field->size && place <= size; field++) {
+        size_t count = field->count;
+
+        if (field->has_length) {
+            unsigned length;
+
+            place = aligned(place, sizeof(length)) + sizeof(length);
+            if (place > size)
+                return place;
+            memcpy(&length, data + place - sizeof(length), sizeof(length));
+            if (length > count)
+                return size + 1;
+            count = length;
+        }
+        if (!field->items && count)
+            place = aligned(place, field->size) + count * field->size;
+        for (; field->items && count && place <= size; count--) /* each has a byte at least */
+            place = end_of(field->items, data, size, place);
+    }
+    return place;
+}
 
 /* ---- a message -------------------------------------------------------------------------------- */
 
 struct codec {
     PyObject *encode; /* message -> bytes */
     PyObject *decode; /* bytes -> message */
+    const struct shape *shape;
+    const char *complaint; /* about bytes that are not of this type */
+    bool has_complained;
 };
 
 struct message {
-    const struct codec *codec;
+    struct codec *codec;
     char *data;
     size_t size;
     size_t capacity;
 };
 
-struct message *new_message(const struct codec *codec)
+struct message *new_message(struct codec *codec)
 {
     struct message *message = calloc(1, sizeof(struct message));
 
@@ -136,11 +178,17 @@ bool serialize(const struct message *message, struct cdr *cdr)
 
 bool deserialize(struct cdr *cdr, struct message *message)
 {
-    const char *begin = fast_cdr.position(cdr);
-    size_t size = cdr->buffer->data + cdr->buffer->size - begin;
+    const char *header = cdr->buffer->data, *begin = fast_cdr.position(cdr);
+    size_t size = header + cdr->buffer->size - begin;
+    struct codec *codec = message->codec;
 
-    return fast_cdr.endianness(cdr) == LITTLE_ENDIAN && set_data(message, begin, size)
-           && fast_cdr.jump(cdr, size);
+    if (begin - header == 4 && header[0] == 0 && header[1] == 1 /* CDR, little endian */
+        && end_of(codec->shape, begin, size, 0) <= size)
+        return set_data(message, begin, size) && fast_cdr.jump(cdr, size);
+    if (!codec->has_complained)
+        write(2, codec->complaint, strlen(codec->complaint));
+    codec->has_complained = true;
+    return false;
 }
 
 unsigned serialized_size(const struct message *message)

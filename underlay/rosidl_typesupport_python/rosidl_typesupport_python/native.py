@@ -12,10 +12,9 @@ import sys
 LIBRARY = Path(sys.prefix, 'lib', 'librosidl_typesupport_python.so')
 
 _FAST_CDR = 'libfastcdr.so.2'
-# bool Cdr::jump(size_t); char * Cdr::get_current_position(); Cdr::endianness() const
+# bool Cdr::jump(size_t); char * Cdr::get_current_position()
 _JUMP = '_ZN8eprosima7fastcdr3Cdr4jumpEm'
 _POSITION = '_ZN8eprosima7fastcdr3Cdr20get_current_positionEv'
-_ENDIANNESS = '_ZNK8eprosima7fastcdr3Cdr10endiannessEv'
 # FastBuffer(char *, size_t); Cdr(FastBuffer &, Endianness, CdrVersion)
 _NEW_BUFFER = '_ZN8eprosima7fastcdr10FastBufferC1EPcm'
 _NEW_CDR = '_ZN8eprosima7fastcdr3CdrC1ERNS0_10FastBufferENS1_10EndiannessENS0_10CdrVersionE'
@@ -50,8 +49,8 @@ def functions() -> ctypes.CDLL:
     for function in (library.set_data, library.serialize, library.deserialize):
         function.restype = ctypes.c_bool
     try:
-        pointers = (ctypes.c_void_p * 3).in_dll(library, 'fast_cdr')
-        for i, name in enumerate((_JUMP, _POSITION, _ENDIANNESS)):
+        pointers = (ctypes.c_void_p * 2).in_dll(library, 'fast_cdr')
+        for i, name in enumerate((_JUMP, _POSITION)):
             pointers[i] = address(fast_cdr, name)
         fits = _round_trip(library, fast_cdr)
     except AttributeError:
@@ -67,6 +66,29 @@ def functions() -> ctypes.CDLL:
 def address(library: ctypes.CDLL, name: str) -> int:
     """Return where a function is."""
     return ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0
+
+
+class Shape(ctypes.Structure):
+    """struct shape of native.c."""
+
+    _fields_ = [
+        ('size', ctypes.c_uint),
+        ('has_length', ctypes.c_bool),
+        ('count', ctypes.c_size_t),
+        ('items', ctypes.c_void_p),
+    ]
+
+
+class CodecStruct(ctypes.Structure):
+    """struct codec of native.c."""
+
+    _fields_ = [
+        ('encode', ctypes.py_object),
+        ('decode', ctypes.py_object),
+        ('shape', ctypes.c_void_p),
+        ('complaint', ctypes.c_void_p),
+        ('has_complained', ctypes.c_bool),
+    ]
 
 
 class Message(ctypes.Structure):
@@ -86,7 +108,8 @@ class Message(ctypes.Structure):
 
 def _round_trip(library: ctypes.CDLL, fast_cdr: ctypes.CDLL) -> bool:
     """Write bytes into a buffer of Fast CDR and read what follows them in it."""
-    stream = ctypes.create_string_buffer(b'....written, and read', 21)
+    header, following = b'\0\1\0\0', b'what follows'
+    stream = ctypes.create_string_buffer(b'....' + following, 4 + len(following))
     buffer = ctypes.create_string_buffer(_ROOM_FOR_AN_OBJECT)
     cdr = ctypes.create_string_buffer(_ROOM_FOR_AN_OBJECT)
     getattr(fast_cdr, _NEW_BUFFER)(buffer, stream, ctypes.c_size_t(len(stream)))
@@ -98,15 +121,14 @@ def _round_trip(library: ctypes.CDLL, fast_cdr: ctypes.CDLL) -> bool:
     ]
     if found != [ctypes.addressof(buffer), ctypes.addressof(stream), len(stream)]:
         return False
-    message = Message.from_address(library.new_message(None))
+    shape = (Shape * 2)(Shape(1, False, len(following)))
+    codec = CodecStruct(shape=ctypes.addressof(shape), complaint=ctypes.addressof(stream))
+    message = Message.from_address(library.new_message(ctypes.byref(codec)))
     try:
-        text = ctypes.create_string_buffer(b'ROS!', 4)
-        message.data, message.size = ctypes.addressof(text), 4
-        written = library.serialize(ctypes.byref(message), cdr)
-        message.data, message.size = None, 0
-        read = library.deserialize(cdr, ctypes.byref(message))
-        return (
-            bool(written and read) and stream.raw[:4] + message.bytes == b'ROS!written, and read'
+        written = library.set_data(ctypes.byref(message), header, 4) and library.serialize(
+            ctypes.byref(message), cdr
         )
+        read = library.deserialize(cdr, ctypes.byref(message))
+        return bool(written and read) and stream.raw[:4] + message.bytes == header + following
     finally:
         library.destroy_message(ctypes.addressof(message))

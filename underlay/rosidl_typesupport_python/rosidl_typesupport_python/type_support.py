@@ -13,20 +13,21 @@ import ctypes
 from functools import partial
 from typing import Any
 
-from rosidl_typesupport_python.cdr import Codec, codec_of
+from rosidl_typesupport_python.cdr import Codec, codec_of, type_name
 from rosidl_typesupport_python.descriptions import Description
 from rosidl_typesupport_python.introspection import handle_of, identifier, members
 from rosidl_typesupport_python.memory import capsule, keep, keep_function, table, text
-from rosidl_typesupport_python.native import address, functions, Message
+from rosidl_typesupport_python.native import address, CodecStruct, functions, Message
+from rosidl_typesupport_python.shapes import shape_of
 
 _FAST_RTPS = 'rosidl_typesupport_fastrtps_c'
 _INTROSPECTION = 'rosidl_typesupport_introspection_c'
 
 
-class _CodecStruct(ctypes.Structure):
-    """struct codec of native.c."""
-
-    _fields_ = [('encode', ctypes.py_object), ('decode', ctypes.py_object)]
+_COMPLAINT = (
+    'Bytes that are not those of {name} came, and were dropped: build the sender and this program '
+    'from the same definition (told once)\n'
+)
 
 
 class MessageSupport:
@@ -34,7 +35,10 @@ class MessageSupport:
 
     def __init__(self, kind: Any, description: Description) -> None:
         self.codec: Codec = codec_of(kind)
-        self._codec = keep(_CodecStruct(self.codec.encode, self.codec.decode))
+        complaint = text(_COMPLAINT.format(name=type_name(kind)))
+        self._codec = keep(
+            CodecStruct(self.codec.encode, self.codec.decode, shape_of(kind), complaint)
+        )
         self.members = members(kind, ctypes.sizeof(Message))
         self.introspected = _support(
             'message', _INTROSPECTION, self.members, (), (None, *description)
@@ -65,6 +69,7 @@ class MessageSupport:
         """
         new = functions().new_message(self._codec)
         if not new or not functions().set_data(new, data, len(data)):
+            functions().destroy_message(new)
             raise MemoryError(f'{len(data)} bytes')
         return int(new)
 

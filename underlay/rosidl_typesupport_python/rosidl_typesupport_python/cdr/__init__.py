@@ -12,6 +12,6 @@ The rules (OMG DDS-XTypes 1.3, 7.4.1, encoding version 1; "ROS" marks what ROS a
 * A message is its fields in their order. Without fields it is one byte (ROS).
 """
 
-from rosidl_typesupport_python.cdr.codec import Codec, codec_of
+from rosidl_typesupport_python.cdr.codec import class_of, Codec, codec_of, type_name
 
-__all__ = ['Codec', 'codec_of']
+__all__ = ['Codec', 'class_of', 'codec_of', 'type_name']

@@ -13,7 +13,15 @@ from typing import Any, Protocol
 
 from rosidl_parser import definition as idl
 
-from rosidl_typesupport_python.cdr.items import Field, Item, Items, Numbers, Text, WideText
+from rosidl_typesupport_python.cdr.items import (
+    check_end,
+    Field,
+    Item,
+    Items,
+    Numbers,
+    Text,
+    WideText,
+)
 from rosidl_typesupport_python.cdr.row import CODES, Number, Place, Row
 
 
@@ -101,7 +109,10 @@ class Codec:
             nodes.append(node)
         for step in self._steps:
             position = step.read(data, position, nodes)
-        return nodes[0], position + (not self._steps)
+        if not self._steps:
+            position += 1
+            check_end(data, position)
+        return nodes[0], position
 
 
 codec_of = cache(Codec)

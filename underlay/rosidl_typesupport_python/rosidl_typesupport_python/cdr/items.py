@@ -18,6 +18,7 @@ from typing import Any, Protocol
 from rosidl_typesupport_python.cdr.row import Place, what_is_allowed
 
 _LENGTH = struct.Struct('<I')
+_UNKNOWN = ord('\N{REPLACEMENT CHARACTER}')
 
 
 class Item(Protocol):
@@ -39,8 +40,10 @@ class Field:
         value = self._get(message)
         try:
             self._item.write(out, value)
-        except (TypeError, ValueError) as error:
-            raise type(error)(f'{self._name}: {error}') from None
+        except TypeError as error:
+            raise TypeError(f'{self._name}: {error}') from None
+        except ValueError as error:  # or a UnicodeEncodeError, which takes more than a text
+            raise ValueError(f'{self._name}: {error}') from None
 
     def read(self, data: bytes, position: int, nodes: list[Any]) -> int:
         value, position = self._item.read(data, position)
@@ -50,6 +53,12 @@ class Field:
 
 @dataclass(frozen=True)
 class Text:
+    """
+    A string.
+
+    :param most: characters that are written; longer text is read, as by compiled types.
+    """
+
     most: int | None
 
     def write(self, out: bytearray, value: Any) -> None:
@@ -66,13 +75,17 @@ class Text:
         length, position = read_length(data, position)
         end = position + length
         check_end(data, end)
-        text = data[position:end].partition(b'\0')[0].decode('utf-8', 'replace')
-        check_length(len(text), self.most, 'characters')
-        return text, end
+        return data[position:end].partition(b'\0')[0].decode('utf-8', 'replace'), end
 
 
 @dataclass(frozen=True)
 class WideText:
+    """
+    A wstring.
+
+    :param most: units that are written; longer text is read, as by compiled types.
+    """
+
     most: int | None
 
     def write(self, out: bytearray, value: Any) -> None:
@@ -88,10 +101,8 @@ class WideText:
         end = position + 4 * length
         check_end(data, end)
         units = struct.unpack_from(f'<{length}I', data, position)
-        check_length(length, self.most, 'characters')
-        if units and max(units) > 0xFFFF:
-            raise ValueError(f'{max(units):#x} is no unit of UTF-16')
-        return array('H', units).tobytes().decode('utf-16-le'), end
+        known = array('H', (_UNKNOWN if unit > 0xFFFF else unit for unit in units))
+        return known.tobytes().decode('utf-16-le', 'replace'), end
 
 
 @dataclass(frozen=True)
