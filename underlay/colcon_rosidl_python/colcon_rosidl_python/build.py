@@ -100,6 +100,7 @@ def _build_interfaces(
             generate(manifest.name, package.interfaces, folder, Path(new), shares)
         except GenerationError as error:
             raise BuildError(str(error)) from None
+        stamp.unlink(missing_ok=True)  # an interrupt leaves nothing that seems whole
         install_interfaces(manifest.name, Path(new), prefix)
     stamp.write_text(key)
 

@@ -21,6 +21,7 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.DOTALL,
 )
+_GLOBS = (('GLOB',), ('GLOB_RECURSE',))
 _VARIABLE = re.compile(r'\$\{(\w+)\}')
 _ESCAPE = re.compile(r'\\(.)')
 
@@ -50,8 +51,10 @@ def read_commands(path: Path) -> Iterator[Command]:
     """
     Yield the commands of a file; set, list and file(GLOB) are done, not yielded.
 
-    :raises CMakeListsError: if the file is not well-formed.
+    :raises CMakeListsError: if there is no such file, or it is not well-formed.
     """
+    if not path.is_file():
+        raise CMakeListsError('CMakeLists.txt: there is none; package.xml says ament_cmake')
     folder = str(path.parent)
     variables = {
         **dict.fromkeys(('CMAKE_CURRENT_SOURCE_DIR', 'CMAKE_SOURCE_DIR'), folder),
@@ -73,11 +76,14 @@ def read_commands(path: Path) -> Iterator[Command]:
         elif name == 'set' and arguments:
             if not conditions:
                 variables[arguments[0]] = ';'.join(arguments[1:])
-        elif name == 'list' and arguments[:1] == ('APPEND',):
+        elif name == 'list' and arguments[:1] == ('APPEND',) and len(arguments) > 1:
             before = variables.get(arguments[1], '')
             variables[arguments[1]] = ';'.join(filter(None, (before, *arguments[2:])))
-        elif name == 'file' and arguments[:1] in (('GLOB',), ('GLOB_RECURSE',)):
-            variables[arguments[1]] = ';'.join(_glob(path.parent, arguments[2:]))
+        elif name == 'file' and arguments[:1] in _GLOBS and len(arguments) > 1:
+            try:
+                variables[arguments[1]] = ';'.join(_glob(path.parent, arguments[2:]))
+            except (ValueError, NotImplementedError) as error:
+                raise command.refused(f'{error}; allowed is msg/*.msg or the like') from None
         else:
             yield command
 

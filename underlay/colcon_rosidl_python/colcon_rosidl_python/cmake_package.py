@@ -109,7 +109,7 @@ def _add_interfaces(package: CMakePackage, command: Command, folder: Path) -> No
 
 def _add_install(package: CMakePackage, command: Command, folder: Path) -> None:
     what, *arguments = command.arguments or ('',)
-    if what not in ('FILES', 'PROGRAMS', 'DIRECTORY') or 'DESTINATION' not in arguments:
+    if what not in ('FILES', 'PROGRAMS', 'DIRECTORY') or 'DESTINATION' not in arguments[:-1]:
         raise command.refused('allowed is FILES, PROGRAMS or DIRECTORY with a DESTINATION')
     sources = arguments[: arguments.index('DESTINATION')]
     destination, *rest = arguments[arguments.index('DESTINATION') + 1 :]
@@ -121,8 +121,9 @@ def _add_install(package: CMakePackage, command: Command, folder: Path) -> None:
         target = Path(destination) / ('' if inside else rename or path.name)
         if path.is_absolute() or target.is_absolute() or '..' in (*path.parts, *target.parts):
             raise command.refused(f'{source}: only what is in the package, to inside the prefix')
-        if not (folder / path).exists():
-            raise command.refused(f'there is no {path}: mend the name, or take it out')
+        place, kind = folder / path, 'folder' if what == 'DIRECTORY' else 'file'
+        if not (place.is_dir() if what == 'DIRECTORY' else place.is_file()):
+            raise command.refused(f'there is no {kind} {path}: mend the name, or take it out')
         package.installs.append(Install(path, target, without, only))
 
 
@@ -148,8 +149,8 @@ def _install_options(
 
 def _add_module(package: CMakePackage, command: Command, folder: Path) -> None:
     name, *rest = command.arguments or ('',)
-    path = Path(rest[rest.index('PACKAGE_DIR') + 1] if 'PACKAGE_DIR' in rest else name)
-    if not (folder / path / '__init__.py').is_file():
+    path = Path(rest[rest.index('PACKAGE_DIR') + 1] if 'PACKAGE_DIR' in rest[:-1] else name)
+    if not name or not (folder / path / '__init__.py').is_file():
         raise command.refused(f'there is no {path}/__init__.py')
     package.modules[name] = path
 

@@ -9,6 +9,7 @@ import contextlib
 from difflib import get_close_matches
 import io
 import keyword
+import math
 from pathlib import Path
 import re
 
@@ -41,6 +42,9 @@ def mistakes(package: str, folder: Path, path: Path, known: Known) -> Iterator[s
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b'\n') + 1
         yield f'{path}:{line}: this is not UTF-8: save the file in that encoding'
+        return
+    if text.startswith('\ufeff'):
+        yield f'{path}:1: the file begins with a byte order mark: save it as UTF-8 without one'
         return
     if not parser.is_valid_message_name(path.stem):
         yield (
@@ -135,13 +139,18 @@ def _read_line(package: str, stem: str, line: str) -> tuple[parser.Type, str] | 
             spec = parser.parse_message_string(package, stem, code)
     except parser.InvalidResourceName:
         raise ValueError(_no_type(kind)) from None
-    except (parser.InvalidSpecification, parser.InvalidValue, TypeError) as error:
-        raise ValueError(f'{code!r}: {error}') from None
+    except (parser.InvalidSpecification, parser.InvalidValue, TypeError, ValueError) as error:
+        raise ValueError(f'{code!r}: {" ".join(str(error).split())}') from None
     except NotImplementedError:
         raise ValueError(f'{code!r}: only numbers, bool and text have defaults') from None
     if spec.constants:
-        return parser.Type(spec.constants[0].type), name
-    return spec.fields[0].type, name
+        kind_of_value, value = parser.Type(spec.constants[0].type), spec.constants[0].value
+    else:
+        kind_of_value, value = spec.fields[0].type, spec.fields[0].default_value
+    for number in value if isinstance(value, list) else [value]:
+        if isinstance(number, float) and not math.isfinite(number):
+            raise ValueError(f'{code!r}: {number} cannot be written in IDL: use a finite number')
+    return kind_of_value, name
 
 
 def _check_words(kind: str) -> None:

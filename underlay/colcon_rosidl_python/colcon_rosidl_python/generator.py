@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 import contextlib
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 import json
 import os
 from pathlib import Path
@@ -22,7 +23,7 @@ from ament_index_python import get_package_share_directory
 from rosidl_adapter import convert_to_idl
 import rosidl_generator_type_description as generator
 from rosidl_parser import parser
-from rosidl_parser.definition import IdlContent, IdlFile
+from rosidl_parser.definition import IdlContent, IdlFile, Message, NamespacedType
 from rosidl_pycommon import convert_camel_case_to_lower_case_underscore as snake_case
 from rosidl_pycommon import expand_template
 
@@ -80,6 +81,7 @@ def generate(
     """
     share, python = target / 'share' / package, target / 'python' / package
     made = dict(_make(package, source, share, python, path) for path in definitions)
+    _refuse_circles(package, made)
     _describe(package, made, share, shares)
     _write_modules(package, list(made), python)
 
@@ -102,8 +104,37 @@ def _make(
             module = python / kind / f'_{snake_case(idl.stem)}.py'
             expand_template('_idl.py.em', context, str(module), template_basepath=_templates())
     except Exception as error:
-        raise GenerationError(f'{path}: {type(error).__name__}: {error}') from None
+        why = (str(error).splitlines() or [''])[0]
+        raise GenerationError(
+            f"{path}: upstream's generators refuse it: {type(error).__name__}: {why}"
+        ) from None
     return idl, content
+
+
+def _refuse_circles(package: str, contents: Mapping[Path, IdlContent]) -> None:
+    """
+    Find messages that would have no end.
+
+    :raises GenerationError: if a message holds itself, or another that does.
+    """
+    holds: dict[str, list[str]] = {}
+    for content in contents.values():
+        for message in content.get_elements_of_type(Message):
+            kinds = [
+                getattr(each.type, 'value_type', each.type) for each in message.structure.members
+            ]
+            holds[message.structure.namespaced_type.name] = [
+                kind.name
+                for kind in kinds
+                if isinstance(kind, NamespacedType) and kind.namespaces == [package, 'msg']
+            ]
+    try:
+        TopologicalSorter(holds).prepare()
+    except CycleError as error:
+        circle = ' in '.join(error.args[1])
+        raise GenerationError(
+            f'a message cannot hold itself: {circle}: take a field out'
+        ) from None
 
 
 def _describe(

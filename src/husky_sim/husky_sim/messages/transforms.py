@@ -18,7 +18,6 @@ from husky_sim.messages.packed_message import PackedMessage
 from husky_sim.robot.husky import WHEELS
 from husky_sim.simulation import SimulatedRobot
 
-TFMessage: Any
 try:
     from tf2_msgs.msg import TFMessage
 except ImportError:
