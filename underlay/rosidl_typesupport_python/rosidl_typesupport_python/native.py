@@ -122,7 +122,7 @@ def _round_trip(library: ctypes.CDLL, fast_cdr: ctypes.CDLL) -> bool:
     if found != [ctypes.addressof(buffer), ctypes.addressof(stream), len(stream)]:
         return False
     shape = (Shape * 2)(Shape(1, False, len(following)))
-    codec = CodecStruct(shape=ctypes.addressof(shape), complaint=ctypes.addressof(stream))
+    codec = CodecStruct(shape=ctypes.addressof(shape), has_complained=True)
     message = Message.from_address(library.new_message(ctypes.byref(codec)))
     try:
         written = library.set_data(ctypes.byref(message), header, 4) and library.serialize(

@@ -23,6 +23,8 @@ try:
 except ImportError:
     TFMessage = None
 
+__all__ = ['TFMessage', 'TransformsMessage', 'fixed_transforms']
+
 _WHEEL_X_M, _WHEEL_Y_M, _WHEEL_Z_M = 0.256, 0.2854, 0.03282
 _FIXED = {
     'base_footprint': (0.0, 0.0, -0.13228),
