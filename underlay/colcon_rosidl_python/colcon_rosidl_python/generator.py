@@ -57,8 +57,6 @@ __getattr__ = capsules_of(
 )
 '''
 
-parse_once()
-
 
 class GenerationError(RuntimeError):
     """Upstream's generators refuse a definition."""
@@ -79,6 +77,7 @@ def generate(
     :param shares: the share folders of the packages that definitions may name.
     :raises GenerationError: if one cannot be done.
     """
+    parse_once()
     share, python = target / 'share' / package, target / 'python' / package
     made = dict(_make(package, source, share, python, path) for path in definitions)
     _refuse_circles(package, made)
