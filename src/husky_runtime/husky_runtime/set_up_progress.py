@@ -120,7 +120,7 @@ class Display:
 
 
 def _left(passed_sec: float, part: float) -> str:
-    if passed_sec < TELLS_AFTER_SEC or part < LITTLE:
+    if passed_sec < TELLS_AFTER_SEC or not LITTLE < part < 1.0 - LITTLE:
         return ''
     return f', about {passed_sec * (1.0 - part) / part:.0f} s left'
 
