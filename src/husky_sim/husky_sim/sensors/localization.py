@@ -48,8 +48,8 @@ class PlanarFilter:
             self._jacobian[row, column] = period_sec
         self._inverse = np.empty((3, 3))
         # Numbers are written through these: into a row of an array it takes five times as long.
-        self._jacobian_numbers = self._jacobian.ravel().data
-        self._inverse_numbers = self._inverse.ravel().data
+        self._jacobian_numbers = self._jacobian.data.cast('B').cast('d')
+        self._inverse_numbers = self._inverse.data.cast('B').cast('d')
         self.reset()
 
     def reset(self, imu_yaw: float = 0.0) -> None:
