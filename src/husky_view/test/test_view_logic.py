@@ -19,10 +19,12 @@ from husky_view.editor.course import EditableCourse
 from husky_view.live.checks import RealTimeFactor
 from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
 from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
+from husky_view.picture.matte import matte_meshes
 from husky_view.picture.page import Direction, in_decimals
 from husky_view.picture.picture import first_of_run
 from husky_view.replay.panel import Playback
 from husky_view.replay.run import load_run, RunScenes
+from mjviser import scene as mjviser_scene
 import numpy as np
 import pytest
 
@@ -45,6 +47,21 @@ def test_the_distance_to_a_line_is_positive_on_its_left() -> None:
     assert distance_to_line(np.array([4.2, 2.0]), line) == pytest.approx(-0.2)
     with pytest.raises(ValueError, match='needs at least 2'):
         distance_to_line(np.zeros(2), line[:1])
+
+
+def test_a_painted_obstacle_is_not_written_as_metal() -> None:
+    world = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml'))).world
+    model, barrier = world.model, world.model.body('jersey_barrier_15')
+    geoms = list(range(int(barrier.geomadr[0]), int(barrier.geomadr[0] + barrier.geomnum[0])))
+    with matte_meshes():
+        mesh = mjviser_scene.merge_geoms(model, geoms)
+    written = mesh.export(file_type='glb')
+    length = int.from_bytes(written[12:16], 'little')
+    tree = json.loads(written[20 : 20 + length])
+    place = tree['meshes'][0]['primitives'][0]['material']
+    assert tree['materials'][place]['pbrMetallicRoughness']['metallicFactor'] == 0.0
+    # 0.72 as it is on a screen reflects 0.48 of the light (sRGB, IEC 61966-2-1).
+    assert mesh.visual.vertex_colors[0, 0] == pytest.approx(0.477 * 255.0, abs=1.0)
 
 
 def test_a_ray_meets_the_ground_only_below_itself() -> None:

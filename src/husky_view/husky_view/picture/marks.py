@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from husky_course.frames import Array
 from husky_course.record import Collision
+from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 import numpy as np
 import numpy.typing as npt
 import trimesh
@@ -29,6 +30,9 @@ FLASH_SEC = 2.5
 MOST_COLLISIONS = 50
 PIN_M = 1.2
 """Height of a collision's pin: lower, walls and the robot would hide it."""
+
+SHADOW_SCALE, SHADOW_OPACITY = 1.35, 0.75
+"""Size of a shadow, of that of the robot."""
 
 _FLASH_SCALE = 4.0
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
@@ -189,6 +193,36 @@ class NumberedDiscs:
                 on_drag(event)
 
         return discs
+
+
+class ContactShadow:
+    """A soft dark spot under a robot, or it would seem to float: the scene has no shadows."""
+
+    def __init__(self, server: viser.ViserServer, name: str, height_m: float) -> None:
+        self._height_m = height_m
+        self._spot = server.scene.add_image(
+            name,
+            _soft_spot(),
+            render_width=SHADOW_SCALE * ROBOT_LENGTH_M,
+            render_height=SHADOW_SCALE * ROBOT_WIDTH_M,
+            format='png',
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+    def move(self, x: float, y: float, *, yaw: float) -> None:
+        """Put it under a robot."""
+        self._spot.position = (x, y, self._height_m)
+        self._spot.wxyz = (math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0))
+
+
+def _soft_spot() -> npt.NDArray[np.uint8]:
+    """Return black pixels, dark in the middle and clear at the border."""
+    across = np.linspace(-1.0, 1.0, 64)
+    away = np.hypot(*np.meshgrid(np.abs(across) ** 2, np.abs(across) ** 2))
+    pixels = np.zeros((64, 64, 4), dtype=np.uint8)
+    pixels[..., 3] = 255.0 * SHADOW_OPACITY * np.clip(1.6 * (1.0 - away), 0.0, 1.0)
+    return pixels
 
 
 class _Flash(NamedTuple):

@@ -18,7 +18,14 @@ import viser
 from husky_view.picture import palette
 from husky_view.picture.camera import Cameras
 from husky_view.picture.geometry import distance_to_line, to_world
-from husky_view.picture.marks import add_line, CollisionMarks, lifted, NumberedDiscs, Trail
+from husky_view.picture.marks import (
+    add_line,
+    CollisionMarks,
+    ContactShadow,
+    lifted,
+    NumberedDiscs,
+    Trail,
+)
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
 
 _X, _ODOM_X, _YAW = TRACK.index('x'), TRACK.index('odom_x'), TRACK.index('yaw')
@@ -57,17 +64,20 @@ class RobotMarks:
             point_size=0.04,
             visible=False,
         )
+        self._shadow = ContactShadow(server, f'{name}/shadow', ground_m + ABOVE_GROUND_M / 2.0)
         self._path: Array = np.zeros((0, 2))
         self._height_m = ground_m + ABOVE_GROUND_M
         self._x_y: Array = np.array([start.x, start.y])
         self.yaw = start.yaw
         self.speed_m_s = 0.0
+        self._shadow.move(start.x, start.y, yaw=start.yaw)
 
     def move(self, track: Array) -> None:
         """Take the newest entries (n, len(TRACK)) of this robot's track."""
         self._x_y = track[-1, _X : _X + 2].copy()
         self.yaw = float(track[-1, _YAW])
         self.speed_m_s = float(track[-1, _SPEED])
+        self._shadow.move(*self._x_y.tolist(), yaw=self.yaw)
         self._true_trail.extend(lifted(track[:, _X : _X + 2], self._height_m + 0.02))
         odometry = to_world(self._start, track[:, _ODOM_X : _ODOM_X + 2])
         self._odometry_trail.extend(lifted(odometry, self._height_m + 0.01))

@@ -9,13 +9,16 @@ import mujoco
 import numpy as np
 import viser
 
+from husky_view.picture.matte import matte_meshes
+
 GROUND = (176, 174, 168)
 GROUND_LINES = (160, 158, 152)
 
 SKY = (235, 242, 255)
 SKY_ABOVE, SKY_BELOW = (150, 190, 230), (245, 248, 252)
+SKY_INTENSITY = 2.6
 # Name, position, intensity. With one light alone, sides in its shadow would look flat.
-SUNS = (('sun', (-6.0, -9.0, 14.0), 2.2), ('second_sun', (9.0, 4.0, 6.0), 0.7))
+SUNS = (('sun', (-6.0, -9.0, 14.0), 2.4), ('second_sun', (9.0, 4.0, 6.0), 0.7))
 
 ABOVE_GROUND_M = 0.02
 """Height of lines: at the height of the ground they would flicker."""
@@ -31,7 +34,8 @@ class PlaypenScene:
         _color_textured(world.model)
         self._data = mujoco.MjData(world.model)
         mujoco.mj_kinematics(world.model, self._data)
-        self._scene = ViserMujocoScene(server, world.model, num_envs=1)
+        with matte_meshes():
+            self._scene = ViserMujocoScene(server, world.model, num_envs=1)
         self._scene.camera_tracking_enabled = False
         _light(server)
         _color_planes(server, world.model)
@@ -70,7 +74,9 @@ def _light(server: viser.ViserServer) -> None:
     scene = server.scene
     scene.configure_environment_map(None)
     scene.configure_default_lights(enabled=False)
-    scene.add_light_hemisphere('/light/sky', sky_color=SKY, ground_color=GROUND, intensity=1.6)
+    scene.add_light_hemisphere(
+        '/light/sky', sky_color=SKY, ground_color=GROUND, intensity=SKY_INTENSITY
+    )
     for name, position, intensity in SUNS:
         scene.add_light_directional(
             f'/light/{name}', position=position, intensity=intensity, cast_shadow=False
