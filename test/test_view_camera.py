@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 import math
 import time
 
-from husky_view.picture.camera import BACK_M, Cameras, FOLLOW, FREE, TOP, UP_M
+from husky_view.picture.camera import BACK_M, Cameras, PANEL_PX, UP_M
+from husky_view.picture.page import FOLLOW, FREE, TOP
 from husky_view.server import close_server, PageServer
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +23,7 @@ SPEED_M_S, AHEAD = 1.0, np.array([1.0, 0.0, 0.0])
 BEHIND = np.array([-BACK_M, 0.0, UP_M])
 BEHIND_M = math.hypot(BACK_M, UP_M)
 CENTER, EXTENT_M = np.array([0.0, 0.0, 0.5]), 12.0
+SEEN = (-9.0, 7.0, -8.0, 8.0)
 
 
 class Scene:
@@ -86,7 +88,7 @@ class Scene:
 def scene(browser: Browser) -> Iterator[Scene]:
     server = PageServer('127.0.0.1', 18780, title='cameras')
     server.gui.add_html('<b class="husky-page" data-number="time">0</b>')
-    cameras = Cameras(server, center=CENTER, extent_m=EXTENT_M)
+    cameras = Cameras(server, center=CENTER, extent_m=EXTENT_M, seen_from_above=SEEN)
     page = open_page(browser, server.address)
     wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
     yield Scene(server, cameras, page)
@@ -131,7 +133,16 @@ def test_free_leaves_the_camera_alone_and_top_looks_down(scene: Scene) -> None:
     scene.wait(lambda: scene.robot[0] > begun + 1.0, 'a robot that drives off')
     assert distance(scene.at, stood) < 0.005, 'a free camera is left alone'
     scene.choose(TOP)
-    scene.wait(lambda: distance(scene.at, CENTER) < 0.01, 'a camera that looks at the middle')
+    scene.wait(
+        lambda: abs(scene.at[1] - CENTER[1]) < 0.01 and scene.away_m > 12.0,
+        'a camera that looks at the middle',
+    )
     down = -scene.offset / scene.away_m
     assert down[2] < -0.99
-    assert scene.offset[2] > EXTENT_M, 'all of it is in the picture'
+    low_x, high_x, low_y, high_y = SEEN
+    seen_m = 2.0 * scene.offset[2] * math.tan(math.radians(25.0))
+    assert seen_m > high_y - low_y, 'all of it is in the picture'
+    to_the_left_px = (scene.at[0] - (low_x + high_x) / 2.0) / seen_m * 700
+    half_px = (high_x - low_x) / 2.0 / seen_m * 700
+    assert 500 - to_the_left_px - half_px > 0, 'all of it is in the picture'
+    assert 500 - to_the_left_px + half_px < 1000 - PANEL_PX, 'the panel hides a part of it'

@@ -5,7 +5,11 @@
 from collections.abc import Iterator, Sequence
 import math
 
+from husky_course.robot import RobotStart
 from husky_course.waypoints import load_course
+from husky_sim.world import default_worlds, load_world
+from husky_view.picture.camera import PANEL_PX, TOP_MARGIN
+from husky_view.picture.geometry import bounds
 from playpen_testing.browser import button, drag, errors, Place
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
@@ -16,6 +20,7 @@ from husky_grader import check
 
 SIZE = (1000, 700)
 NAME = 'clicked'
+FOV, CENTER_M, GROUND_M = math.radians(50.0), 0.5, 0.07
 # In the world, which is the frame odom here: clear of every obstacle.
 PLACES: tuple[Place, ...] = ((0.0, 0.0), (-2.0, 0.5), (-4.0, 0.0))
 
@@ -39,10 +44,14 @@ def page(lab: Lab) -> Page:
 
 def on_screen(x: float, y: float) -> Place:
     """Return where the preset Top shows a place of the ground."""
-    fov, extent_m, center_z_m, ground_m = math.radians(50.0), 12.0, 0.5, 0.07
-    height_m = 1.15 * extent_m / math.tan(fov / 2.0) + center_z_m - ground_m
-    pixels = SIZE[1] / 2.0 / math.tan(fov / 2.0) / height_m
-    return SIZE[0] / 2.0 + pixels * x, SIZE[1] / 2.0 - pixels * y
+    outlines = load_world(str(default_worlds() / 'playpen.xml'), [RobotStart()]).obstacles
+    low_x, high_x, low_y, high_y = bounds(outlines, at_least_m=0.0)
+    free = SIZE[0] - PANEL_PX
+    half_m = TOP_MARGIN * max(high_y - low_y, (high_x - low_x) * SIZE[1] / free) / 2.0
+    at = (low_x + high_x) / 2.0 + PANEL_PX * half_m / SIZE[1], (low_y + high_y) / 2.0
+    # The ground is below what it looks at, and seems a little smaller.
+    pixels = SIZE[1] / 2.0 / (half_m + (CENTER_M - GROUND_M) * math.tan(FOV / 2.0))
+    return SIZE[0] / 2.0 + pixels * (x - at[0]), SIZE[1] / 2.0 - pixels * (y - at[1])
 
 
 def saved(lab: Lab) -> list[Place]:
@@ -78,6 +87,19 @@ def test_what_is_clicked_and_dragged_is_saved_and_valid(
     assert distances(saved(lab)[:2], PLACES[:2]) < 0.12, 'others moved as well'
     assert check.main([str(file)]) == 0, capsys.readouterr().err
     assert errors(page) == []
+
+
+@pytest.mark.timeout(60)
+def test_the_pointer_tells_where_it_is_and_what_is_there(page: Page) -> None:
+    pointer = page.locator('#husky-pointer')
+    page.mouse.move(*on_screen(-2.0, 0.5))
+    expect(pointer).to_be_visible()
+    x, y = (float(word.replace('\u2212', '-')) for word in pointer.inner_text().split()[1::2])
+    assert math.dist((x, y), (-2.0, 0.5)) < 0.1
+    page.mouse.move(*on_screen(2.45, 0.0))
+    expect(pointer).to_contain_text('jersey_barrier_15')
+    page.mouse.move(SIZE[0] - PANEL_PX / 2.0, 100.0)
+    expect(pointer).to_be_hidden()
 
 
 @pytest.mark.timeout(180)

@@ -31,7 +31,7 @@ from playpen_testing.browser import (
 from playpen_testing.processes import Processes
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, expect, Page
 import pytest
 
 from husky_sim.config import SimulationConfig
@@ -103,6 +103,9 @@ def test_a_drive_shows_path_and_trail_in_the_legends_colours(
         return [what for what, color in shown.items() if count(png, color) < 25]
 
     wait_until(lambda: not missing(), timeout_sec=60.0, what=lambda: f'{missing()} in the picture')
+    legend = page.locator('.husky-legend')
+    expect(legend).to_contain_text('given path and waypoints')
+    expect(legend).not_to_contain_text('lidar')
     keep(page, 'view_live.png')
     assert errors(page) == []
     assert int(number(page, 'left').inner_text()) < 13

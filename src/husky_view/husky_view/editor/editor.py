@@ -21,6 +21,7 @@ from husky_view.editor import course
 from husky_view.picture import palette
 from husky_view.picture.geometry import on_ground, to_odom, to_world
 from husky_view.picture.marks import add_line, lifted, NumberedDiscs
+from husky_view.picture.page import ON_TOP
 from husky_view.picture.scene import ABOVE_GROUND_M
 from husky_view.server import ActionQueue
 
@@ -32,7 +33,7 @@ EDIT = 'Edit: click on the ground'
 ENOUGH_M, SCARCE_M = 0.30, 0.15
 """Clearances: comfortable from the first on; a good drive needs the second."""
 
-_PATH = '/editor/path'
+_PATH, _TOO_NEAR = '/editor/path', f'{ON_TOP}editor/too_near'
 
 
 def _clearance_color(clearance_m: float) -> palette.Rgb:
@@ -46,6 +47,7 @@ class Editor:
     Edits one course, in the frame odom of one robot.
 
     :param drive: called with a saved file to drive it.
+    :param on_editing: called with whether it is edited, when that changes.
     :param notify: called with a title, a text and whether it is an error.
     """
 
@@ -58,6 +60,7 @@ class Editor:
         folder: Path,
         ground_m: float,
         drive: Callable[[Path], None],
+        on_editing: Callable[[bool], None],
         notify: Callable[[str, str, bool], None],
     ) -> None:
         self._edited = course.EditableCourse()
@@ -68,6 +71,8 @@ class Editor:
         self._folder = folder
         self._height_m = ground_m + ABOVE_GROUND_M
         self._drive = drive
+        self._on_editing = on_editing
+        self._colors: frozenset[palette.Rgb] = frozenset()
         self._notify = notify
         self._discs = NumberedDiscs(
             server,
@@ -88,6 +93,10 @@ class Editor:
         """Edit in the frame odom of another robot."""
         self._start = self._world.robots[place]
         self._changed = True
+
+    def colors(self) -> frozenset[palette.Rgb]:
+        """Return the colours of the path that is edited, for the legend."""
+        return self._colors
 
     def close(self) -> None:
         """Stop taking clicks on the ground."""
@@ -114,6 +123,7 @@ class Editor:
         if editing == self._editing:
             return
         self._editing = editing
+        self._on_editing(editing)
         if editing:
             self._server.scene.on_click()(self._on_click)
         else:
@@ -186,7 +196,9 @@ class Editor:
         if not self._changed:
             return
         self._changed = False
-        self._server.scene.remove_by_name(_PATH)
+        for name in (_PATH, _TOO_NEAR):
+            self._server.scene.remove_by_name(name)
+        self._colors = frozenset()
         if not self._editing:
             self._discs.show(np.zeros((0, 3)))
             return
@@ -195,6 +207,7 @@ class Editor:
         self._discs.show(
             lifted(to_world(self._start, points), self._height_m),
             highlighted=slice(0) if place is None else slice(place, place + 1),
+            note='' if place is None else f'  ({points[place][0]:.2f}, {points[place][1]:.2f})',
         )
         try:
             seen = course.preview(self._edited.course, self._start, self._world.obstacles)
@@ -212,14 +225,27 @@ class Editor:
         self._say(f'{len(points)} waypoints; {words}{enough}', color)
 
     def _show_path(self, line: Array, clearance_m: Array) -> None:
-        colors = np.array([_clearance_color(float(c)) for c in clearance_m], dtype=np.uint8)
-        if len(line) >= 2:
-            add_line(
-                self._server,
-                _PATH,
-                lifted(line, self._height_m + 0.02),
-                np.stack([colors[:-1], colors[1:]], axis=1),
-                thickness_px=4.0,
+        if len(line) < 2:
+            return
+        each = [_clearance_color(float(distance_m)) for distance_m in clearance_m]
+        self._colors = frozenset(each)
+        points, colors = lifted(line, self._height_m + 0.02), np.array(each, dtype=np.uint8)
+        add_line(
+            self._server,
+            _PATH,
+            points,
+            np.stack([colors[:-1], colors[1:]], axis=1),
+            thickness_px=4.0,
+        )
+        # Over everything: it is the obstacle in the way that would hide it.
+        near = (clearance_m < SCARCE_M)[:-1] & (clearance_m < SCARCE_M)[1:]
+        if near.any():
+            self._server.scene.add_line_segments(
+                _TOO_NEAR,
+                np.stack([points[:-1], points[1:]], axis=1)[near].astype(np.float32),
+                palette.BLOCKED,
+                thickness=7.0,
+                thickness_units='screen',
             )
 
     def _say(self, text: str, color: palette.Rgb) -> None:

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics and services of the simulator and of each robot, as the live view uses them."""
+"""The topics of each robot, as the live view uses them."""
 
 from __future__ import annotations
 
@@ -8,25 +8,22 @@ from collections.abc import Callable
 from contextlib import ExitStack
 import math
 import time
-from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped, PoseArray, Twist
 from husky_course.frames import Array
 from husky_course.record import Collision
-from husky_course.robot import RobotStart
-from husky_sim.world import default_worlds
 from nav_msgs.msg import Path
 import numpy as np
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.task import Future
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool, UInt32
-from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_view.live.checks import FARTHEST_M
 from husky_view.picture.picture import Picture
@@ -36,110 +33,6 @@ NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 IDLE_SEC = 1.0
 """A page that has not driven for so long publishes no commands any more: others may."""
-
-ANSWER_SEC = 2.0
-"""A request without an answer is repeated after this time."""
-
-_PARAMETERS = ['world', 'x', 'y', 'yaw', 'robots']
-
-
-class SimulatorQuery:
-    """Asks a simulator which world and robots it runs. Nothing here blocks."""
-
-    def __init__(self, node: Node, name: str) -> None:
-        self.name = name
-        self._client = node.create_client(GetParameters, f'{name}/get_parameters')
-        self._request: Future[Any] | None = None
-        self._due_sec = 0.0
-
-    def poll(self) -> tuple[str, tuple[RobotStart, ...]] | None:
-        """Return the world's file and the robots if an answer has come; else ask where due."""
-        now = time.monotonic()
-        if self._request is None or now > self._due_sec:
-            self._due_sec = now + ANSWER_SEC
-            if self._client.service_is_ready():
-                self._request = self._client.call_async(GetParameters.Request(names=_PARAMETERS))
-            else:
-                self._request = None
-        elif self._request.done():
-            answer, self._request = self._request.result(), None
-            return _world_and_robots(answer)
-        return None
-
-
-def _world_and_robots(answer: GetParameters.Response) -> tuple[str, tuple[RobotStart, ...]]:
-    world, x, y, yaw, robots = answer.values
-    starts = tuple(RobotStart.parse(line) for line in robots.string_array_value if line.strip())
-    one = RobotStart(x=_number(x), y=_number(y), yaw=_number(yaw))
-    return world.string_value or str(default_worlds() / 'playpen.xml'), starts or (one,)
-
-
-def _number(value: ParameterValue) -> float:
-    # A person may have written 1 for 1.0.
-    if value.type == ParameterType.PARAMETER_INTEGER:
-        return float(value.integer_value)
-    return float(value.double_value)
-
-
-class SimulatorControl:
-    """
-    Controls a running simulator. Nothing here blocks.
-
-    :param refused: called with what could not be done and why.
-    :param closing: destroys the clients.
-    """
-
-    def __init__(
-        self, node: Node, name: str, refused: Callable[[str, str], None], closing: ExitStack
-    ) -> None:
-        self._name = name
-        self._refused = refused
-
-        def create_client(kind: Any, service: str) -> Any:
-            client = node.create_client(kind, f'{name}/{service}')
-            closing.callback(node.destroy_client, client)
-            return client
-
-        self._set = create_client(SetParameters, 'set_parameters')
-        self._pause = create_client(SetBool, 'pause')
-        self._step = create_client(Trigger, 'step')
-        self._reset = create_client(Empty, 'reset')
-
-    def pause(self, paused: bool) -> None:
-        """Pause, or go on."""
-        self._call('Pause', self._pause, SetBool.Request(data=paused))
-
-    def step(self) -> None:
-        """Advance a paused simulation by one control period."""
-        self._call('Step', self._step, Trigger.Request())
-
-    def reset(self, then: Callable[[], None] | None = None) -> None:
-        """Put everything back to the start; `then` is called when it is done."""
-        self._call('Reset', self._reset, Empty.Request(), then)
-
-    def set_factor(self, factor: float) -> None:
-        """Set the real-time factor; 0 is as fast as possible."""
-        value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=factor)
-        parameter = Parameter(name='real_time_factor', value=value)
-        self._call('Speed', self._set, SetParameters.Request(parameters=[parameter]))
-
-    def _call(
-        self, what: str, client: Any, request: Any, then: Callable[[], None] | None = None
-    ) -> None:
-        if not client.service_is_ready():
-            self._refused(what, f'{self._name} does not answer: is the simulator running?')
-            return
-
-        def on_done(future: Future[Any]) -> None:
-            for result in getattr(future.result(), 'results', [future.result()]):
-                if not getattr(result, 'successful', getattr(result, 'success', True)):
-                    reason = getattr(result, 'reason', '') or getattr(result, 'message', '')
-                    self._refused(what, reason)
-                    return
-            if then is not None:
-                then()
-
-        client.call_async(request).add_done_callback(on_done)
 
 
 class RobotLink:

@@ -27,8 +27,8 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from husky_view.editor.course import waypoint_folder
-from husky_view.live.links import SimulatorQuery
 from husky_view.live.panel import warning_html
+from husky_view.live.simulator import SimulatorQuery
 from husky_view.live.view import LiveView
 from husky_view.server import close_server, PageServer
 
@@ -99,6 +99,8 @@ class ViewNode(Node):
             if world is not None:
                 self._server.gui.reset()
                 self._server.scene.reset()
+                for client in self._server.get_clients().values():
+                    client.scene.reset()  # what only one tab shows
 
     def _wait_for_world(self, interrupted: Future[None]) -> World | None:
         name = self._query.name

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The panel beside a live simulation: figures, controls, buttons that drive, and the legend."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 from html import escape
 import time
@@ -10,7 +10,7 @@ from typing import Any
 
 import viser
 
-from husky_view.live.links import SimulatorControl
+from husky_view.live.simulator import SimulatorControl
 from husky_view.live.teleop import HOLD_HZ, Teleop
 from husky_view.picture.camera import add_camera_buttons
 from husky_view.picture.page import (
@@ -18,9 +18,12 @@ from husky_view.picture.page import (
     figures_html,
     in_decimals,
     legend_html,
+    page_html,
     RELEASE,
+    show_html,
     STOP,
 )
+from husky_view.picture.palette import Rgb
 from husky_view.server import ActionQueue
 
 PAUSE, RESUME, STEP, RESET = 'Pause', 'Resume', 'Step', 'Reset'
@@ -70,7 +73,9 @@ class Panel:
                 lambda event: self._later(lambda: choose_robot(robots.index(event.target.value)))
             )
         self._add_drive_buttons(gui)
-        gui.add_html(legend_html())
+        self._page = gui.add_html(page_html())
+        self._legend = gui.add_html('')
+        self._ground = gui.add_html('')
 
     def _add_drive_buttons(self, gui: viser.GuiApi) -> None:
         teleop = self.teleop
@@ -119,8 +124,15 @@ class Panel:
         cross_track_m: float | None,
         waypoints_left: int | None,
         collisions: int,
+        colors: Collection[Rgb],
+        ground: str,
     ) -> None:
-        """Show the figures; None where there is no value."""
+        """
+        Show the figures; None where there is no value.
+
+        :param colors: of what there is to be seen, for the legend.
+        :param ground: HTML of what the pointer is told about.
+        """
         if paused != self._paused:
             self._paused = paused
             self._time.options = (RESUME if paused else PAUSE, STEP, RESET)
@@ -139,15 +151,16 @@ class Panel:
             red='collisions' if collisions else '',
         )
         state = '<b style="color:#e80">paused</b>' if paused else ''
-        html = f'{table}<div style="padding:0 1em .3em">{state}</div>'
-        if html != self._figures.content:
-            self._figures.content = html
+        show_html(self._figures, f'{table}<div style="padding:0 1em .3em">{state}</div>')
+        show_html(self._legend, legend_html(colors))
+        show_html(self._ground, ground)
+        now = self._simulator.factor
+        show_html(self._page, page_html(active=[w for w, f in FACTORS.items() if f == now]))
 
     def show_warning(self, text: str) -> None:
         """Show a warning at the top; an empty one hides it."""
-        html = warning_html(text) if text else ''
-        if html != self._warning.content:
-            self._warning.content = html
+        show_html(self._warning, warning_html(text) if text else '')
+        if self._warning.visible != bool(text):
             self._warning.visible = bool(text)
 
     def notify(self, title: str, body: str, error: bool) -> None:

@@ -20,15 +20,16 @@ import viser
 
 from husky_view.editor.editor import Editor
 from husky_view.live.checks import RealTimeFactor, SceneCheck, SimulatorMonitor, State
-from husky_view.live.links import RobotLink, SimulatorControl, SimulatorQuery
+from husky_view.live.links import RobotLink
 from husky_view.live.panel import Panel
+from husky_view.live.simulator import SimulatorControl, SimulatorQuery
 from husky_view.picture.picture import Picture
 from husky_view.server import ActionQueue
 
 FIGURES_HZ = 5.0
 DRIVER = 'follow_path'
 DRIVER_END_SEC = 1.0
-_LOOK_FOR_FILES_SEC = 2.0
+_SELDOM_SEC = 2.0
 
 _WARNINGS = {
     State.HERE: '',
@@ -132,6 +133,7 @@ class LiveView:
             folder=folder,
             ground_m=self._picture.scene.ground_m,
             drive=self._on_drive_file,
+            on_editing=lambda editing: self._picture.show_numbers(not editing),
             notify=self._panel.notify,
         )
         self._create_entities()
@@ -146,7 +148,7 @@ class LiveView:
         self._closing.callback(node.destroy_subscription, scenes)
         for period_sec, callback in (
             (1.0 / RATE_HZ, self._on_frame),
-            (_LOOK_FOR_FILES_SEC, self._editor.look_for_files),
+            (_SELDOM_SEC, self._on_seldom),
         ):
             timer = node.create_timer(period_sec, callback, clock=steady)
             self._closing.callback(node.destroy_timer, timer)
@@ -168,6 +170,8 @@ class LiveView:
             self._on_invalid(f'~/scene: {reason}')
             return
         self._factor.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
+        if self._scene is not None and self._scene.run != scene.run:
+            self._control.factor = None  # it is another simulator
         self._scene = scene
         self._picture.show(scene)
 
@@ -202,6 +206,10 @@ class LiveView:
                 self._look_for_another_world()
         self._server.flush()
 
+    def _on_seldom(self) -> None:
+        self._editor.look_for_files()
+        self._control.poll_factor()
+
     def _look_for_another_world(self) -> None:
         answer = self._query.poll()
         if answer is None or self.next_world.done():
@@ -226,6 +234,8 @@ class LiveView:
             cross_track_m=robot.cross_track_m,
             waypoints_left=self._links[self._driven].waypoints_left,
             collisions=self._picture.collisions.count,
+            colors=self._picture.colors() | self._editor.colors(),
+            ground=self._picture.ground_html(),
         )
 
     def _on_stop(self, stopped: bool) -> None:
@@ -235,7 +245,8 @@ class LiveView:
         self._panel.show_stopped(stopped)
 
     def _on_choose_robot(self, place: int) -> None:
-        self._driven = self._picture.followed = place
+        self._driven = place
+        self._picture.follow(place)
         self._editor.choose_robot(place)
 
     def _on_refused(self, what: str, reason: str) -> None:

@@ -11,8 +11,8 @@ from husky_course.frames import Array
 import numpy as np
 import viser
 
-FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
-PRESETS = (FREE, FOLLOW, TOP)
+from husky_view.picture.geometry import Bounds
+from husky_view.picture.page import FOLLOW, PRESETS, TOP
 
 BACK_M, UP_M = 3.8, 2.4
 """Offset of a following camera from the robot, in the beginning."""
@@ -29,6 +29,12 @@ DELIVERY_SEC = 2.0
 REPORT_TIMEOUT_SEC = 0.2
 """The next pose is sent when the page has reported the last one, or after this time: a pose sent
 earlier would override unseen what a person does meanwhile."""
+
+PANEL_PX, PHONE_PX = 340, 576
+"""What the panel hides on the right, if the page is wider than a phone's."""
+
+TOP_MARGIN = 1.08
+"""What is seen from above, of what there is."""
 
 JUMP_M = 5.0
 """A robot further away than this was reset, or a replay jumped: the camera jumps with it."""
@@ -106,12 +112,26 @@ def _same(one: Array, other: Array) -> bool:
 
 
 class Cameras:
-    """The cameras of all tabs."""
+    """
+    The cameras of all tabs.
 
-    def __init__(self, server: viser.ViserServer, *, center: Array, extent_m: float) -> None:
+    :param center: what they look at in the beginning.
+    :param extent_m: how far off they are then.
+    :param seen_from_above: the least and greatest x and y that Top shows.
+    """
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        *,
+        center: Array,
+        extent_m: float,
+        seen_from_above: Bounds,
+    ) -> None:
         self._server = server
-        self._center = center
-        self._extent_m = extent_m
+        low_x, high_x, low_y, high_y = seen_from_above
+        self._top_center = np.array([(low_x + high_x) / 2.0, (low_y + high_y) / 2.0, center[2]])
+        self._top_half_m = ((high_x - low_x) / 2.0, (high_y - low_y) / 2.0)
         self._following: dict[int, ChaseCamera] = {}  # by client
         server.initial_camera.position = center + extent_m * np.array([-0.85, -0.75, 0.75])
         server.initial_camera.look_at = center
@@ -146,12 +166,19 @@ class Cameras:
             self._look(client, robot + behind, robot)
             self._following[client.client_id] = ChaseCamera(robot, behind, now_sec=now_sec)
         elif preset == TOP:
-            # 1.15: the whole playpen, on wide and on narrow screens
-            narrow = max(1.0, client.camera.image_height / max(client.camera.image_width, 1))
-            height = 1.15 * self._extent_m * narrow / math.tan(client.camera.fov / 2.0)
-            # Not exactly from above: the direction up would be undefined.
-            above = np.array([0.0, -0.01 * height, height])
-            self._look(client, self._center + above, self._center)
+            self._look_down(client)
+
+    def _look_down(self, client: viser.ClientHandle) -> None:
+        """Show everything in what the panel leaves free."""
+        camera = client.camera
+        width, height = max(camera.image_width, 1), max(camera.image_height, 1)
+        hidden = PANEL_PX if width > PHONE_PX else 0
+        half_x, half_y = self._top_half_m
+        half_m = TOP_MARGIN * max(half_y, half_x * height / max(width - hidden, 1))
+        above_m = half_m / math.tan(camera.fov / 2.0)
+        at = self._top_center + np.array([hidden * half_m / height, 0.0, 0.0])
+        # Not exactly from above: the direction up would be undefined.
+        self._look(client, at + np.array([0.0, -0.01 * above_m, above_m]), at)
 
     def _look(self, client: viser.ClientHandle, position: Array, at: Array) -> None:
         # viser refuses a camera that looks straight up or down.

@@ -6,10 +6,14 @@ from collections.abc import Sequence
 import math
 
 from husky_course.frames import Array
+from husky_course.outline import Outline
 from husky_course.robot import RobotStart
 import numpy as np
 
 from husky_course import frames
+
+Bounds = tuple[float, float, float, float]
+"""Least and greatest x and y, in metres."""
 
 
 def to_world(start: RobotStart, points: Array) -> Array:
@@ -20,6 +24,29 @@ def to_world(start: RobotStart, points: Array) -> Array:
 def to_odom(start: RobotStart, points: Array) -> Array:
     """Transform points (n, 2) of the world into the frame odom of a robot with this start."""
     return np.stack(frames.to_odom(start.pose, *points.T), axis=1)
+
+
+def bounds(outlines: Sequence[Outline], *, at_least_m: float) -> Bounds:
+    """
+    Return the least and greatest x and y of obstacles.
+
+    :param at_least_m: what they contain in any case, in each direction from the middle.
+    """
+    middles = np.array([(each.x, each.y) for each in outlines]).reshape(-1, 2)
+    reaches = np.array([_reach(each) for each in outlines]).reshape(-1, 2)
+    some = np.full((1, 2), at_least_m)
+    low = np.concatenate([middles - reaches, -some]).min(axis=0)
+    high = np.concatenate([middles + reaches, some]).max(axis=0)
+    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+
+def _reach(outline: Outline) -> tuple[float, float]:
+    """Return how far an obstacle reaches from its middle along x and y."""
+    if outline.type == 'circle':
+        return outline.size[0], outline.size[0]
+    half_x, half_y = outline.size[0] / 2.0, outline.size[1] / 2.0
+    across, along = abs(math.sin(outline.yaw)), abs(math.cos(outline.yaw))
+    return along * half_x + across * half_y, across * half_x + along * half_y
 
 
 def on_ground(

@@ -1,20 +1,18 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is drawn into the scene: trails, paths, waypoints, points, lidar hits and collisions."""
+"""What is drawn into the scene: trails, paths, waypoints, points, lidar hits and shadows."""
 
 from collections.abc import Callable
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from husky_course.frames import Array
-from husky_course.record import Collision
 from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 import numpy as np
 import numpy.typing as npt
 import trimesh
 import viser
 
-from husky_view.picture import palette
 from husky_view.picture.palette import Rgb
 
 Colors = Rgb | npt.NDArray[np.uint8]
@@ -24,17 +22,10 @@ TRAIL_STEP_M = 0.05
 """Points of a trail nearer than this to the one before are left out."""
 
 PIECE_POINTS, MOST_PIECES = 100, 200
-FLASH_SEC = 2.5
-"""Of wall time."""
-
-MOST_COLLISIONS = 50
-PIN_M = 1.2
-"""Height of a collision's pin: lower, walls and the robot would hide it."""
-
 SHADOW_SCALE, SHADOW_OPACITY = 1.35, 0.75
 """Size of a shadow, of that of the robot."""
 
-_FLASH_SCALE = 4.0
+_NUMBER_ABOVE = np.array([0.0, 0.0, 0.05])  # of its disc, or the ground would hide its lower edge
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -92,6 +83,11 @@ class Trail:
                     self._points = self._points[-1:]
                     self._drawn = 0
 
+    @property
+    def is_drawn(self) -> bool:
+        """Tell whether there is anything to be seen of it."""
+        return bool(self._pieces)
+
     def draw(self) -> None:
         """Send what is new."""
         if len(self._points) < 2 or len(self._points) == self._drawn:
@@ -141,9 +137,20 @@ class NumberedDiscs:
         self._on_drag = on_drag
         self._discs: list[Any] = []  # one handle for all of them, or none
         self._labels: list[Any] = []
+        self._are_numbers_shown = True
 
-    def show(self, points: Array, *, highlighted: slice = slice(0)) -> None:
-        """Put a disc at each of the points (n, 3)."""
+    def show_numbers(self, shown: bool) -> None:
+        """Show or hide the numbers; the discs stay."""
+        self._are_numbers_shown = shown
+        for label in self._labels:
+            label.visible = shown
+
+    def show(self, points: Array, *, highlighted: slice = slice(0), note: str = '') -> None:
+        """
+        Put a disc at each of the points (n, 3).
+
+        :param note: what stands behind the numbers of those that are highlighted.
+        """
         if len(points) != len(self._labels):
             for node in (*self._labels[len(points) :], *self._discs):
                 node.remove()
@@ -152,8 +159,12 @@ class NumberedDiscs:
             self._discs = [self._add_discs(points)] if len(points) else []
         for discs in self._discs:
             discs.batched_positions = points.astype(np.float32)
-        for label, point in zip(self._labels, points, strict=True):
-            label.position = point
+        noted = range(len(points))[highlighted]
+        for place, (label, point) in enumerate(zip(self._labels, points, strict=True)):
+            label.position = point + _NUMBER_ABOVE
+            text = f'{place + 1}{note if place in noted else ""}'
+            if label.text != text:
+                label.text = text
         self.highlight(highlighted)
 
     def highlight(self, which: slice) -> None:
@@ -170,8 +181,10 @@ class NumberedDiscs:
         return self._scene.add_label(
             f'{self._name}/{number}',
             str(number),
-            anchor='center-center',
+            anchor='bottom-center',
             font_screen_scale=0.7,
+            depth_test=True,
+            visible=self._are_numbers_shown,
         )
 
     def _add_discs(self, points: Array) -> Any:
@@ -223,73 +236,3 @@ def _soft_spot() -> npt.NDArray[np.uint8]:
     pixels = np.zeros((64, 64, 4), dtype=np.uint8)
     pixels[..., 3] = 255.0 * SHADOW_OPACITY * np.clip(1.6 * (1.0 - away), 0.0, 1.0)
     return pixels
-
-
-class _Flash(NamedTuple):
-    begun_sec: float
-    ball: Any
-    label: Any
-    obstacle: str
-
-
-class CollisionMarks:
-    """Collisions: a red flash at the place, and then a pin with the obstacle's name."""
-
-    def __init__(self, server: viser.ViserServer) -> None:
-        self._server = server
-        self._nodes: list[Any] = []
-        self._flashing: list[_Flash] = []
-        self.count = 0
-
-    def add(self, collision: Collision, *, now_sec: float) -> None:
-        """Flash at a collision; now is of a steady wall clock. Only the first 50 are drawn."""
-        self.count += 1
-        if self.count > MOST_COLLISIONS:
-            return
-        name = f'/collisions/{self.count}'
-        scene, (x, y, z) = self._server.scene, collision.position
-        pole = scene.add_cylinder(
-            f'{name}/pole',
-            radius=0.02,
-            height=PIN_M,
-            color=palette.COLLISION,
-            position=(x, y, z + PIN_M / 2.0),
-            cast_shadow=False,
-        )
-        ball = scene.add_icosphere(
-            f'{name}/ball',
-            radius=0.08,
-            color=palette.COLLISION,
-            position=(x, y, z + PIN_M),
-            scale=_FLASH_SCALE,
-            cast_shadow=False,
-        )
-        label = scene.add_label(
-            f'{name}/label',
-            f'⚠ {collision}',
-            position=(x, y, z + PIN_M + 0.4),
-            anchor='bottom-center',
-        )
-        self._nodes += [pole, ball, label]
-        self._flashing.append(_Flash(now_sec, ball, label, collision.obstacle))
-
-    def update(self, now_sec: float) -> None:
-        """Animate the flashes; call it with every frame."""
-        for flash in list(self._flashing):
-            age = (now_sec - flash.begun_sec) / FLASH_SEC
-            if age >= 1.0:
-                flash.ball.scale = 1.0
-                flash.label.text = f'⚠ {flash.obstacle}'
-                flash.label.font_screen_scale = 0.7
-                self._flashing.remove(flash)
-            else:
-                pulse = 1.0 if int(age * 10) % 2 == 0 else 0.5
-                flash.ball.scale = 1.0 + (_FLASH_SCALE - 1.0) * (1.0 - age) * pulse
-
-    def clear(self) -> None:
-        """Remove all of them."""
-        for node in self._nodes:
-            node.remove()
-        self._nodes.clear()
-        self._flashing.clear()
-        self.count = 0

@@ -6,17 +6,26 @@ What the page has beyond viser's own elements: keys that drive, a pad, room on a
 viser has no element for keys that are held, so a script presses the buttons of the pad instead.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from enum import Enum
+from html import escape
 import json
 
 import viser
 from viser._messages import RunJavascriptMessage
 
-from husky_view.picture.palette import css, LEGEND
+from husky_view.picture.palette import css, LEGEND, Rgb
+from husky_view.picture.pointer import POINTER_SCRIPT
 
 STOP, RELEASE = 'STOP', 'Release the stop'
 PLAY = 'Play'
+
+FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
+PRESETS = (FREE, FOLLOW, TOP)
+"""Of the camera of a tab; the first one holds at the beginning."""
+
+ON_TOP = '/on_top/'
+"""What has a name that begins so is drawn over everything; viser has lines without that."""
 
 
 class Direction(Enum):
@@ -42,16 +51,17 @@ _STYLE = """
 .husky-pad button { height: 2.6em !important; touch-action: none; user-select: none;
   -webkit-user-select: none; }
 @media (max-width: 576px) {
-  .husky-page > * { display: none !important; }
+  .husky-legend { display: none !important; }
   [style*="width: 20em"]:has(.husky-page) { width: 100% !important; }
   [style*="position: fixed"]:has(.husky-page) { max-height: 52% !important; }
 }
+button.husky-active { background: var(--mantine-color-blue-filled); color: #fff; }
 .husky-stop button, button.husky-stop { height: 3.2em !important; font-size: 1.15em; }
 """
 
 _SCRIPT = """
 if (window.huskyPage) return;  // it runs again when a tab has lost its connection
-const keys = KEYS, areas = AREAS;
+const keys = KEYS, areas = AREAS, presets = PRESETS, onTop = ON_TOP;
 const style = document.createElement('style');
 style.textContent = STYLE;
 document.head.append(style);
@@ -103,9 +113,41 @@ const play = () => {
   // The second of two frames begins when the first one is drawn.
   if (legend) requestAnimationFrame(() => requestAnimationFrame(press));
 };
+// Each tab has a camera of its own: which preset it has is known here alone.
+let preset = null;
+window.addEventListener('click', (e) => {
+  const pressed = e.target.closest && e.target.closest('button');
+  if (pressed && presets.includes(pressed.textContent.trim())) preset = pressed;
+}, true);
+const markActive = () => {
+  const page = document.querySelector('.husky-page');
+  if (!page) return;
+  const camera = preset?.isConnected ? preset.textContent.trim() : presets[0];
+  const active = [camera, ...JSON.parse(page.dataset.active || '[]')];
+  for (const b of buttons()) {
+    const is = active.includes(b.textContent.trim());
+    if (is === b.classList.contains('husky-active')) continue;
+    b.classList.toggle('husky-active', is);
+    b.setAttribute('aria-pressed', is);
+  }
+};
+const seeThrough = () => {
+  const viewer = window.__viserMutable;
+  for (const name in viewer?.nodeRefFromName ?? {}) {
+    if (!name.startsWith(onTop)) continue;
+    viewer.nodeRefFromName[name]?.traverse((drawn) => {
+      if (!drawn.material?.depthTest) return;
+      drawn.material.depthTest = false;
+      drawn.renderOrder = 1;
+      viewer.requestRender();
+    });
+  }
+};
 const arrange = () => {
   makeRoom();
   play();
+  markActive();
+  seeThrough();
   for (const sign in areas) {
     const cell = button(sign)?.parentElement;
     if (!cell || cell.style.gridArea) continue;
@@ -124,24 +166,38 @@ window.huskyPage = setInterval(arrange, 100);
 
 
 def add_page_script(server: viser.ViserServer) -> None:
-    """Run the script of the page in every tab, also in those that open later."""
+    """Run the scripts of the page in every tab, also in those that open later."""
     script = (
         _SCRIPT.replace('KEYS', json.dumps({d.key: d.sign for d in Direction}))
         .replace('AREAS', json.dumps({d.sign: d.area for d in Direction}))
         .replace('PLAY', json.dumps(PLAY))
+        .replace('PRESETS', json.dumps(PRESETS))
+        .replace('ON_TOP', json.dumps(ON_TOP))
         .replace('STOPS', json.dumps([STOP, RELEASE]))
         .replace('STYLE', json.dumps(_STYLE))
     )
     # viser loads Plotly by this message and has no public method for it. The server keeps the
     # message for new tabs; the elements' HTML cannot do it, for viser runs no scripts in it.
-    server.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
+    for source in (script, POINTER_SCRIPT):
+        server.gui._websock_interface.queue_message(RunJavascriptMessage(source=source))
 
 
-def legend_html(*, plays: bool = False) -> str:
+def page_html(*, active: Collection[str] = (), plays: bool = False) -> str:
     """
-    Return the legend: a coloured bar and a word for each. The script finds the panel by it.
+    Return what the script finds the panel by, and what it is to do.
 
-    :param plays: whether the script is to press Play, as soon as the scene is drawn.
+    :param active: labels of the buttons that are marked as what holds now.
+    :param plays: whether it is to press Play, as soon as the scene is drawn.
+    """
+    marks = ' data-plays' if plays else ''
+    return f'<div class="husky-page" data-active="{escape(json.dumps([*active]))}"{marks}></div>'
+
+
+def legend_html(shown: Collection[Rgb]) -> str:
+    """
+    Return the legend: a coloured bar and a word for each.
+
+    :param shown: the colours of what there is to be seen.
     """
     rows = ''.join(
         '<span style="display:inline-flex;align-items:center;gap:.4em;margin-right:.9em">'
@@ -149,10 +205,16 @@ def legend_html(*, plays: bool = False) -> str:
         'outline:1px solid #0003"></i>'
         f'{name}</span>'
         for color, name in LEGEND
+        if color in shown
     )
     style = 'padding:0 1em .6em;font-size:.8em;line-height:1.5'
-    mark = ' data-plays' if plays else ''
-    return f'<div class="husky-page"{mark}><div style="{style}">{rows}</div></div>'
+    return f'<div class="husky-legend" style="{style}">{rows}</div>'
+
+
+def show_html(element: viser.GuiHtmlHandle, html: str) -> None:
+    """Show something else, if it is something else."""
+    if html != element.content:
+        element.content = html
 
 
 def in_decimals(value: float, decimals: int, *, sign: str = '') -> str:

@@ -19,15 +19,19 @@ EDITED: Rgb = (255, 255, 255)
 SELECTED: Rgb = (255, 160, 0)
 CLEAR: Rgb = (20, 180, 40)
 SCARCE: Rgb = (255, 190, 0)
-BLOCKED: Rgb = (255, 60, 40)
+BLOCKED: Rgb = (255, 0, 40)
 
 LEGEND: tuple[tuple[Rgb, str], ...] = (
     (PATH, 'given path and waypoints'),
+    (REACHED, 'waypoint reached'),
     (TRUE_TRAIL, 'true trail'),
     (ODOMETRY_TRAIL, 'trail by odometry'),
     (LOOK_AHEAD, 'look-ahead point'),
     (LIDAR, 'lidar hits'),
     (COLLISION, 'collision'),
+    (CLEAR, 'room enough'),
+    (SCARCE, 'little room'),
+    (BLOCKED, 'too near'),
 )
 
 

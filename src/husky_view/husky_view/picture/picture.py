@@ -6,6 +6,7 @@ All that is drawn of a run: the playpen, the robots, their trails and paths, col
 The live page and the replay share it; it needs no ROS. For one thread.
 """
 
+from collections.abc import Iterator
 import time
 
 from husky_course.frames import Array
@@ -17,25 +18,40 @@ import viser
 
 from husky_view.picture import palette
 from husky_view.picture.camera import Cameras
-from husky_view.picture.geometry import distance_to_line, to_world
+from husky_view.picture.collision_marks import CollisionMarks
+from husky_view.picture.coordinates import add_start_axes, ground_html, hide_grid, show_grid
+from husky_view.picture.geometry import bounds, distance_to_line, to_world
 from husky_view.picture.marks import (
     add_line,
-    CollisionMarks,
     ContactShadow,
     lifted,
     NumberedDiscs,
     Trail,
 )
+from husky_view.picture.page import TOP
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
 
 _X, _ODOM_X, _YAW = TRACK.index('x'), TRACK.index('odom_x'), TRACK.index('yaw')
 _SPEED = TRACK.index('speed_m_s')
 
 
-class RobotMarks:
-    """What is drawn of one robot beside its body; points (n, 2) are in its frame odom."""
+SEEN_M = 5.0
+"""How far Top shows a world without obstacles."""
 
-    def __init__(self, server: viser.ViserServer, start: RobotStart, ground_m: float) -> None:
+NAME_M = 0.6
+"""Height of a robot's name above the ground."""
+
+
+class RobotMarks:
+    """
+    What is drawn of one robot beside its body; points (n, 2) are in its frame odom.
+
+    :param is_named: whether its name stands above it.
+    """
+
+    def __init__(
+        self, server: viser.ViserServer, start: RobotStart, ground_m: float, *, is_named: bool
+    ) -> None:
         name = f'/{start.name}'
         self._server = server
         self._start = start
@@ -65,22 +81,39 @@ class RobotMarks:
             visible=False,
         )
         self._shadow = ContactShadow(server, f'{name}/shadow', ground_m + ABOVE_GROUND_M / 2.0)
+        self._name = server.scene.add_label(
+            f'{name}/name',
+            start.name,
+            anchor='bottom-center',
+            font_screen_scale=0.9,
+            depth_test=True,
+            visible=is_named,
+        )
+        self._name_m = ground_m + NAME_M
+        add_start_axes(server, f'{name}/start', start, ground_m + ABOVE_GROUND_M)
         self._path: Array = np.zeros((0, 2))
+        self._reached = 0
         self._height_m = ground_m + ABOVE_GROUND_M
         self._x_y: Array = np.array([start.x, start.y])
         self.yaw = start.yaw
         self.speed_m_s = 0.0
-        self._shadow.move(start.x, start.y, yaw=start.yaw)
+        self._place()
 
     def move(self, track: Array) -> None:
         """Take the newest entries (n, len(TRACK)) of this robot's track."""
         self._x_y = track[-1, _X : _X + 2].copy()
         self.yaw = float(track[-1, _YAW])
         self.speed_m_s = float(track[-1, _SPEED])
-        self._shadow.move(*self._x_y.tolist(), yaw=self.yaw)
+        self._place()
         self._true_trail.extend(lifted(track[:, _X : _X + 2], self._height_m + 0.02))
         odometry = to_world(self._start, track[:, _ODOM_X : _ODOM_X + 2])
         self._odometry_trail.extend(lifted(odometry, self._height_m + 0.01))
+
+    def _place(self) -> None:
+        x, y = self._x_y.tolist()
+        self._shadow.move(x, y, yaw=self.yaw)
+        if self._name.visible:
+            self._name.position = (x, y, self._name_m)
 
     def draw_trails(self) -> None:
         """Send what was added to the trails."""
@@ -99,10 +132,16 @@ class RobotMarks:
     def set_waypoints(self, points: Array, *, reached: int = 0) -> None:
         """Draw the waypoints; the first ones were reached."""
         marks = lifted(to_world(self._start, points), self._height_m)
+        self._reached = reached
         self._waypoints.show(marks, highlighted=slice(reached))
+
+    def show_numbers(self, shown: bool) -> None:
+        """Show or hide the numbers of the waypoints."""
+        self._waypoints.show_numbers(shown)
 
     def set_reached(self, reached: int) -> None:
         """Colour the waypoints that were reached."""
+        self._reached = reached
         self._waypoints.highlight(slice(reached))
 
     def set_look_ahead(self, point: Array | None) -> None:
@@ -117,6 +156,18 @@ class RobotMarks:
         self._lidar.visible = len(hits) > 0
         if len(hits):
             self._lidar.points = hits.astype(np.float32)
+
+    def colors(self) -> Iterator[palette.Rgb]:
+        """Yield the colours of what there is to be seen."""
+        shown = {
+            palette.PATH: len(self._path) >= 2,
+            palette.REACHED: self._reached > 0,
+            palette.TRUE_TRAIL: self._true_trail.is_drawn,
+            palette.ODOMETRY_TRAIL: self._odometry_trail.is_drawn,
+            palette.LOOK_AHEAD: self._look_ahead.visible,
+            palette.LIDAR: self._lidar.visible,
+        }
+        yield from (color for color, is_shown in shown.items() if is_shown)
 
     @property
     def cross_track_m(self) -> float | None:
@@ -147,13 +198,19 @@ class Picture:
 
     def __init__(self, server: viser.ViserServer, world: World) -> None:
         self.scene = PlaypenScene(server, world)
-        self.robots = [RobotMarks(server, start, self.scene.ground_m) for start in world.robots]
+        self.robots = [
+            RobotMarks(server, start, self.scene.ground_m, is_named=len(world.robots) > 1)
+            for start in world.robots
+        ]
         self.collisions = CollisionMarks(server)
+        self._seen = bounds(world.obstacles, at_least_m=SEEN_M)
         self._cameras = Cameras(
             server,
             center=np.array(world.model.stat.center),
             extent_m=float(world.model.stat.extent),
+            seen_from_above=self._seen,
         )
+        self._looking_down: dict[int, viser.ClientHandle] = {}
         self._time_sec = 0.0
         self._run = ''
         self.followed = 0
@@ -185,6 +242,41 @@ class Picture:
             yaw=self.robots[self.followed].yaw,
             now_sec=time.monotonic(),
         )
+        if preset == TOP:
+            self._looking_down[client.client_id] = client
+            self._show_grid(client)
+        elif self._looking_down.pop(client.client_id, None) is not None:
+            hide_grid(client)
+
+    def _show_grid(self, client: viser.ClientHandle) -> None:
+        start = self.scene.world.robots[self.followed]
+        show_grid(client, start, self._seen, self.scene.ground_m + ABOVE_GROUND_M / 2.0)
+
+    def follow(self, place: int) -> None:
+        """Follow another robot, whose frame odom is that of the coordinates from now on."""
+        self.followed = place
+        for client in self._looking_down.values():
+            self._show_grid(client)
+
+    def ground_html(self) -> str:
+        """Return what the page is to know of the ground, for the pointer."""
+        robots = self.scene.world.robots
+        return ground_html(
+            robots[self.followed],
+            self.scene.ground_m,
+            self.scene.outlines(),
+            is_named=len(robots) > 1,
+        )
+
+    def colors(self) -> set[palette.Rgb]:
+        """Return the colours of what there is to be seen, for the legend."""
+        seen = {color for robot in self.robots for color in robot.colors()}
+        return seen | ({palette.COLLISION} if self.collisions.count else set())
+
+    def show_numbers(self, shown: bool) -> None:
+        """Show or hide the numbers of the given waypoints."""
+        for robot in self.robots:
+            robot.show_numbers(shown)
 
     def show_scan(self, robot: int, ranges: Array, angles: Array, *, reach_m: float) -> None:
         """Draw the ends of a lidar's beams, without those that hit nothing."""

@@ -2,7 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The playpen and its robots on the page."""
 
+from dataclasses import replace
+import math
+
 from husky_course.frames import Array
+from husky_course.outline import Outline
+from husky_sim.recording import loose_bodies
 from husky_sim.world import World
 from mjviser import ViserMujocoScene
 import mujoco
@@ -42,6 +47,13 @@ class PlaypenScene:
         self._lasers = [world.model.site(f'{robot.name}/front_laser').id for robot in world.robots]
         self._bases = [world.model.body(f'{robot.name}/base_link').id for robot in world.robots]
         self.ground_m = float(self._data.xpos[self._bases[0]][2]) - _BASE_HEIGHT_M
+        self._loose = {
+            name: (
+                *self._data.body(name).xpos[:2].tolist(),
+                _yaw(self._data.body(name).xmat),
+            )
+            for name in loose_bodies(world)
+        }
         self._scene.update_from_mjdata(self._data)
 
     def show(self, qpos: Array) -> None:
@@ -55,6 +67,25 @@ class PlaypenScene:
         position: Array = self._data.xpos[self._bases[robot]].copy()
         return position
 
+    def outlines(self) -> tuple[Outline, ...]:
+        """Return the outlines of the obstacles where they are now; some can be pushed."""
+        return tuple(map(self._moved, self.world.obstacles))
+
+    def _moved(self, outline: Outline) -> Outline:
+        if outline.name not in self._loose:
+            return outline
+        body = self.world.model.body(outline.name).id
+        (x, y), yaw = self._data.xpos[body][:2], _yaw(self._data.xmat[body])
+        before_x, before_y, before_yaw = self._loose[outline.name]
+        turned = yaw - before_yaw
+        dx, dy = outline.x - before_x, outline.y - before_y
+        return replace(
+            outline,
+            x=float(x + dx * math.cos(turned) - dy * math.sin(turned)),
+            y=float(y + dx * math.sin(turned) + dy * math.cos(turned)),
+            yaw=outline.yaw + turned,
+        )
+
     def beam_ends(self, robot: int, ranges: Array, angles: Array) -> Array:
         """Return the ends of beams (n, 3) in the world; angles in radians to the left."""
         laser = self._lasers[robot]
@@ -62,6 +93,10 @@ class PlaypenScene:
         beams = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * angles])
         ends: Array = beams @ rotation.T + self._data.site_xpos[laser]
         return ends
+
+
+def _yaw(rotation: Array) -> float:
+    return math.atan2(float(rotation[3]), float(rotation[0]))
 
 
 def _light(server: viser.ViserServer) -> None:

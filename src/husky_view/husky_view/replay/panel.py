@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The panel beside a replay, and the time that it controls."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 import math
 from typing import Any
 
@@ -10,7 +10,15 @@ from husky_course.record import Collision
 import viser
 
 from husky_view.picture.camera import add_camera_buttons
-from husky_view.picture.page import figures_html, in_decimals, legend_html, PLAY
+from husky_view.picture.page import (
+    figures_html,
+    in_decimals,
+    legend_html,
+    page_html,
+    PLAY,
+    show_html,
+)
+from husky_view.picture.palette import Rgb
 from husky_view.server import ActionQueue
 
 PAUSE, RESTART = 'Pause', 'From the start'
@@ -74,6 +82,7 @@ class ReplayPanel:
         choose_camera: Callable[[viser.ClientHandle, str], None],
     ) -> None:
         playback.playing = False
+        self._has_begun = False
         self._playback = playback
         self._later = actions.put
         gui = server.gui
@@ -99,7 +108,13 @@ class ReplayPanel:
                 button.on_click(self._jumper(collision.time_sec))
             if not collisions:
                 gui.add_html('<div style="padding:0 1em .4em">none</div>')
-        self._legend = gui.add_html(legend_html(plays=True))
+        self._legend = gui.add_html('')
+        self._ground = gui.add_html('')
+        self._page = gui.add_html(self._page_html())
+
+    def _page_html(self) -> str:
+        active = [word for word, factor in FACTORS.items() if factor == self._playback.factor]
+        return page_html(active=active, plays=not self._has_begun)
 
     def _on_time(self, word: str) -> None:
         if word == RESTART:
@@ -128,11 +143,26 @@ class ReplayPanel:
 
         return lambda _: self._later(jump)
 
-    def show(self, *, speed_m_s: float, drift_m: float, collisions: int) -> None:
-        """Show the figures and the time."""
+    def show(
+        self,
+        *,
+        speed_m_s: float,
+        drift_m: float,
+        collisions: int,
+        colors: Collection[Rgb],
+        ground: str,
+    ) -> None:
+        """
+        Show the figures and the time.
+
+        :param colors: of what there is to be seen, for the legend.
+        :param ground: HTML of what the pointer is told about.
+        """
         playback = self._playback
-        if playback.playing:
-            self._legend.content = legend_html()
+        self._has_begun = self._has_begun or playback.playing
+        show_html(self._page, self._page_html())
+        show_html(self._legend, legend_html(colors))
+        show_html(self._ground, ground)
         if (PLAY in self._play.options) == playback.playing:
             self._play.options = (PAUSE if playback.playing else PLAY, RESTART)
         now = min(round(playback.time_sec, 1), self._slider.max)
@@ -141,7 +171,7 @@ class ReplayPanel:
         is_ours = self._slider.value == self._known_sec
         if is_ours and abs(now - self._known_sec) > 0.04:
             self._slider.value = self._known_sec = now
-        html = figures_html(
+        figures = figures_html(
             (
                 ('sim time', f'{playback.time_sec:.1f} s', 'time'),
                 ('of', f'{playback.duration_sec:.1f} s', 'duration'),
@@ -150,5 +180,4 @@ class ReplayPanel:
                 ('collisions so far', str(collisions), 'collisions'),
             )
         )
-        if html != self._figures.content:
-            self._figures.content = html
+        show_html(self._figures, figures)

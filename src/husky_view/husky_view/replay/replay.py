@@ -102,6 +102,8 @@ class Replay:
             speed_m_s=speed_m_s,
             drift_m=float(np.hypot(*(believed - (x, y)))),
             collisions=self._picture.collisions.count,
+            colors=self._picture.colors(),
+            ground=self._picture.ground_html(),
         )
 
 
