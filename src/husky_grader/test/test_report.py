@@ -10,8 +10,9 @@ from husky_course.outline import Outline
 from husky_course.record import Collision, Disturbance, read_run, Record, Run
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
+from husky_grader.report.drawing import SIZE
 from husky_grader.report.files import as_json, is_report, page, summary, write_report
-from husky_grader.report.map import Map, map_svg, picture_svg, run_map, SIZE, write_picture
+from husky_grader.report.map import Map, map_svg, picture_svg, run_map, write_picture
 from husky_grader.report.plot import Plot, ticks
 from husky_grader.scoring.report import judge
 import pytest
@@ -64,6 +65,24 @@ def test_waypoints_and_collisions_are_numbered_as_in_the_text(scene: Map) -> Non
     assert re.findall(r'<text class="hit"[^>]*>(\d+)<', drawing) == ['1']
 
 
+def test_only_what_is_near_the_path_has_its_name_on_the_map(scene: Map) -> None:
+    near = Outline(name='near', x=2.0, y=-1.5, yaw=0.0, size=(4.0, 1.0))
+    far = Outline(name='far', x=2.0, y=-3.0, yaw=0.0, size=(0.3,))
+    drawing = map_svg(replace(scene, obstacles=(far, near)))
+    assert re.findall(r'<text class="name"[^>]*>(\w+)<', drawing) == ['near']
+
+
+def test_the_axes_tell_where_the_path_is(scene: Map) -> None:
+    drawing = map_svg(scene)
+    found = re.findall(r'<text class="x axis" x="([\d.]+)"[^>]*>(-?\d+)<', drawing)
+    at = {int(metres): float(place) for place, metres in found}
+    given = re.findall(r'class="thin given" points="([\d.]+),', drawing)
+    assert at[0] == pytest.approx(float(given[0]), abs=0.1)
+    assert '>1 m</text>' in drawing, 'the bar that tells the scale'
+    moved = map_svg(replace(scene, start=(1.0, 0.0, 0.0)))
+    assert '>x of the world [m]</text>' in moved, 'a waypoint file has another frame there'
+
+
 def test_a_picture_shows_its_title(scene: Map, tmp_path: Path) -> None:
     pictures = set()
     for title in ('one', 'two'):  # without a font both would be the same
@@ -89,7 +108,7 @@ def test_the_page_holds_everything_and_loads_nothing(run: Run, tmp_path: Path) -
     assert page.count('class="moment"') == 2  # the touch, in both plots
     assert '/&lt;other&gt;\\x1b[2J' in page
     assert '\x1b' not in page
-    assert re.findall(r'(?:src|href)=|<script|@import|url\(', page) == []
+    assert re.findall(r'(?:src|href)=|<script|@import|url\((?!#)', page) == []
 
 
 def test_a_disturbance_is_in_every_form_of_the_report(run: Run) -> None:

@@ -3,7 +3,7 @@
 """
 The map of a course or of a run, in the frame `world`, drawn once as SVG.
 
-A page holds the part around the course; a picture (SVG or PNG) shows the whole world with axes.
+A page holds the part around the course; a picture (SVG or PNG) shows the whole world.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,26 +21,27 @@ from husky_course.record import Run
 from husky_course.route import Point, Route
 import numpy as np
 
-from husky_grader.report.plot import ticks
+from husky_grader.report.drawing import axes, BOTTOM, Bounds, Drawing, LEFT, RIGHT, scale_bar, TOP
+from husky_grader.report.names import names
 from husky_grader.scoring.report import Report
 
 MAX_POINTS = 750
 MARGIN_M = 0.8
 NEAR_M = 1.5  # around a course
 MIN_SIZE_M = 8.0
-SIZE = 1000.0  # the longer side, in units of the drawing
 DOT = 7.0
 RAISED = 12.0  # a number beside its waypoint
 MAX_NUMBERS = 60  # more could not be read
-LEFT, RIGHT, TOP, BOTTOM = 90.0, 20.0, 60.0, 130.0  # around the map of a picture
+TITLE, LEGEND = 40.0, 55.0  # above and below the axes of a picture
 PICTURE_WIDTH_PX = 770
 FONT = 'Atkinson Hyperlegible Next'
 FONT_FILE = '**/studio/assets/AtkinsonHyperlegibleNext*.ttf'
 SYSTEM_FONT = 'DejaVu Sans'  # where MuJoCo has none
 STYLE_FOLDER = Path(__file__).parent
 
-Key = list[tuple[str, str]]  # colours, as CSS variables, and what they mean
-Bounds = tuple[float, float, float, float]  # least and greatest x and y, in metres
+Key = list[tuple[str, str]]
+"""Colours, as CSS variables, and what they mean; 'dashed' stands behind that of a dashed line."""
+
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +59,11 @@ class Map:
     marks: list[Point]  # collisions, or places that are too near to something
     missed: frozenset[int] = frozenset()  # numbers of waypoints
     error: tuple[Point, ...] = ()  # outline of what lies between the true and the given path
+
+    @property
+    def frame(self) -> str:
+        """Name the frame of the map where a waypoint file has another one."""
+        return '' if self.start == (0.0, 0.0, 0.0) else 'the world'
 
     def near_bounds(self) -> Bounds:
         """Return the bounds of the course and the run, not less than MIN_SIZE_M wide."""
@@ -122,20 +128,25 @@ def run_map(run: Run, route: Route, report: Report) -> Map:
 
 def map_svg(scene: Map) -> str:
     """Return the part of the map around the course, for a page with its style."""
-    drawing = _Drawing(scene.near_bounds())
+    drawing = Drawing(scene.near_bounds())
+    width, height = drawing.width + LEFT + RIGHT, drawing.height + TOP + BOTTOM
+    frame = f'width="{drawing.width:.0f}" height="{drawing.height:.0f}"'
+    parts = [*axes(drawing, scene.frame), '<g clip-path="url(#frame)">']
+    parts += [*_elements(scene, drawing), '</g>', *scale_bar(drawing)]
     return (
-        f'<svg class="map" viewBox="0 0 {drawing.width:.0f} {drawing.height:.0f}" role="img" '
-        f'aria-label="map of the run">{"".join(_elements(scene, drawing))}</svg>'
+        f'<svg class="map" viewBox="{-LEFT:.0f} {-TOP:.0f} {width:.0f} {height:.0f}" role="img" '
+        f'aria-label="map of the run"><clipPath id="frame"><rect {frame}/></clipPath>'
+        f'{"".join(parts)}<rect class="frame" {frame}/></svg>'
     )
 
 
 def map_key(scene: Map) -> Key:
-    """Return the colours on the map, as CSS variables, and what they mean."""
+    """Return the colours on the map and what they mean."""
     key = [
         ('given', 'given path and its waypoints'),
         ('band', f'within {scene.tolerance_m:g} m of it'),
         ('true', 'true path'),
-        ('believed', 'believed path (odometry)'),
+        ('believed dashed', 'believed path (odometry)'),
         ('error', 'error: between true and given'),
     ]
     key += [('bad', 'waypoint missed')] if scene.missed else []
@@ -144,21 +155,22 @@ def map_key(scene: Map) -> Key:
 
 def picture_svg(scene: Map) -> str:
     """Return the map of the whole world as a file of its own: title, axes and legend."""
-    drawing = _Drawing(scene.bounds())
-    width, height = drawing.width + LEFT + RIGHT, drawing.height + TOP + BOTTOM
+    drawing = Drawing(scene.bounds())
+    top = TOP + TITLE
+    width, height = drawing.width + LEFT + RIGHT, drawing.height + top + BOTTOM + LEGEND
     # To clip takes a fifth of the time for a picture.
     clip = '' if scene.is_within(scene.bounds()) else ' clip-path="url(#frame)"'
-    parts = [*_axes(drawing), f'<g{clip}>', *_elements(scene, drawing), '</g>']
-    parts += _legend(scene, drawing)
+    parts = [*axes(drawing, scene.frame), f'<g{clip}>', *_elements(scene, drawing), '</g>']
+    parts += [*scale_bar(drawing), *_legend(scene, drawing)]
     frame = f'width="{drawing.width:.0f}" height="{drawing.height:.0f}"'
     title = f'<text class="title" x="{drawing.width / 2:.0f}" y="-22">'
     return (
         '<?xml version="1.0" encoding="utf-8"?>\n'
         f'<svg xmlns="http://www.w3.org/2000/svg" class="map" width="{PICTURE_WIDTH_PX}" '
         f'height="{PICTURE_WIDTH_PX * height / width:.0f}" '
-        f'viewBox="{-LEFT:.0f} {-TOP:.0f} {width:.0f} {height:.0f}">'
+        f'viewBox="{-LEFT:.0f} {-top:.0f} {width:.0f} {height:.0f}">'
         f'<style>{_picture_style()}</style><clipPath id="frame"><rect {frame}/></clipPath>'
-        f'<rect class="page" x="{-LEFT:.0f}" y="{-TOP:.0f}" width="{width:.0f}" '
+        f'<rect class="page" x="{-LEFT:.0f}" y="{-top:.0f}" width="{width:.0f}" '
         f'height="{height:.0f}"/>{title}{escape(printable(scene.title))}</text>'
         f'{"".join(parts)}<rect class="frame" {frame}/></svg>\n'
     )
@@ -183,21 +195,7 @@ def write_picture(scene: Map, path: Path) -> None:
     )
 
 
-class _Drawing:
-    """Scales metres to units of the drawing, y upwards."""
-
-    def __init__(self, bounds: Bounds) -> None:
-        self.bounds = bounds
-        low_x, high_x, low_y, high_y = bounds
-        self.scale = SIZE / max(high_x - low_x, high_y - low_y)
-        self.width, self.height = self.at((high_x, low_y))
-
-    def at(self, point: Sequence[float]) -> Point:
-        low_x, _, _, high_y = self.bounds
-        return (point[0] - low_x) * self.scale, (high_y - point[1]) * self.scale
-
-
-def _elements(scene: Map, drawing: _Drawing) -> Iterator[str]:
+def _elements(scene: Map, drawing: Drawing) -> Iterator[str]:
     """Yield what both kinds of drawing show, from the back to the front."""
 
     def line(kind: str, css: str, points: Sequence[Point], more: str = '') -> str:
@@ -216,6 +214,7 @@ def _elements(scene: Map, drawing: _Drawing) -> Iterator[str]:
         line('polyline', 'thin true', scene.true),
     ]
     yield from (f'{element}/>' for element in lines if element)
+    yield from names(scene.obstacles, [*scene.given, *scene.true], drawing)
     yield _dot('start', drawing.at(scene.start), 1.6 * DOT)
     for number, point in enumerate(scene.waypoints):
         css = 'missed' if number in scene.missed else 'waypoint'
@@ -236,24 +235,7 @@ def _number(css: str, number: int, place: Point, raised: float) -> str:
     return f'<text class="{css}" x="{x:.1f}" y="{y:.1f}">{number + 1}</text>'
 
 
-def _axes(drawing: _Drawing) -> Iterator[str]:
-    """Yield a grid in metres with its numbers."""
-    low_x, high_x, low_y, high_y = drawing.bounds
-    width, height = drawing.width, drawing.height
-    for value in ticks(low_x, high_x)[1:-1]:
-        x, _ = drawing.at((value, 0.0))
-        yield f'<line class="grid" x1="{x:.1f}" x2="{x:.1f}" y1="0" y2="{height:.1f}"/>'
-        yield f'<text class="x axis" x="{x:.1f}" y="{height + 28:.1f}">{value:g}</text>'
-    for value in ticks(low_y, high_y)[1:-1]:
-        _, y = drawing.at((0.0, value))
-        yield f'<line class="grid" x1="0" x2="{width:.1f}" y1="{y:.1f}" y2="{y:.1f}"/>'
-        yield f'<text class="y axis" x="-12" y="{y + 7:.1f}">{value:g}</text>'
-    yield f'<text class="x axis" x="{width / 2:.1f}" y="{height + 58:.1f}">x [m]</text>'
-    turned = f'transform="rotate(-90 -62 {height / 2:.1f})"'
-    yield f'<text class="x axis" x="-62" y="{height / 2:.1f}" {turned}>y [m]</text>'
-
-
-def _legend(scene: Map, drawing: _Drawing) -> Iterator[str]:
+def _legend(scene: Map, drawing: Drawing) -> Iterator[str]:
     """Yield a row under the axes that explains what is on the map."""
     entries = {'given': ('given path', bool(scene.given)), 'true': ('true path', bool(scene.true))}
     entries['believed'] = ('believed (odometry)', bool(scene.believed))
