@@ -76,6 +76,12 @@ def test_the_slider_reaches_the_end_and_play_begins_again(page: Page) -> None:
     assert errors(page) == []
 
 
+@pytest.mark.timeout(60)
+def test_the_plots_are_drawn_when_they_are_opened(page: Page) -> None:
+    page.get_by_text('Plots over the time').click()
+    wait_for(page, "[...document.querySelectorAll('.uplot canvas')].some((c) => c.width > 100)")
+
+
 @pytest.mark.timeout(120)
 def test_a_page_outlives_its_replay_and_shows_the_next(
     report: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch

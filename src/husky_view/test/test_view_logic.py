@@ -19,6 +19,7 @@ from husky_view.editor.course import EditableCourse
 from husky_view.live.checks import RealTimeFactor
 from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
 from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
+from husky_view.picture.history import History, MOST_POINTS
 from husky_view.picture.matte import matte_meshes
 from husky_view.picture.page import Direction, in_decimals
 from husky_view.picture.picture import first_of_run
@@ -172,6 +173,19 @@ def record(path: Path) -> Record:
             simulation.advance()
             recorder.append()
     return read_record(path)
+
+
+def test_a_history_of_an_hour_has_few_points_over_all_of_it() -> None:
+    history = History()
+    for begin in range(3600):
+        time_sec = begin + np.linspace(0.0, 0.98, 50, dtype=np.float64)
+        history.add(time_sec, time_sec / 3600.0, lambda _: math.nan)
+    times = history.points[:, 0]
+    assert MOST_POINTS / 2 <= len(times) <= MOST_POINTS
+    assert times[0] == 0.0
+    assert times[-1] > 3570.0
+    assert np.ptp(np.diff(times)) < 0.1, 'evenly spaced'
+    np.testing.assert_allclose(history.points[:, 1], times / 3600.0)
 
 
 def test_a_replay_shows_the_robot_where_the_record_has_it(tmp_path: Path) -> None:

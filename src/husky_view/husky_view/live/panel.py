@@ -13,6 +13,7 @@ import viser
 from husky_view.live.simulator import SimulatorControl
 from husky_view.live.teleop import HOLD_HZ, Teleop
 from husky_view.picture.camera import add_camera_buttons
+from husky_view.picture.history import History, RunPlots
 from husky_view.picture.page import (
     Direction,
     figures_html,
@@ -76,6 +77,7 @@ class Panel:
         self._page = gui.add_html(page_html())
         self._legend = gui.add_html('')
         self._ground = gui.add_html('')
+        self._plots = RunPlots(gui)
 
     def _add_drive_buttons(self, gui: viser.GuiApi) -> None:
         teleop = self.teleop
@@ -126,12 +128,14 @@ class Panel:
         collisions: int,
         colors: Collection[Rgb],
         ground: str,
+        history: History,
     ) -> None:
         """
         Show the figures; None where there is no value.
 
         :param colors: of what there is to be seen, for the legend.
         :param ground: HTML of what the pointer is told about.
+        :param history: what the plots show.
         """
         if paused != self._paused:
             self._paused = paused
@@ -154,6 +158,7 @@ class Panel:
         show_html(self._figures, f'{table}<div style="padding:0 1em .3em">{state}</div>')
         show_html(self._legend, legend_html(colors))
         show_html(self._ground, ground)
+        self._plots.show(history)
         now = self._simulator.factor
         show_html(self._page, page_html(active=[w for w, f in FACTORS.items() if f == now]))
 

@@ -236,6 +236,7 @@ class LiveView:
             collisions=self._picture.collisions.count,
             colors=self._picture.colors() | self._editor.colors(),
             ground=self._picture.ground_html(),
+            history=self._picture.history,
         )
 
     def _on_stop(self, stopped: bool) -> None:

@@ -7,6 +7,7 @@ The live page and the replay share it; it needs no ROS. For one thread.
 """
 
 from collections.abc import Iterator
+import math
 import time
 
 from husky_course.frames import Array
@@ -19,8 +20,9 @@ import viser
 from husky_view.picture import palette
 from husky_view.picture.camera import Cameras
 from husky_view.picture.collision_marks import CollisionMarks
-from husky_view.picture.coordinates import add_start_axes, ground_html, hide_grid, show_grid
+from husky_view.picture.coordinates import add_start_axes, ground_html, TopGrids
 from husky_view.picture.geometry import bounds, distance_to_line, to_world
+from husky_view.picture.history import History
 from husky_view.picture.marks import (
     add_line,
     ContactShadow,
@@ -172,7 +174,11 @@ class RobotMarks:
     @property
     def cross_track_m(self) -> float | None:
         """Return the true distance from the path, positive to its left; None without a path."""
-        return distance_to_line(self._x_y, self._path) if len(self._path) >= 2 else None
+        return self.off_path_m(self._x_y) if len(self._path) >= 2 else None
+
+    def off_path_m(self, x_y: Array) -> float:
+        """Return how far a place (2,) of the world is off the path; NaN without a path."""
+        return distance_to_line(x_y, self._path) if len(self._path) >= 2 else math.nan
 
     def clear_run(self) -> None:
         """Remove what belongs to one run; the path and its waypoints stay."""
@@ -203,14 +209,15 @@ class Picture:
             for start in world.robots
         ]
         self.collisions = CollisionMarks(server)
-        self._seen = bounds(world.obstacles, at_least_m=SEEN_M)
+        seen = bounds(world.obstacles, at_least_m=SEEN_M)
         self._cameras = Cameras(
             server,
             center=np.array(world.model.stat.center),
             extent_m=float(world.model.stat.extent),
-            seen_from_above=self._seen,
+            seen_from_above=seen,
         )
-        self._looking_down: dict[int, viser.ClientHandle] = {}
+        self._grids = TopGrids(server, seen, self.scene.ground_m + ABOVE_GROUND_M)
+        self.history = History()
         self._time_sec = 0.0
         self._run = ''
         self.followed = 0
@@ -225,6 +232,13 @@ class Picture:
         self.scene.show(scene.qpos)
         for place, robot in enumerate(self.robots):
             robot.move(scene.track[first:, place])
+        track = scene.track[first:, self.followed]
+        followed = self.robots[self.followed]
+        self.history.add(
+            scene.time_sec[first:],
+            track[:, _SPEED],
+            lambda place: followed.off_path_m(track[place, _X : _X + 2]),
+        )
 
     def draw(self, now_sec: float) -> None:
         """Send what grew, animate flashes and cameras; now is of a steady wall clock."""
@@ -243,20 +257,15 @@ class Picture:
             now_sec=time.monotonic(),
         )
         if preset == TOP:
-            self._looking_down[client.client_id] = client
-            self._show_grid(client)
-        elif self._looking_down.pop(client.client_id, None) is not None:
-            hide_grid(client)
-
-    def _show_grid(self, client: viser.ClientHandle) -> None:
-        start = self.scene.world.robots[self.followed]
-        show_grid(client, start, self._seen, self.scene.ground_m + ABOVE_GROUND_M / 2.0)
+            self._grids.show(client, self.scene.world.robots[self.followed])
+        else:
+            self._grids.hide(client)
 
     def follow(self, place: int) -> None:
         """Follow another robot, whose frame odom is that of the coordinates from now on."""
         self.followed = place
-        for client in self._looking_down.values():
-            self._show_grid(client)
+        self.history.clear()  # it is of one robot
+        self._grids.choose(self.scene.world.robots[place])
 
     def ground_html(self) -> str:
         """Return what the page is to know of the ground, for the pointer."""
@@ -286,6 +295,7 @@ class Picture:
     def clear(self) -> None:
         """Begin a new run, with the same paths."""
         self._time_sec = 0.0
+        self.history.clear()
         self.collisions.clear()
         for robot in self.robots:
             robot.clear_run()

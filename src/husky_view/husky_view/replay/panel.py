@@ -10,6 +10,7 @@ from husky_course.record import Collision
 import viser
 
 from husky_view.picture.camera import add_camera_buttons
+from husky_view.picture.history import History, RunPlots
 from husky_view.picture.page import (
     figures_html,
     in_decimals,
@@ -110,6 +111,7 @@ class ReplayPanel:
                 gui.add_html('<div style="padding:0 1em .4em">none</div>')
         self._legend = gui.add_html('')
         self._ground = gui.add_html('')
+        self._plots = RunPlots(gui)
         self._page = gui.add_html(self._page_html())
 
     def _page_html(self) -> str:
@@ -151,18 +153,21 @@ class ReplayPanel:
         collisions: int,
         colors: Collection[Rgb],
         ground: str,
+        history: History,
     ) -> None:
         """
         Show the figures and the time.
 
         :param colors: of what there is to be seen, for the legend.
         :param ground: HTML of what the pointer is told about.
+        :param history: what the plots show.
         """
         playback = self._playback
         self._has_begun = self._has_begun or playback.playing
         show_html(self._page, self._page_html())
         show_html(self._legend, legend_html(colors))
         show_html(self._ground, ground)
+        self._plots.show(history)
         if (PLAY in self._play.options) == playback.playing:
             self._play.options = (PAUSE if playback.playing else PLAY, RESTART)
         now = min(round(playback.time_sec, 1), self._slider.max)

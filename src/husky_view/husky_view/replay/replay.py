@@ -104,6 +104,7 @@ class Replay:
             collisions=self._picture.collisions.count,
             colors=self._picture.colors(),
             ground=self._picture.ground_html(),
+            history=self._picture.history,
         )
 
 
