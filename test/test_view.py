@@ -16,6 +16,7 @@ from playpen_testing.waiting import wait_until
 from playwright.sync_api import Browser, Error, expect, Page
 import pytest
 from rclpy.node import Node
+from sensor_msgs.msg import Image
 from std_msgs.msg import Float64MultiArray
 
 PHONE = (390, 844)
@@ -141,6 +142,28 @@ def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Page) -> No
     wait_for(page, f'!{TROUBLE}')
     expect(number(page, 'time')).not_to_have_text(shown_sec)
     assert errors(page) == []
+
+
+@pytest.mark.timeout(120)
+def test_a_camera_has_a_pane_until_it_is_switched_off(lab: Lab, page: Page) -> None:
+    camera = lab.nodes.start(Node, 'camera')
+    publisher = camera.create_publisher(Image, 'camera/image_raw', 1)
+    picture = Image(height=32, width=48, encoding='rgb8', data=bytes(32 * 48 * 3))
+    seen = '[...document.images].some((image) => image.naturalWidth === 48)'
+
+    def is_seen() -> bool:
+        publisher.publish(picture)
+        return bool(page.evaluate(seen))
+
+    wait_until(is_seen, timeout_sec=20.0, what='the picture on the page')
+    page.get_by_label('What the camera sees').uncheck()
+    wait_until(
+        lambda: publisher.get_subscription_count() == 0,
+        timeout_sec=10.0,
+        what='a camera that nobody looks at',
+    )
+    lab.nodes.close(camera)
+    expect(page.get_by_label('What the camera sees')).to_be_hidden()
 
 
 @pytest.mark.timeout(120)

@@ -19,6 +19,7 @@ from std_msgs.msg import Float64MultiArray
 import viser
 
 from husky_view.editor.editor import Editor
+from husky_view.live.camera_pane import CameraPane
 from husky_view.live.checks import RealTimeFactor, SceneCheck, SimulatorMonitor, State
 from husky_view.live.links import RobotLink
 from husky_view.live.panel import Panel
@@ -106,16 +107,10 @@ class LiveView:
         self._picture = Picture(server, world)
         self._control = SimulatorControl(node, query.name, self._on_refused, self._closing)
         many = len(world.robots) > 1
+        namespaces = [f'{robot.name}/' if many else '' for robot in world.robots]
         self._links = [
-            RobotLink(
-                node,
-                self._picture,
-                place,
-                f'{robot.name}/' if many else '',
-                self._on_invalid,
-                self._closing,
-            )
-            for place, robot in enumerate(world.robots)
+            RobotLink(node, self._picture, place, namespace, self._on_invalid, self._closing)
+            for place, namespace in enumerate(namespaces)
         ]
         self._panel = Panel(
             server,
@@ -125,6 +120,14 @@ class LiveView:
             stop=self._on_stop,
             choose_robot=self._on_choose_robot,
             choose_camera=self._picture.choose_camera,
+        )
+        self._camera = CameraPane(
+            node,
+            server.gui,
+            [f'{namespace}camera/image_raw' for namespace in namespaces],
+            later=self._actions.put,
+            invalid=self._on_invalid,
+            closing=self._closing,
         )
         self._editor = Editor(
             server,
@@ -200,6 +203,7 @@ class LiveView:
             self._figures_due_sec = now + 1.0 / FIGURES_HZ
             state = self._monitor.state(now_sec=now)
             self._panel.show_warning(self._warning(state, now))
+            self._camera.draw()
             if self._scene is not None:
                 self._show_figures(self._scene, state)
             if state is State.ANOTHER_WORLD:
@@ -209,6 +213,7 @@ class LiveView:
     def _on_seldom(self) -> None:
         self._editor.look_for_files()
         self._control.poll_factor()
+        self._camera.look()
 
     def _look_for_another_world(self) -> None:
         answer = self._query.poll()
@@ -249,6 +254,7 @@ class LiveView:
         self._driven = place
         self._picture.follow(place)
         self._editor.choose_robot(place)
+        self._camera.choose_robot(place)
 
     def _on_refused(self, what: str, reason: str) -> None:
         self._node.get_logger().warning(f'{what}: {reason}')
