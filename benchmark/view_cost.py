@@ -153,7 +153,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, default=8.0, help='of each run')
     parser.add_argument('--rounds', type=int, default=3)
-    parser.add_argument('--tab', type=int, help=argparse.SUPPRESS)
+    parser.add_argument('--tab', help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.tab:
         read_as_tab(options.tab)
