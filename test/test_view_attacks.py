@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A hostile client of the live page: it finds nothing, and STOP works all the while."""
 
+from copy import deepcopy
 import math
 from pathlib import Path
 import random
@@ -120,4 +121,10 @@ def test_ten_thousand_forged_messages_find_nothing(
 
 
 def properties(page: PageClient) -> dict[str, dict[str, Any]]:
-    return {label: control['props'] for label, control in page.controls.items()}
+    """Return now what only the server may set; values are there to be set by a page."""
+    return {
+        label: {
+            name: deepcopy(value) for name, value in control['props'].items() if name != 'value'
+        }
+        for label, control in page.controls.items()
+    }

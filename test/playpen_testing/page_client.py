@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A client that speaks to the view as its page does, without a browser."""
 
+from importlib.metadata import version
 from typing import Any
 
 import msgspec
-import viser
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 import zstandard
@@ -35,7 +35,7 @@ class PageClient:
     def __init__(self, address: str) -> None:
         self._tab: ClientConnection = connect(
             address.replace('http://', 'ws://').rstrip('/'),
-            subprotocols=[Subprotocol(f'viser-v{viser.__version__}')],
+            subprotocols=[Subprotocol(f'viser-v{version("viser")}')],
             max_size=None,
             close_timeout=0.1,
         )

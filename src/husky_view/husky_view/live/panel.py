@@ -113,8 +113,8 @@ class Panel:
     def show_stopped(self, stopped: bool) -> None:
         """Show whether the emergency stop is pressed."""
         self._stopped = stopped
-        self._stop.label = RELEASE if stopped else STOP
         self._stop.color = 'orange' if stopped else 'red'
+        self._stop.label = RELEASE if stopped else STOP
 
     def show(
         self,
