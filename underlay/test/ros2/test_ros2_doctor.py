@@ -107,7 +107,8 @@ def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., An
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver')
     line = _line(ros2('doctor'), 'commands')
-    assert '/cmd_vel: commands come up to 0.5' in line
+    gap_sec = float(line.partition('/cmd_vel: commands come up to ')[2].split()[0])
+    assert 0.45 < gap_sec < 1.5, 'twice a second, and later on a busy machine'
     assert '/husky stops the robot 0.25 s after the last one' in line
     assert 'publish at least 6 times a second' in line
 
