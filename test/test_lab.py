@@ -179,16 +179,17 @@ def test_a_drive_opens_its_page_first_and_replays_at_the_end(
     monkeypatch.delenv('CI', raising=False)
     run = processes.start(
         *(sys.executable, '-c', IN_A_TERMINAL, LAB),
-        *('drive', '--fast', '--open', '--report', str(tmp_path / 'my report')),
+        *('drive', '--open', '--report', str(tmp_path / 'my report')),
     )
-    run.wait_for_text('(Ctrl-C ends)', timeout_sec=60.0)
+    run.wait_for_text('(Ctrl-C ends)', timeout_sec=100.0)
     lines = run.output.replace('\r', '').splitlines()
     (live,) = [number for number, line in enumerate(lines) if '] look at ' in line]
     (opened,) = [number for number, line in enumerate(lines) if 'the page is open' in line]
     (started,) = [
         number for number, line in enumerate(lines) if '[follow_path-3]: process started' in line
     ]
-    assert opened <= started + 1, 'the launch may tell of the start before the line that caused it'
+    # The launch may tell of the start before the line that caused it.
+    assert min(live, opened) <= started + 1, 'the driver did not wait until there could be a tab'
     assert f"  see it again: ./lab view '{tmp_path / 'my report'}'" in lines[-2:]
     assert seen.read_text() == 'True\n'
     address = lines[-1].split('look at ')[1].split()[0]

@@ -15,7 +15,7 @@ from rtps_graph.observer import Observer
 from ros2cli import arguments
 from ros2cli.errors import UsageError
 
-DEFAULT_TIMEOUT_SEC = 3.0
+DEFAULT_TIMEOUT_SEC = 8.0  # all have answered long before, but on a machine that stands still
 DEFAULT_SPIN_TIME_SEC = 0.5
 SOON_SEC = 1.0  # a service that answers at all mostly answers sooner
 

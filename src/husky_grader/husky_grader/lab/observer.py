@@ -49,8 +49,8 @@ from husky_grader.run.trusted import limit_memory
 NAME = 'grader'
 SEND_EVERY_SEC = 0.1
 SETTLED_SEC = 0.3  # what was on its way when a service answered has come by then
-LISTEN_TIMES = 3  # at most, while a rate is off by no more tolerances than ...
-DOUBTFUL_TOLERANCES = 2.0
+LISTEN_TIMES = 4  # at most, while a rate is off by no more tolerances than ...
+DOUBTFUL_TOLERANCES = 4.0
 TOKENS = (10_000_000, 2**24)  # any field of numbers but the smallest holds them exactly
 MAX_MESSAGES = 2000  # that are judged
 # It matches every publisher, and every subscription.
@@ -158,14 +158,19 @@ def _rate_hz(step: PublisherStep, observer: _Observer, times_sec: Sequence[float
     """
     Listen as long as the step says, and again while a busy machine may have made the difference.
 
+    What was heard last counts by itself, too: a program that was kept waiting before has its rate.
+
     :param times_sec: of the messages; grows meanwhile.
     """
+    rates: list[float] = []
     for _ in range(LISTEN_TIMES):
+        before = len(times_sec)
         observer.spin_for(step.listen_sec)
-        rate = rate_hz(times_sec)
-        if not 1.0 < _tolerances_off(rate, step) <= DOUBTFUL_TOLERANCES:
+        rates += [rate_hz(times_sec), rate_hz(times_sec[before:])]
+        best = min(rates, key=lambda rate: _tolerances_off(rate, step))
+        if not 1.0 < _tolerances_off(best, step) <= DOUBTFUL_TOLERANCES:
             break
-    return rate
+    return best
 
 
 def _tolerances_off(rate: float, step: PublisherStep) -> float:
