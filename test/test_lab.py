@@ -182,14 +182,15 @@ def test_a_drive_opens_its_page_first_and_replays_at_the_end(
         *('drive', '--open', '--report', str(tmp_path / 'my report')),
     )
     run.wait_for_text('(Ctrl-C ends)', timeout_sec=100.0)
-    lines = run.output.replace('\r', '').splitlines()
+    lines = [line.replace('\r', '') for line in run.lines]
     (live,) = [number for number, line in enumerate(lines) if '] look at ' in line]
     (opened,) = [number for number, line in enumerate(lines) if 'the page is open' in line]
     (started,) = [
         number for number, line in enumerate(lines) if '[follow_path-3]: process started' in line
     ]
+    waited_sec = run.printed_sec[started] - run.printed_sec[live]
     # The launch may tell of the start before the line that caused it.
-    assert min(live, opened) <= started + 1, 'the driver did not wait until there could be a tab'
+    assert opened <= started + 1 or waited_sec > 7.0, 'it waits for a tab, for up to 8 s'
     assert f"  see it again: ./lab view '{tmp_path / 'my report'}'" in lines[-2:]
     assert seen.read_text() == 'True\n'
     address = lines[-1].split('look at ')[1].split()[0]

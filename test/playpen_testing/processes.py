@@ -9,6 +9,7 @@ from pathlib import Path
 import signal
 import subprocess
 import threading
+import time
 from types import TracebackType
 
 from husky_runtime.parent_death import die_with_parent
@@ -31,6 +32,7 @@ class Process:
     ) -> None:
         self.command = list(command)
         self.lines: list[str] = []
+        self.printed_sec: list[float] = []  # when each came, of the clock time.monotonic()
         self._child = subprocess.Popen(
             self.command,
             cwd=cwd,
@@ -49,6 +51,7 @@ class Process:
     def _read(self) -> None:
         assert self._child.stdout is not None
         for line in self._child.stdout:
+            self.printed_sec.append(time.monotonic())
             self.lines.append(line.rstrip('\n'))
 
     @property

@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.waiting import wait_until
 import pytest
 from ros2doctor import api
 
@@ -106,9 +107,14 @@ def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> N
 def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver')
-    line = _line(ros2('doctor'), 'commands')
-    gap_sec = float(line.partition('/cmd_vel: commands come up to ')[2].split()[0])
-    assert 0.45 < gap_sec < 1.5, 'twice a second, and later on a busy machine'
+    told: list[str] = []
+
+    def twice_a_second() -> bool:  # asked again, for on a busy machine a command comes late
+        told.append(_line(ros2('doctor'), 'commands'))
+        return '/cmd_vel: commands come up to 0.5' in told[-1]
+
+    wait_until(twice_a_second, timeout_sec=40.0, what=lambda: f'0.5 s apart: {told}')
+    line = told[-1]
     assert '/husky stops the robot 0.25 s after the last one' in line
     assert 'publish at least 6 times a second' in line
 

@@ -49,10 +49,12 @@ def test_the_observer_alone_is_complete_twenty_times_of_twenty(crowd: list[str])
     from ros2cli import discovery
 
     expected = {f'/{name}' for name in crowd}
+    start = time.monotonic()
     for _ in range(20):
         graph = discovery.read_graph(quiet=True)
         assert {node.full_name for node in graph.nodes} == expected
         assert {'/chatter', '/rosout', '/parameter_events'} <= graph.topics().keys()
+    assert (time.monotonic() - start) / 20 < 0.8
 
 
 @pytest.mark.usefixtures('crowd')
