@@ -125,7 +125,7 @@ def _left(passed_sec: float, part: float) -> str:
     return f', about {passed_sec * (1.0 - part) / part:.0f} s left'
 
 
-def run() -> int:  # main() is that of a program of ROS
+def run() -> int:  # not main(), whose entry point `ros2 doctor` would miss
     """Run the command to its end."""
     kind, number, log, *command = sys.argv[1:]
     step = STEPS[kind](int(number), command[0])
