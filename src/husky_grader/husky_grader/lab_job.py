@@ -47,7 +47,7 @@ class LabJob:
         # What ran without a jail may have written what it liked, also its own result.
         jailed = self.sandbox != 'none'
         return key_of(
-            [self.rubric.file, *self.rubric.courses],
+            self.rubric.files,
             {
                 'handed in': digest_of(self.submission),
                 'jailed': jailed,

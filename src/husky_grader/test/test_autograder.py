@@ -141,7 +141,7 @@ def test_a_lab_that_is_no_clone_is_packed_too(tmp_path: Path, rubric_file: Path)
 def test_a_course_named_by_its_place_here_is_refused(rubric_file: Path) -> None:
     wrong = rubric_file.with_name('wrong.yaml')
     wrong.write_text(DRIVING.replace('courses/short', f'{rubric_file.parent}/courses/short'))
-    with pytest.raises(ValueError, match=r'names the course .* by its place on this computer'):
+    with pytest.raises(ValueError, match=r'names the file .* by its place on this computer'):
         make_gradescope(wrong.with_suffix('.zip'), load_rubric(wrong))
     assert not wrong.with_suffix('.zip').exists()
 

@@ -35,7 +35,7 @@ def problems(*steps: str, file: str = 'rubric.yaml') -> list[str]:
 
 
 def test_every_rubric_of_the_lab_is_valid() -> None:
-    assert [load_rubric(path).points for path in RUBRICS] == [100.0] * 3
+    assert [load_rubric(path).points for path in RUBRICS] == [100.0] * 4
 
 
 def test_a_rubric_says_what_stands_in_the_file() -> None:
@@ -63,8 +63,8 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         'installed here; did you mean std_msgs/msg/String?',
         'rubric.yaml: line 5, column 97: steps[2]: rate is no field; did you mean rate_hz? '
         'allowed: kind, name, points, needs, needs_one_of, package, package_with, executable, '
-        'arguments, parameters, topic, type, rate_hz, rate_tolerance, content, call, within_sec, '
-        'listen_sec, costs',
+        'arguments, parameters, topic, type, rate_hz, rate_tolerance, content, after_drive, call, '
+        'within_sec, listen_sec, costs',
         'rubric.yaml: line 6, column 31: steps[3].points: many is not a number; '
         'allowed is 0 to 1000 points',
         'rubric.yaml: line 6, column 45: steps[3].forms[0]: <numbr> is no placeholder; did you '

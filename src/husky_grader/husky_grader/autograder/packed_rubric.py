@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A rubric with the courses that it names, so that it can be read elsewhere."""
+"""A rubric with the files that it names, so that it can be read elsewhere."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,13 +25,12 @@ def packed_rubric(rubric: Rubric) -> PackedRubric:
     """
     Return what a rubric was read from.
 
-    :raises ValueError: when it names a course in a way that only holds where it lies now.
+    :raises ValueError: when it names a file in a way that only holds where it lies now.
     """
-    file = rubric.file.resolve()
-    courses = [path.resolve() for path in rubric.courses]
-    top = Path(os.path.commonpath([path.parent for path in (file, *courses)]))
-    files = {path.relative_to(top).as_posix(): path for path in (file, *courses)}
-    packed = PackedRubric(files, file.relative_to(top).as_posix())
+    every = [path.resolve() for path in rubric.files]
+    top = Path(os.path.commonpath([path.parent for path in every]))
+    files = {path.relative_to(top).as_posix(): path for path in every}
+    packed = PackedRubric(files, rubric.file.resolve().relative_to(top).as_posix())
     _check(packed, rubric)
     return packed
 
@@ -44,9 +43,9 @@ def _check(packed: PackedRubric, rubric: Rubric) -> None:
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, folder / path)
         read = load_rubric(folder / packed.rubric)
-        for given, course in zip(rubric.courses, read.courses, strict=True):
-            if not course.resolve().is_relative_to(folder):
+        for given, found in zip(rubric.files, read.files, strict=True):
+            if not found.resolve().is_relative_to(folder):
                 raise ValueError(
-                    f'{rubric.file}: names the course {given} by its place on this computer; name '
+                    f'{rubric.file}: names the file {given} by its place on this computer; name '
                     'it from the folder of the rubric, as in ../courses/one.yaml'
                 )

@@ -53,7 +53,7 @@ def grade_lab(
     folder.mkdir(parents=True, exist_ok=True)
     remove(folder / BUILT)
     findings = {}
-    grading = _Grading(workspace, folder, sandbox, real_time_factor)
+    grading = _Grading(workspace, folder, sandbox, rubric.interfaces, real_time_factor)
     try:
         for step in rubric.steps:
             findings[step.name] = grading.find(step)
@@ -85,11 +85,17 @@ class _Grading:
     """Finds out about the steps, in their order: the programs run when the workspace was built."""
 
     def __init__(
-        self, workspace: Path, folder: Path, sandbox: Sandbox, real_time_factor: float
+        self,
+        workspace: Path,
+        folder: Path,
+        sandbox: Sandbox,
+        interfaces: Sequence[Path],
+        real_time_factor: float,
     ) -> None:
         self._workspace = workspace
         self._folder = folder
         self._sandbox = sandbox
+        self._interfaces = interfaces
         self._real_time_factor = real_time_factor
         self._programs: Programs | None = None
         self._not_sourced = 'nothing was built'
@@ -122,8 +128,9 @@ class _Grading:
         with Jail(self._sandbox, built, readable=[self._workspace]) as jail:
             found = build_step(self._workspace, jail, log)
             try:
-                environment = sourced(jail)
-                self._programs = Programs(self._workspace, built, environment, self._sandbox)
+                self._programs = Programs(
+                    self._workspace, built, sourced(jail), self._sandbox, self._interfaces
+                )
             except ValueError as error:
                 self._programs, self._not_sourced = None, str(error)
         return found

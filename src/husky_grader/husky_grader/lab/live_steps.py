@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The steps that are judged on a running program: publisher, subscriber and service."""
 
+from collections.abc import Callable, Mapping, Sequence
 import json
 import os
 from pathlib import Path
@@ -12,11 +13,12 @@ import time
 
 from husky_runtime.children import ChildProcess, tail_of
 
-from husky_grader.jail import Jail, JailedProcess
+from husky_grader.jail import JailedProcess
 from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.lab.programs import Programs
+from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
 from husky_grader.run.diagnosis import crash, shortened
 from husky_grader.run.printed import read_printed
@@ -41,7 +43,8 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
     command = programs.command_of(step)
     theirs = {**programs.environment, 'PYTHONUNBUFFERED': '1'}
     with programs.jail() as jail, jail.started(command, theirs, log=log) as program:
-        found = _observe(step, jail, program, log)
+        ours = with_types({**os.environ, **jail.graph}, programs.interfaces)
+        found = _observe(step, jail.beside, ours, program, log)
         exit_code = program.exit_code
     if exit_code == NO_PROGRAM:
         return nothing(
@@ -52,8 +55,18 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
     return found
 
 
-def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -> Finding:
-    """Let the grader's own node find it out, a process in the network of the program."""
+def _observe(
+    step: ProgramStep,
+    beside: Callable[[Sequence[str]], list[str]],
+    environment: Mapping[str, str],
+    program: JailedProcess,
+    log: Path,
+) -> Finding:
+    """
+    Let the grader's own node find it out, a process in the network of the program.
+
+    :param beside: makes a command one that runs there.
+    """
     with TemporaryDirectory() as name:
         place = Path(name)
         (place / STEP_FILE).write_bytes(pickle.dumps(step))
@@ -61,7 +74,7 @@ def _observe(step: ProgramStep, jail: Jail, program: JailedProcess, log: Path) -
         observer_log = place / 'log'
         with (
             observer_log.open('w') as stream,
-            ChildProcess(jail.beside(command), {**os.environ, **jail.graph}, stream) as observer,
+            ChildProcess(beside(command), environment, stream) as observer,
         ):
             deadline = time.monotonic() + OBSERVED_SEC
             while not observer.wait(POLL_SEC) and time.monotonic() < deadline:

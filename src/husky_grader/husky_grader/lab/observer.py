@@ -32,6 +32,7 @@ from husky_grader.lab.file_steps import asked
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.messages import about, complaint, rate_hz
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
+from husky_grader.lab.robot import Robot
 from husky_grader.rubric.forms import ANYTHING, Form, TOKEN, with_token
 from husky_grader.rubric.interfaces import filled
 from husky_grader.rubric.steps import (
@@ -47,6 +48,7 @@ from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import limit_memory
 
 NAME = 'grader'
+OTHERS = ('husky_sim', 'follow_path')  # the nodes of the robot beside, where there is one
 SEND_EVERY_SEC = 0.1
 SETTLED_SEC = 0.3  # what was on its way when a service answered has come by then
 LISTEN_TIMES = 4  # at most, while a rate is off by no more tolerances than ...
@@ -67,16 +69,17 @@ Over = Callable[[], bool]
 """Tells whether the student's program has ended."""
 
 
-def observe(step: ProgramStep, over: Over, log: Path) -> Finding:
+def observe(step: ProgramStep, over: Over, log: Path, folder: Path) -> Finding:
     """
     Find out what a running program does of what a step asks.
 
     :param log: what it prints.
+    :param folder: for what the grader's own programs print.
     :raises TypeError: when the step is of another kind.
     """
     with _observer(over) as observer:
         if isinstance(step, PublisherStep):
-            return _publisher(step, observer)
+            return _publisher(step, observer, folder)
         if isinstance(step, SubscriberStep):
             return _subscriber(step, observer, log)
         if isinstance(step, ServiceStep):
@@ -120,9 +123,14 @@ def _observer(over: Over) -> Iterator[_Observer]:
         rclpy.shutdown(context=context)
 
 
-def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
-    if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
-        return found
+def _publisher(step: PublisherStep, observer: _Observer, folder: Path) -> Finding:
+    if step.after_drive is None:
+        return _published(step, observer)
+    with Robot(step.after_drive, folder) as robot:
+        return _published(step, observer, robot)
+
+
+def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = None) -> Finding:
     times_sec: list[float] = []
     complaints: list[str] = []  # the first; no message is kept: a large one costs much memory
 
@@ -134,13 +142,21 @@ def _publisher(step: PublisherStep, observer: _Observer) -> Finding:
                 complaints.append(wrong)
 
     observer.node.create_subscription(get_message(step.type), step.topic, on_message, HEARS_ALL)
-    if step.call is not None:
+    if robot is not None:
+        observer.spin_until(lambda: times_sec, step.within_sec)
+        if times_sec and (why := _driven(robot, observer)):
+            return nothing(f'the Husky beside it did not come to the end of its course: {why}')
+    if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
+        return found
+    if robot is not None or step.call is not None:
         observer.spin_for(SETTLED_SEC)
         times_sec.clear()
         complaints.clear()
     observer.spin_until(lambda: times_sec, step.within_sec)
+    if other := _other_fields(step, observer.node):
+        return nothing(other)
     if not times_sec:
-        return nothing(_why_silent(step, read_graph(observer.node, (NAME,))))
+        return nothing(_why_silent(step, read_graph(observer.node, (NAME, *OTHERS))))
     rate = _rate_hz(step, observer, times_sec)
     defects = {'content': complaints[0]} if complaints else {}
     shown = about(rate)
@@ -178,6 +194,28 @@ def _tolerances_off(rate: float, step: PublisherStep) -> float:
     if step.rate_hz is None:
         return 0.0
     return abs(rate / step.rate_hz - 1.0) * 100.0 / step.rate_tolerance_percent
+
+
+def _driven(robot: Robot, observer: _Observer) -> str:
+    """Let the robot drive its course; return why it is not at the end, or nothing."""
+    robot.drive()
+    observer.spin_until(lambda: robot.stands, robot.limit_sec)
+    return robot.why_not_there()
+
+
+def _other_fields(step: PublisherStep, node: Node) -> str:
+    """Return that a publisher's type has the name that is asked for, and other fields."""
+    own = {
+        str(each.topic_type_hash)
+        for each in node.get_subscriptions_info_by_topic(step.topic)
+        if each.node_name == NAME
+    }
+    for each in node.get_publishers_info_by_topic(step.topic):
+        if each.topic_type == step.type and str(each.topic_type_hash) not in own:
+            fields = get_message(step.type).get_fields_and_field_types().items()
+            asked_for = ', '.join(f'{name} ({kind})' for name, kind in fields)
+            return f'its {step.type} has other fields; {asked(asked_for)}'
+    return ''
 
 
 def _why_silent(step: PublisherStep, graph: Graph) -> str:
@@ -262,7 +300,7 @@ def main() -> int:
     folder, log = map(Path, sys.argv[1:])
     limit_memory()
     step = pickle.loads((folder / STEP_FILE).read_bytes())  # noqa: S301  # the grader's own
-    found = observe(step, (folder / OVER_FILE).exists, log)
+    found = observe(step, (folder / OVER_FILE).exists, log, folder)
     part = folder / 'part'
     part.write_text(json.dumps(asdict(found)), encoding='utf-8')
     part.replace(folder / FINDING_FILE)

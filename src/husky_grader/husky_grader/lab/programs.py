@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The programs of a workspace that was built."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 import json
@@ -28,12 +28,14 @@ class Programs:
 
     :param built: where the workspace was built.
     :param environment: that of a terminal in which it was sourced.
+    :param interfaces: packages of the types that the grader needs.
     """
 
     workspace: Path
     built: Path
     environment: Mapping[str, str]
     sandbox: Sandbox
+    interfaces: Sequence[Path] = ()
 
     @contextmanager
     def jail(self) -> Iterator[Jail]:

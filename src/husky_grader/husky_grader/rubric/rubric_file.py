@@ -20,6 +20,7 @@ from husky_course.checked_yaml import (
 from husky_course.waypoints import load_course
 
 from husky_grader.rubric.mistakes import mistakes_of
+from husky_grader.rubric.own_types import find_types
 from husky_grader.rubric.steps import (
     BuildStep,
     PackageStep,
@@ -52,13 +53,25 @@ class _RubricReader(FieldReader):
         self._path = path
 
     def rubric(self, root: Value) -> Rubric:
+        interfaces = self._interfaces(_at(root, 'interfaces'))  # the steps name their types
         rubric: Rubric | None = self.mapping(RUBRIC, root, '')
         if rubric is not None:
             steps = next(value for key, value in root.pairs if key.text == 'steps')
             self._check_together(rubric.steps, steps.items)
         if rubric is None or self.problems:
             raise FileRefused(self.file, self.problems)
-        return replace(rubric, file=self._path)
+        return replace(rubric, file=self._path, interfaces=interfaces)
+
+    def _interfaces(self, given: Value) -> tuple[Path, ...]:
+        """Make the types of a list of packages known; return their folders."""
+        folders = tuple(
+            (self._path.parent / item.text).absolute() for item in given.items if item.text
+        )
+        try:
+            find_types(folders)
+        except ValueError as error:
+            self.wrong(given, 'interfaces', str(error))
+        return folders
 
     def item(self, field: Field, value: Value, name: str) -> object:
         return (
@@ -69,7 +82,7 @@ class _RubricReader(FieldReader):
 
     def value(self, field: Field, value: Value, name: str) -> object:
         found = super().value(field, value, name)
-        if field.attribute == 'file' and isinstance(found, str):
+        if field.attribute in ('file', 'after_drive') and isinstance(found, str):
             return self._course_file(found, value, name)
         return found
 
@@ -96,7 +109,7 @@ class _RubricReader(FieldReader):
 
     def _course_file(self, given: str, value: Value, name: str) -> Path:
         """Return a waypoint file; a mistake in it is one of the rubric, too."""
-        path = self._path.parent / given
+        path = (self._path.parent / given).absolute()  # programs elsewhere read it, too
         try:
             load_course(path)
         except ValueError as error:

@@ -11,6 +11,7 @@ import re
 from typing import Any, ClassVar
 
 from husky_grader.rubric.forms import Form
+from husky_grader.rubric.own_types import files_of
 
 COURSE = '{course}'
 """Stands for the waypoint file of the course that is driven."""
@@ -129,6 +130,7 @@ class PublisherStep(ProgramStep):
     rate_hz: float | None = None
     rate_tolerance_percent: float = 15.0
     content: tuple[FieldCheck, ...] = ()
+    after_drive: Path | None = None
     call: ServiceCall | None = None
     within_sec: float = 15.0
     listen_sec: float = 3.0
@@ -238,6 +240,7 @@ class Rubric:
 
     title: str
     steps: tuple[Step, ...]
+    interfaces: tuple[Path, ...] = ()  # packages of the types that are not installed
     file: Path = field(default=Path(), compare=False)
 
     @property
@@ -248,8 +251,19 @@ class Rubric:
     @property
     def courses(self) -> tuple[Path, ...]:
         """The waypoint files that are driven, each once."""
-        drives = (step for step in self.steps if isinstance(step, DriveStep))
-        return tuple(dict.fromkeys(course.file for step in drives for course in step.courses))
+        driven: list[Path] = []
+        for step in self.steps:
+            if isinstance(step, DriveStep):
+                driven += [course.file for course in step.courses]
+            elif isinstance(step, PublisherStep) and step.after_drive is not None:
+                driven.append(step.after_drive)
+        return tuple(dict.fromkeys(driven))
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """All that the rubric is read from, itself first."""
+        interfaces = (path for package in self.interfaces for path in files_of(package))
+        return (self.file, *self.courses, *interfaces)
 
     @property
     def points(self) -> float:

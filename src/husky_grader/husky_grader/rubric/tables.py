@@ -230,6 +230,11 @@ STEPS = {
                     'percent',
                 ),
                 'content': Field('content', 'What the fields must hold.', _list(), table=_CHECK),
+                'after_drive': Field(
+                    'after_drive',
+                    'A waypoint file: a Husky is driven along it beside the program first.',
+                    _TEXT,
+                ),
                 'call': Field(
                     'call',
                     'A service that is called before it is listened to.',
@@ -319,6 +324,11 @@ RUBRIC = Table(
     Rubric,
     {
         'title': Field('title', 'What the lab is called.', _TEXT),
+        'interfaces': Field(
+            'interfaces',
+            'Folders of packages with the types that are not installed; as seen from the rubric.',
+            _texts(1),
+        ),
         'steps': Field('steps', 'The steps of the lab.', _list(), example='- kind: ...'),
     },
     ('title', 'steps'),

@@ -1,0 +1,187 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Rubrics with types of their own, and steps with a Husky beside: built, run and judged."""
+
+from dataclasses import replace
+from pathlib import Path
+import shutil
+import subprocess
+
+from husky_course.checked_yaml import FileRefused
+from husky_grader.autograder.packed_rubric import packed_rubric
+from husky_grader.graded import StepGrade
+from husky_grader.jail import find_sandbox
+from husky_grader.lab.lab import grade_lab
+from husky_grader.rubric.own_types import build_types
+from husky_grader.rubric.rubric_file import load_rubric
+from husky_grader.rubric.steps import BuildStep, Rubric
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+RUBRIC = ROOT / 'docs' / 'rubrics' / 'services_messages_frames.yaml'
+INTERFACES = RUBRIC.with_name('odometer_interfaces')
+ODOMETER = """
+import math
+
+from nav_msgs.msg import Odometry
+from odometer_interfaces.msg import Distance
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class Odometer(Node):
+
+    def __init__(self):
+        super().__init__('odometer')
+        self.distance, self.last = 0.0, None
+        self.publisher = self.create_publisher(Distance, 'distance', 10)
+        self.create_subscription(Odometry, 'odometry/filtered', self.on_odometry, 10)
+
+    def on_odometry(self, odometry):
+        here = odometry.pose.pose.position.x, odometry.pose.pose.position.y
+        self.distance += math.dist(here, self.last or here)
+        self.last = here
+        self.publisher.publish(Distance(distance_m=self.distance))
+
+
+def main():
+    rclpy.init()
+    try:
+        rclpy.spin(Odometer())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+"""
+
+
+@pytest.fixture(autouse=True)
+def surroundings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Build types anew, and let programs find each other quickly."""
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
+    build_types.cache_clear()
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
+
+
+def rubric_of_distance() -> Rubric:
+    rubric = load_rubric(RUBRIC)
+    kept = [
+        step for step in rubric.steps if isinstance(step, BuildStep) or step.name == 'distance'
+    ]
+    return replace(rubric, steps=tuple(replace(step, needs_one_of=()) for step in kept))
+
+
+def grade_of_distance(folder: Path, program: str = ODOMETER) -> StepGrade:
+    """Let a student write the program beside the interfaces in src; return its grade."""
+    source = folder / 'workspace' / 'src'
+    source.mkdir(parents=True, exist_ok=True)
+    create = ['ros2', 'pkg', 'create', 'odometer', '--build-type', 'ament_python']
+    create += ['--node-name', 'odometer']
+    subprocess.run(create, cwd=source, check=True, stdout=subprocess.DEVNULL)
+    (source / 'odometer' / 'odometer' / 'odometer.py').write_text(program)
+    sandbox = find_sandbox('auto')
+    grades = grade_lab(
+        folder / 'workspace', rubric_of_distance(), folder / 'report', sandbox=sandbox
+    )
+    return grades[-1]
+
+
+def own_interfaces(folder: Path) -> Path:
+    return Path(shutil.copytree(INTERFACES, folder / 'workspace' / 'src' / INTERFACES.name))
+
+
+@pytest.mark.timeout(90)
+def test_a_distance_is_judged_after_the_husky_has_driven(tmp_path: Path) -> None:
+    own_interfaces(tmp_path)
+    grade = grade_of_distance(tmp_path)
+    assert grade.is_full, grade.why
+    assert grade.why.endswith('Hz on /distance, odometer_interfaces/msg/Distance')
+
+
+@pytest.mark.timeout(90)
+def test_a_distance_that_does_not_grow_is_seen(tmp_path: Path) -> None:
+    own_interfaces(tmp_path)
+    grade = grade_of_distance(tmp_path, ODOMETER.replace('+= math', '= math'))
+    assert grade.why.startswith('distance_m is ')
+    assert 'the lab asks for 1.6 or more' in grade.why
+    assert grade.points == grade.most / 2
+
+
+@pytest.mark.timeout(90)
+def test_another_definition_of_the_message_is_told_by_its_fields(tmp_path: Path) -> None:
+    message = own_interfaces(tmp_path) / 'msg' / 'Distance.msg'
+    message.write_text('builtin_interfaces/Time stamp\nfloat32 distance_m\nuint32 resets\n')
+    grade = grade_of_distance(tmp_path)
+    assert grade.points == 0
+    assert grade.why == (
+        'its odometer_interfaces/msg/Distance has other fields; the lab asks for stamp '
+        '(builtin_interfaces/Time), distance_m (double), resets (uint32)'
+    )
+
+
+@pytest.mark.timeout(90)
+def test_the_types_of_the_grader_are_no_types_of_the_students(tmp_path: Path) -> None:
+    grade = grade_of_distance(tmp_path)
+    assert grade.points == 0
+    assert "ModuleNotFoundError: No module named 'odometer_interfaces'" in grade.why
+
+
+def test_types_are_built_once_and_anew_when_they_change(tmp_path: Path) -> None:
+    package = Path(shutil.copytree(INTERFACES, tmp_path / 'other' / INTERFACES.name))
+    first = build_types((package,))
+    build_types.cache_clear()
+    built = Path(first['AMENT_PREFIX_PATH'].split(':')[0])
+    since = built.stat().st_mtime_ns
+    assert build_types((package,)) == first
+    assert built.stat().st_mtime_ns == since
+    with (package / 'msg' / 'Distance.msg').open('a') as stream:
+        stream.write('bool moving\n')
+    build_types.cache_clear()
+    assert build_types((package,)) != first
+
+
+def test_a_build_that_was_killed_is_done_again(tmp_path: Path) -> None:
+    first = build_types((INTERFACES,))
+    kept = next((tmp_path / 'cache' / 'husky_playpen_lab' / 'interfaces').glob('*/variables.json'))
+    kept.unlink()
+    shutil.rmtree(kept.parent / 'install')
+    build_types.cache_clear()
+    assert build_types((INTERFACES,)) == first
+    assert (kept.parent / 'install' / 'share' / 'odometer_interfaces' / 'package.xml').is_file()
+
+
+def test_a_wrong_definition_is_a_mistake_of_the_rubric(tmp_path: Path) -> None:
+    package = Path(shutil.copytree(INTERFACES, tmp_path / INTERFACES.name))
+    (package / 'msg' / 'Distance.msg').write_text('flaot64 distance_m\n')
+    file = tmp_path / 'rubric.yaml'
+    steps = 'steps:\n  - {kind: build, points: 1}\n'
+    file.write_text(f'title: T\ninterfaces: [odometer_interfaces]\n{steps}')
+    with pytest.raises(FileRefused) as refused:
+        load_rubric(file)
+    told = str(refused.value)
+    assert told.startswith(f'{file}: line 2, column 13: interfaces: ')
+    assert "Distance.msg:1: 'flaot64' is no type" in told
+    assert '\n' not in told
+    file.write_text(f'title: T\ninterfaces: [none]\n{steps}')
+    with pytest.raises(
+        FileRefused, match=r'none has no package\.xml; name the folder of a package'
+    ):
+        load_rubric(file)
+
+
+def test_a_cache_that_cannot_be_written_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'file'))
+    with pytest.raises(ValueError, match='let XDG_CACHE_HOME name a folder that can be written'):
+        build_types((INTERFACES,))
+
+
+def test_what_a_rubric_is_read_from_holds_its_interfaces() -> None:
+    rubric = load_rubric(RUBRIC)
+    assert rubric.files[0] == RUBRIC
+    assert INTERFACES / 'msg' / 'Distance.msg' in rubric.files
+    assert RUBRIC.parent / 'courses' / 'short.yaml' in rubric.files
+    packed = packed_rubric(rubric)
+    assert 'docs/rubrics/odometer_interfaces/msg/Distance.msg' in packed.files
