@@ -9,6 +9,7 @@ import subprocess
 from husky_runtime.domains import OwnDomain
 from playpen_testing import chromium
 from playpen_testing.browser import start_browser
+from playpen_testing.desk import Terminals
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.which_ros import SOURCED
@@ -71,3 +72,23 @@ def nodes(domain_id: int) -> Iterator[SpunNodes]:
     """Spin real nodes in this process, in the test's domain."""
     with SpunNodes(domain_id) as spun:
         yield spun
+
+
+@pytest.fixture
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Give a student an empty home folder, to work in."""
+    folder = tmp_path / 'home'
+    folder.mkdir()
+    monkeypatch.setenv('HOME', str(folder))
+    monkeypatch.delenv('XDG_CACHE_HOME', raising=False)
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture
+def terminals(home: Path, processes: Processes) -> Iterator[Terminals]:
+    """Give a student terminals, which begin in the home folder."""
+    del home
+    desk = Terminals(processes)
+    yield desk
+    desk.close()
