@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / 'README.md').read_text()
 PAGES = [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
 # What students make, and what not every ROS that is sourced has.
-NOT_OURS = ('my_driver', 'my_pkg', *(['rqt_graph'] if SOURCED else []))
+NOT_OURS = ('my_driver', 'my_pkg', 'odometer', *(['rqt_graph'] if SOURCED else []))
 NUMBER = re.compile(r'\d+(?:\.\d+)?')
 
 

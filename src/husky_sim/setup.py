@@ -29,6 +29,7 @@ setup(
         installed(HERE / 'launch', '*.launch.py'),
         installed(HERE / 'config', '*.yaml'),
         installed(HERE / 'hook', 'check_fields.*'),
+        installed(HERE / 'meshes', '*.stl'),
         installed(HERE.parents[1] / 'worlds', '*.xml'),
     ],
     install_requires=['setuptools', 'mujoco', 'numpy'],

@@ -87,7 +87,7 @@ OF_A_ROBOT = {
     *('/clock', '/imu/data', '/joint_states', '/navsat/fix', '/odometry/filtered', '/e_stop'),
     *('/husky_velocity_controller/odom', '/husky_velocity_controller/cmd_vel'),
     *('/husky_velocity_controller/cmd_vel_out', '/diagnostics', '/tf', '/tf_static'),
-    *('/rosout', '/parameter_events'),
+    *('/robot_description', '/rosout', '/parameter_events'),
 }
 
 

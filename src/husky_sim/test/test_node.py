@@ -18,6 +18,7 @@ from husky_sim.ros.node import SimulatorNode
 from husky_sim.ros.pacing import CATCH_UP_SEC
 from husky_sim.scene_topic import QOS as SCENE_QOS
 from husky_sim.scene_topic import read_scene
+from husky_sim.world import default_worlds, urdf_of
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
@@ -26,13 +27,15 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import Empty, SetBool, Trigger
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 COMMANDS = 'husky_velocity_controller/cmd_vel'
 TOPICS = {
     'odometry/filtered': Odometry,
@@ -416,6 +419,15 @@ def test_two_runs_of_the_same_commands_are_the_same_bit_for_bit(
     assert records[0].rows.tobytes() == records[1].rows.tobytes()
     assert len(records[0].rows) == 151
     assert records[0].robots == (RobotStart(),)
+
+
+def test_who_asks_late_gets_the_description_of_the_robot(bench: Callable[..., Bench]) -> None:
+    run = bench()
+    run.begun()
+    told: list[String] = []
+    run.probe.create_subscription(String, 'robot_description', told.append, LATCHED)
+    run.until(lambda: told, 'robot_description')
+    assert told[0].data == urdf_of(default_worlds() / 'husky.xml')
 
 
 def test_each_of_many_robots_has_its_own_topics(domain_id: int) -> None:

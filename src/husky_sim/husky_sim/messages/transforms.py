@@ -17,6 +17,7 @@ from husky_sim.messages.messages import Stamp
 from husky_sim.messages.packed_message import PackedMessage
 from husky_sim.robot.husky import WHEELS
 from husky_sim.simulation import SimulatedRobot
+from husky_sim.world import FIXED_FRAMES, Frame
 
 try:
     from tf2_msgs.msg import TFMessage
@@ -26,11 +27,6 @@ except ImportError:
 __all__ = ['TFMessage', 'TransformsMessage', 'fixed_transforms']
 
 _WHEEL_X_M, _WHEEL_Y_M, _WHEEL_Z_M = 0.256, 0.2854, 0.03282
-_FIXED = {
-    'base_footprint': (0.0, 0.0, -0.13228),
-    'imu_link': (0.19, 0.0, 0.149),
-    'front_laser': (0.337, 0.0, 0.30795),
-}
 
 
 class TransformsMessage(PackedMessage):
@@ -65,9 +61,7 @@ class TransformsMessage(PackedMessage):
 
 def fixed_transforms() -> Any:
     """Return the message of what never moves in base_link."""
-    return TFMessage(
-        transforms=[*(_moved('base_link', *item) for item in _FIXED.items()), _camera()]
-    )
+    return TFMessage(transforms=[_fixed(*item) for item in FIXED_FRAMES.items()])
 
 
 def _half_turn(angle_rad: float) -> tuple[float, float]:
@@ -75,11 +69,10 @@ def _half_turn(angle_rad: float) -> tuple[float, float]:
     return math.sin(angle_rad / 2.0), math.cos(angle_rad / 2.0)
 
 
-def _camera() -> TransformStamped:
-    """Return the optical frame: z forward, x to the right (REP-103)."""
-    transform = _moved('base_link', 'camera', (0.45, 0.0, 0.29))
+def _fixed(name: str, frame: Frame) -> TransformStamped:
+    transform = _moved('base_link', name, frame.position_m)
     rotation = transform.transform.rotation
-    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+    rotation.w, rotation.x, rotation.y, rotation.z = frame.orientation
     return transform
 
 

@@ -21,6 +21,7 @@ from husky_sim.messages import messages
 from husky_sim.messages.messages import Stamp
 from husky_sim.messages.packed_message import Form
 from husky_sim.robot.contacts import Collision
+from husky_sim.ros.description import publish_description
 from husky_sim.ros.sensor_topics import SensorTopics
 from husky_sim.ros.transforms import create_transform_topics
 from husky_sim.simulation import SimulatedRobot, Simulation
@@ -99,6 +100,7 @@ class RobotTopics:
         self._rest += create_transform_topics(
             node, namespace, localization=self.filtered_publisher is not None
         )
+        publish_description(node, namespace, simulation.world.husky)
         self.command_subscription: Subscription = node.create_subscription(
             Twist,
             f'{controller}/cmd_vel',

@@ -40,6 +40,7 @@ class World:
     """A compiled model, and the robot or obstacle that each geom belongs to."""
 
     path: str
+    husky: str  # the robot's file
     model: mujoco.MjModel
     robots: tuple[RobotStart, ...]
     obstacles: tuple[Outline, ...]
@@ -83,8 +84,9 @@ def load_world(
     heights = [_height_under(path, empty, robot) for robot in robots]
     spec = _parsed(path)
     check_settings(path, spec)
+    husky = husky or _husky_beside(path)
     for robot, height in zip(robots, heights, strict=True):
-        _attach(spec, husky or _husky_beside(path), robot, height)
+        _attach(spec, husky, robot, height)
     spec.compiler.discardvisual = not visual
     model = _compiled(path, spec)
     data = mujoco.MjData(model)
@@ -93,6 +95,7 @@ def load_world(
     _check_start(path, data, robots, names, owners)
     return World(
         path=path,
+        husky=husky,
         model=model,
         robots=tuple(robots),
         obstacles=_outlines(model, data, names, owners, len(robots)),
