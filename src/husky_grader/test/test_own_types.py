@@ -108,6 +108,16 @@ def test_a_distance_that_does_not_grow_is_seen(tmp_path: Path) -> None:
 
 
 @pytest.mark.timeout(90)
+def test_a_distance_that_needs_no_husky_is_worth_nothing(tmp_path: Path) -> None:
+    own_interfaces(tmp_path)
+    grade = grade_of_distance(
+        tmp_path, ODOMETER.replace('distance_m=self.distance', 'distance_m=1.7')
+    )
+    assert grade.points == 0
+    assert grade.why == 'what it publishes is the same before the Husky has driven'
+
+
+@pytest.mark.timeout(90)
 def test_another_definition_of_the_message_is_told_by_its_fields(tmp_path: Path) -> None:
     message = own_interfaces(tmp_path) / 'msg' / 'Distance.msg'
     message.write_text('builtin_interfaces/Time stamp\nfloat32 distance_m\nuint32 resets\n')

@@ -26,9 +26,14 @@ def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
         )
         for entry in entries:
             if not _fits(entry, check):
-                shown = repr(entry) if isinstance(entry, str) else str(entry)
-                return f'{check.field} is {shortened(shown)}; {asked(_wanted(check))}'
+                return f'{check.field} is {_shown(entry)}; {asked(_wanted(check))}'
     return ''
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, float):
+        return str(float(f'{value:.3g}'))  # no more than is the same in each grading
+    return shortened(repr(value) if isinstance(value, str) else str(value))
 
 
 def _fits(value: Any, check: FieldCheck) -> bool:

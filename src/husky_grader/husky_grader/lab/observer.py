@@ -144,6 +144,8 @@ def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = N
     observer.node.create_subscription(get_message(step.type), step.topic, on_message, HEARS_ALL)
     if robot is not None:
         observer.spin_until(lambda: times_sec, step.within_sec)
+        if times_sec and step.content and not complaints:
+            return nothing('what it publishes is the same before the Husky has driven')
         if times_sec and (why := _driven(robot, observer)):
             return nothing(f'the Husky beside it did not come to the end of its course: {why}')
     if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
