@@ -5,13 +5,11 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 import signal
 import sys
-import threading
-import webbrowser
 
+from live_page import open_on_a_desktop, read_port, serve_somewhere
 from ros2cli.discovery import read_graph
 from ros2cli.errors import CommandError
 
@@ -43,7 +41,7 @@ def parse_arguments(argv: list[str]) -> argparse.Namespace:
     parser.add_argument(
         '--debug', action='store_true', help='show /rosout, /parameter_events, /clock and so on'
     )
-    parser.add_argument('--port', type=_port, help='port of the page; default: a free one')
+    parser.add_argument('--port', type=read_port, help='port of the page; default: a free one')
     for ignored in ('--force-discover', '--clear-config', '--standalone', '-t'):
         parser.add_argument(ignored, action='store_true', help=argparse.SUPPRESS)
     return parser.parse_args(_without_ros_arguments(argv))
@@ -75,10 +73,10 @@ def _write(args: argparse.Namespace) -> int:
 
 
 def _show(args: argparse.Namespace) -> int:
-    from rqt_graph.server import serve_somewhere
+    from rqt_graph.server import FIRST_PORT, GraphServer
 
     try:
-        server = serve_somewhere(args.port)
+        server = serve_somewhere(GraphServer, args.port, first=FIRST_PORT)
     except OSError:
         raise CommandError(
             f'--port {args.port} is taken: leave it out to get a free one'
@@ -88,8 +86,7 @@ def _show(args: argparse.Namespace) -> int:
     suffix = ''.join((f'?view={args.view}', '&debug=shown' if args.debug else ''))
     address = server.address + (suffix if suffix != '?view=active' else '')
     print(f'rqt_graph: the live graph is at {address} (Ctrl-C ends it)', flush=True)
-    if os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'):
-        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    open_on_a_desktop(address)
     with server:
         server.serve_forever(poll_interval=0.2)
     return 0
@@ -106,12 +103,6 @@ def _output_file(text: str) -> Path:
             f"'{text}' is refused: there is no folder '{path.parent}'; make it first"
         )
     return path
-
-
-def _port(text: str) -> int:
-    if not text.isdecimal() or not 1 <= int(text) <= 65535:
-        raise argparse.ArgumentTypeError(f"'{text}' is refused: a port is from 1 to 65535")
-    return int(text)
 
 
 def _without_ros_arguments(argv: list[str]) -> list[str]:
