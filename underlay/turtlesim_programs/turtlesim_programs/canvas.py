@@ -1,0 +1,96 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The picture that pens draw, pixel by pixel; turtles and background are not in it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from turtlesim_programs.motion import Colour, Line, PIXELS, PIXELS_PER_M, Point, SIDE_M
+
+NOTHING = 0x00FFFFFF
+"""A pixel that nobody has drawn upon: white that cannot be seen, as upstream has it."""
+
+_OPAQUE = 0xFF000000
+_THIN = 1
+
+Pixels = NDArray[np.uint32]
+
+
+def to_pixels(point: Point) -> Point:
+    """Return a point in pixels; whole numbers are the middle of one, 0 is at the top left."""
+    return point[0] * PIXELS_PER_M, (SIDE_M - point[1]) * PIXELS_PER_M
+
+
+class Canvas:
+    """A square of pixels, each 0xAARRGGBB, by row and column."""
+
+    def __init__(self) -> None:
+        self.pixels: Pixels = np.full((PIXELS, PIXELS), NOTHING, np.uint32)
+
+    def clear(self) -> None:
+        self.pixels[:] = NOTHING
+
+    def colour_at(self, point: Point) -> Colour:
+        """Return what is drawn there, in metres; white where nothing is."""
+        column, row = (min(max(_rounded(value), 0), PIXELS - 1) for value in to_pixels(point))
+        pixel = int(self.pixels[row, column])
+        return pixel >> 16 & 0xFF, pixel >> 8 & 0xFF, pixel & 0xFF
+
+    def draw(self, line: Line) -> None:
+        """
+        Draw a line without smooth edges.
+
+        Of a wide one those pixels are drawn whose middle is inside its rectangle, which is longer
+        than the line by half its width at each end, so that a way of many short lines has no gaps.
+        A thin one has a pixel for each column, or for each row where it is steep.
+        """
+        start, end = to_pixels(line.start), to_pixels(line.end)
+        draw = self._draw_thin if line.pen.width == _THIN else self._draw_wide
+        red, green, blue = line.pen.colour
+        draw(start, end, line.pen.width, np.uint32(_OPAQUE | red << 16 | green << 8 | blue))
+
+    def _draw_thin(self, start: Point, end: Point, width: int, value: np.uint32) -> None:
+        is_steep = abs(end[1] - start[1]) > abs(end[0] - start[0])
+        (a, across_a), (b, across_b) = (start[::-1], end[::-1]) if is_steep else (start, end)
+        along = np.arange(*_inside(_rounded(min(a, b)), _rounded(max(a, b))))
+        slope = (across_b - across_a) / (b - a) if b != a else 0.0
+        # No further than the ends, so that the pixel of an end is the one the sensor reads.
+        way = np.clip(along, min(a, b), max(a, b)) - a
+        across = np.floor(across_a + way * slope + 0.5).astype(int)
+        seen = (across >= 0) & (across < PIXELS)
+        pixels = self.pixels.T if is_steep else self.pixels
+        pixels[across[seen], along[seen]] = value
+
+    def _draw_wide(self, start: Point, end: Point, width: int, value: np.uint32) -> None:
+        (left, right), (top, bottom) = (
+            _inside(math.floor(min(a, b)) - width, math.ceil(max(a, b)) + width)
+            for a, b in zip(start, end, strict=True)
+        )
+        x = np.arange(left, right) - start[0]
+        y = np.arange(top, bottom)[:, np.newaxis] - start[1]
+        length = math.dist(start, end)
+        cos, sin = (
+            ((end[0] - start[0]) / length, (end[1] - start[1]) / length) if length else (1.0, 0.0)
+        )
+        along = x * cos + y * sin
+        # Downwards or to the right, and the one edge in and the other out: a line between two
+        # rows is as wide as any, and the same drawn back.
+        side = 1.0 if (cos > 0 if abs(cos) >= abs(sin) else sin < 0) else -1.0
+        across = (y * cos - x * sin) * side
+        inside = (along >= -width / 2) & (along <= length + width / 2)
+        inside &= (across > -width / 2) & (across <= width / 2)
+        self.pixels[top:bottom, left:right][inside] = value
+
+
+def _inside(first: int, last: int) -> tuple[int, int]:
+    """Return the part of a range that is in the picture, its end excluded."""
+    begin = min(max(first, 0), PIXELS)
+    return begin, max(begin, min(last + 1, PIXELS))
+
+
+def _rounded(value: float) -> int:
+    return math.floor(value + 0.5)
