@@ -46,7 +46,7 @@ class Canvas:
 
         Of a wide one those pixels are drawn whose middle is inside its rectangle, which is longer
         than the line by half its width at each end, so that a way of many short lines has no gaps.
-        A thin one has a pixel for each column, or for each row where it is steep.
+        A thin one has its ends and a pixel for each column, or for each row where it is steep.
         """
         start, end = to_pixels(line.start), to_pixels(line.end)
         draw = self._draw_thin if line.pen.width == _THIN else self._draw_wide
@@ -56,14 +56,15 @@ class Canvas:
     def _draw_thin(self, start: Point, end: Point, width: int, value: np.uint32) -> None:
         is_steep = abs(end[1] - start[1]) > abs(end[0] - start[0])
         (a, across_a), (b, across_b) = (start[::-1], end[::-1]) if is_steep else (start, end)
-        along = np.arange(*_inside(_rounded(min(a, b)), _rounded(max(a, b))))
         slope = (across_b - across_a) / (b - a) if b != a else 0.0
-        # No further than the ends, so that the pixel of an end is the one the sensor reads.
-        way = np.clip(along, min(a, b), max(a, b)) - a
-        across = np.floor(across_a + way * slope + 0.5).astype(int)
-        seen = (across >= 0) & (across < PIXELS)
+        columns = np.arange(*_inside(_rounded(min(a, b)), _rounded(max(a, b))))
+        # The ends by themselves: a way of short lines has several in one column.
+        along = np.append(columns, [a, b])
+        across = np.append(across_a + (columns - a) * slope, [across_a, across_b])
+        along, across = np.floor(along + 0.5), np.floor(across + 0.5)
+        seen = (along >= 0) & (along < PIXELS) & (across >= 0) & (across < PIXELS)
         pixels = self.pixels.T if is_steep else self.pixels
-        pixels[across[seen], along[seen]] = value
+        pixels[across[seen].astype(int), along[seen].astype(int)] = value
 
     def _draw_wide(self, start: Point, end: Point, width: int, value: np.uint32) -> None:
         (left, right), (top, bottom) = (

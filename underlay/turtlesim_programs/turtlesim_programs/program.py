@@ -14,6 +14,7 @@ import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 BAD_INPUT = 2
 _LATENCY_SEC = 0.1  # the longest time until a signal is handled
@@ -57,6 +58,14 @@ def run_node(
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
+
+
+def own_words(argv: list[str]) -> list[str]:
+    """Return what of a command line is not for ROS; nothing where `rclpy.init` will refuse it."""
+    try:
+        return remove_ros_args(argv)[1:]
+    except RuntimeError:
+        return []
 
 
 def refuse(reason: str) -> int:

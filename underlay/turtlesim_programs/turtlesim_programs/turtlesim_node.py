@@ -10,11 +10,10 @@ import sys
 import threading
 
 from live_page import open_on_a_desktop, read_port, serve_somewhere
-from rclpy.utilities import remove_ros_args
 
 from turtlesim_programs.node import TurtlesimNode
 from turtlesim_programs.page import FIRST_PORT, TurtlePage
-from turtlesim_programs.program import refuse, run_node, spin
+from turtlesim_programs.program import own_words, refuse, run_node, spin
 
 WITHOUT_PAGE = ('offscreen', 'minimal')
 """Names of Qt's platforms that have no window; with upstream's turtlesim they do the same."""
@@ -32,7 +31,7 @@ def main(argv: list[str] | None = None) -> int:
         metavar='NAME',
         help=f'{" or ".join(WITHOUT_PAGE)}: without the page; default: $QT_QPA_PLATFORM',
     )
-    arguments = parser.parse_args(remove_ros_args(argv)[1:])
+    arguments = parser.parse_args(own_words(argv))
 
     def use(node: TurtlesimNode, stop: threading.Event) -> int:
         if arguments.platform not in WITHOUT_PAGE and not _serve(node, arguments.port):

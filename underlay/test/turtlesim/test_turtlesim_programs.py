@@ -1,0 +1,222 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What moves turtles: the keys of a real terminal, a square, an imitation, two turtlesims."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+import math
+import os
+import re
+import signal
+import subprocess
+import termios
+import time
+from typing import Any
+
+from playpen_testing.processes import Process, Processes
+from playpen_testing.turtles import TurtleClient
+from playpen_testing.waiting import wait_until
+import pytest
+from turtlesim.srv import Spawn
+
+TELEOP = ('ros2', 'run', 'turtlesim', 'turtle_teleop_key')
+UP, DOWN, RIGHT, LEFT = (f'\x1b[{letter}' for letter in 'ABCD')
+HELP = [
+    'Reading from keyboard',
+    '---------------------------',
+    'Use arrow keys to move the turtle.',
+    "Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.",
+    "'q' to quit.",
+]
+
+
+class Keyboard:
+    """A terminal in which a command runs."""
+
+    def __init__(self, *command: str) -> None:
+        self.master, self._slave = os.openpty()
+        self.before = termios.tcgetattr(self._slave)
+        self.shown = ''
+        self.process = subprocess.Popen(
+            ['setsid', '--ctty', '--wait', *command],
+            stdin=self._slave,
+            stdout=self._slave,
+            stderr=self._slave,
+        )
+        os.set_blocking(self.master, False)
+
+    def press(self, keys: str) -> None:
+        os.write(self.master, keys.encode())
+
+    def press_until(self, keys: str, fact: Callable[[Any], bool], student: TurtleClient) -> None:
+        """Press keys as a person does: again where nothing comes of it."""
+
+        def works() -> bool:
+            self.press(keys)
+            end = time.monotonic() + 0.5
+            while time.monotonic() < end:
+                if fact(student.pose()):
+                    return True
+            return False
+
+        wait_until(works, timeout_sec=20.0, what=lambda: f'{keys!r}, in {student.pose()}')
+
+    def wait_for_text(self, text: str) -> None:
+        def comes() -> bool:
+            with suppress(BlockingIOError):
+                self.shown += os.read(self.master, 4096).decode()
+            return text in self.shown
+
+        wait_until(comes, timeout_sec=20.0, what=lambda: f'{text!r} in {self.shown!r}')
+
+    def is_as_before(self) -> bool:
+        return termios.tcgetattr(self._slave) == self.before
+
+    def close(self) -> None:
+        self.process.kill()
+        self.process.wait()
+        os.close(self.master)
+        os.close(self._slave)
+
+
+@pytest.fixture
+def keyboard(student: TurtleClient) -> Iterator[Keyboard]:
+    """Start turtle_teleop_key in a terminal, beside a turtlesim."""
+    terminal = Keyboard(*TELEOP)
+    terminal.wait_for_text("'q' to quit.")
+    yield terminal
+    terminal.close()
+
+
+def test_arrows_move_the_turtle(keyboard: Keyboard, student: TurtleClient) -> None:
+    assert keyboard.shown.split('\r\n')[:5] == HELP
+    for keys, expected in ((UP, (2.0, 0.0)), (LEFT, (0.0, 2.0)), (RIGHT, (0.0, -2.0))):
+        keyboard.press_until(
+            keys,
+            lambda pose, want=expected: (pose.linear_velocity, pose.angular_velocity) == want,
+            student,
+        )
+    before = student.pose()
+    way = (math.cos(before.theta), math.sin(before.theta))
+    keyboard.press_until(
+        DOWN,
+        lambda pose: (pose.x - before.x) * way[0] + (pose.y - before.y) * way[1] < -0.3,
+        student,
+    )
+
+
+@pytest.mark.parametrize('key', 'gtredcvb')
+def test_letters_turn_to_where_they_lie_round_f(
+    keyboard: Keyboard, student: TurtleClient, key: str
+) -> None:
+    expected = 'gtredcvb'.index(key) * math.pi / 4
+
+    def is_there(pose: Any) -> bool:
+        return abs(math.remainder(pose.theta - expected, math.tau)) < 0.025
+
+    keyboard.press_until('r' if key == 'g' else key, lambda pose: pose.angular_velocity, student)
+    keyboard.press(key)
+    student.wait_for_pose(
+        lambda pose: is_there(pose) and not pose.angular_velocity,
+        f'a turtle that looks to {expected}',
+    )
+
+
+def test_f_cancels_a_rotation(
+    keyboard: Keyboard, student: TurtleClient, turtlesim: Process
+) -> None:
+    keyboard.press_until('d', lambda pose: pose.angular_velocity, student)
+    keyboard.press('f')
+    turtlesim.wait_for_text('Rotation goal canceled')
+
+
+@pytest.mark.parametrize('end', ['q', '\x03'])
+def test_q_and_ctrl_c_leave_the_terminal_as_it_was(keyboard: Keyboard, end: str) -> None:
+    assert not keyboard.is_as_before()
+    start = time.monotonic()
+    keyboard.press(end)
+    assert keyboard.process.wait(timeout=10.0) == 0
+    assert time.monotonic() - start < 2.0
+    assert keyboard.is_as_before()
+    keyboard.wait_for_text(HELP[-1])
+    assert 'Traceback' not in keyboard.shown
+
+
+def test_without_a_terminal_keys_are_refused_in_a_line(processes: Processes) -> None:
+    refused = processes.start(*TELEOP)
+    assert refused.wait() == 2
+    assert refused.lines[0] == (
+        'turtle_teleop_key: needs a terminal to read keys from; run it in one'
+    )
+
+
+def test_a_parameter_scales_the_keys(student: TurtleClient) -> None:
+    terminal = Keyboard(*TELEOP, '--ros-args', '-p', 'scale_linear:=0.5')
+    try:
+        terminal.wait_for_text(HELP[-1])
+        terminal.press_until(UP, lambda pose: pose.linear_velocity == 0.5, student)
+    finally:
+        terminal.close()
+
+
+def test_draw_square_resets_and_goes_to_its_corners(
+    processes: Processes, student: TurtleClient, turtlesim: Process
+) -> None:
+    square = processes.start('ros2', 'run', 'turtlesim', 'draw_square')
+    square.wait_for_text('New goal [7.544445 5.544445, 0.000000]')
+    turtlesim.wait_for_text('Resetting turtlesim.')
+    square.wait_for_text('Reached goal')
+    goals = [re.findall(r'[-\d.]+', line.partition('New goal')[2]) for line in square.lines]
+    x, _, theta = next(map(float, goal) for goal in reversed(goals) if goal)
+    assert x == pytest.approx(7.5, abs=0.2)
+    assert theta == pytest.approx(math.pi / 2, abs=0.01)
+    student.wait_for_pose(lambda pose: pose.theta > 0.5, 'a turtle that turns')
+    _ends_by_ctrl_c(square)
+
+
+def test_mimic_lets_a_turtle_do_as_another(
+    processes: Processes, student: TurtleClient, turtlesim: Process
+) -> None:
+    student.call(Spawn, 'spawn', x=2.0, y=2.0, theta=0.0, name='turtle2')
+    remaps = ('input/pose:=turtle1/pose', 'output/cmd_vel:=turtle2/cmd_vel')
+    mimic = processes.start(
+        *('ros2', 'run', 'turtlesim', 'mimic', '--ros-args'),
+        *(word for remap in remaps for word in ('-r', remap)),
+    )
+    student.wait_for(
+        lambda: student.node.count_publishers('/turtle2/cmd_vel') == 1, 'the one that mimics'
+    )
+    student.command('turtle1', x=1.0, turn=1.0)
+    student.wait_for_pose(lambda pose: pose.theta > 0.8, 'a turtle that turned', 'turtle2')
+    assert 'turtle_mimic' in student.node.get_node_names()
+    _ends_by_ctrl_c(mimic)
+
+
+def test_two_turtlesims_are_launched_and_ended(processes: Processes) -> None:
+    launch = processes.start('ros2', 'launch', 'turtlesim', 'multisim.launch.py')
+    for namespace in ('turtlesim1', 'turtlesim2'):
+        launch.wait_for_text(f'Starting turtlesim with node name /{namespace}/turtlesim')
+    wait_until(
+        lambda: len(set(re.findall(r'http://127\.0\.0\.1:\d+/', launch.output))) == 2,
+        timeout_sec=20.0,
+        what='a page of each',
+    )
+    with TurtleClient() as student:
+        student.command('turtlesim2/turtle1', x=1.0)
+        student.wait_for_pose(lambda pose: pose.x > 6.0, 'a turtle', 'turtlesim2/turtle1')
+        assert student.pose('turtlesim1/turtle1').x == pytest.approx(5.544445)
+    start = time.monotonic()
+    launch.signal(signal.SIGINT)
+    launch.wait()
+    assert time.monotonic() - start < 3.0
+    assert 'Traceback' not in launch.output
+
+
+def _ends_by_ctrl_c(process: Process) -> None:
+    start = time.monotonic()
+    process.signal(signal.SIGINT)
+    assert process.wait() == 0
+    assert time.monotonic() - start < 2.0
+    assert 'Traceback' not in process.output
