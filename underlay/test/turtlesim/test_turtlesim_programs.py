@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import partial
 import math
 import os
 import re
@@ -90,14 +91,14 @@ def keyboard(student: TurtleClient) -> Iterator[Keyboard]:
     terminal.close()
 
 
+def _goes(pose: Any, *, forward: float, turn: float) -> bool:
+    return bool((pose.linear_velocity, pose.angular_velocity) == (forward, turn))
+
+
 def test_arrows_move_the_turtle(keyboard: Keyboard, student: TurtleClient) -> None:
     assert keyboard.shown.split('\r\n')[:5] == HELP
-    for keys, expected in ((UP, (2.0, 0.0)), (LEFT, (0.0, 2.0)), (RIGHT, (0.0, -2.0))):
-        keyboard.press_until(
-            keys,
-            lambda pose, want=expected: (pose.linear_velocity, pose.angular_velocity) == want,
-            student,
-        )
+    for keys, forward, turn in ((UP, 2.0, 0.0), (LEFT, 0.0, 2.0), (RIGHT, 0.0, -2.0)):
+        keyboard.press_until(keys, partial(_goes, forward=forward, turn=turn), student)
     before = student.pose()
     way = (math.cos(before.theta), math.sin(before.theta))
     keyboard.press_until(
