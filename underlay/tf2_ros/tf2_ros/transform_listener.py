@@ -1,0 +1,93 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Hear the transforms that others send, and put them into a buffer."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from threading import Thread
+
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from tf2_msgs.msg import TFMessage
+
+from tf2_ros.buffer import Buffer
+
+_AUTHORITY = 'default_authority'  # rclpy does not say who has sent a message
+
+
+class TransformListener:
+    """Subscribes to /tf and /tf_static while it is kept.
+
+    :param spin_thread: spin the node in a thread of its own: then a callback may wait for a
+        transform, and nobody else may spin the node.
+    :param qos: a profile or a depth, for /tf.
+    :param static_qos: the same for /tf_static.
+    """
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Node,
+        *,
+        spin_thread: bool = False,
+        qos: QoSProfile | int | None = None,
+        static_qos: QoSProfile | int | None = None,
+    ) -> None:
+        self.buffer = buffer
+        self.node = node
+        # Another callback of the node may wait for what these bring.
+        self.group = ReentrantCallbackGroup()
+        self.tf_sub = node.create_subscription(
+            TFMessage,
+            '/tf',
+            self.callback,
+            _profile(DurabilityPolicy.VOLATILE) if qos is None else qos,
+            callback_group=self.group,
+        )
+        self.tf_static_sub = node.create_subscription(
+            TFMessage,
+            '/tf_static',
+            self.static_callback,
+            _profile(DurabilityPolicy.TRANSIENT_LOCAL) if static_qos is None else static_qos,
+            callback_group=self.group,
+        )
+        if spin_thread:
+            self.executor = SingleThreadedExecutor()
+            self.dedicated_listener_thread = Thread(
+                target=_spin, args=(self.executor, node), name='tf listener'
+            )
+            self.dedicated_listener_thread.start()
+
+    def __del__(self) -> None:
+        if hasattr(self, 'dedicated_listener_thread'):
+            self.executor.shutdown()
+            self.dedicated_listener_thread.join()
+        self.unregister()
+
+    def unregister(self) -> None:
+        """Hear no more."""
+        for name in ('tf_sub', 'tf_static_sub'):
+            if hasattr(self, name):
+                self.node.destroy_subscription(getattr(self, name))
+
+    def callback(self, data: TFMessage) -> None:
+        for transform in data.transforms:
+            self.buffer.set_transform(transform, _AUTHORITY)
+
+    def static_callback(self, data: TFMessage) -> None:
+        for transform in data.transforms:
+            self.buffer.set_transform_static(transform, _AUTHORITY)
+
+
+def _profile(durability: DurabilityPolicy) -> QoSProfile:
+    return QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
+
+
+def _spin(executor: SingleThreadedExecutor, node: Node) -> None:
+    executor.add_node(node)
+    with suppress(ExternalShutdownException):
+        executor.spin()
+    executor.remove_node(node)
