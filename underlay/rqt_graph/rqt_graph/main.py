@@ -6,12 +6,12 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-import signal
 import sys
 
-from live_page import open_on_a_desktop, read_port, serve_somewhere
+from live_page import read_port
 from ros2cli.discovery import read_graph
 from ros2cli.errors import CommandError
+
 
 from rqt_graph.picture import draw_png, draw_svg
 from rqt_graph.selection import select, View
@@ -73,22 +73,16 @@ def _write(args: argparse.Namespace) -> int:
 
 
 def _show(args: argparse.Namespace) -> int:
-    from rqt_graph.server import FIRST_PORT, GraphServer
+    from rqt_graph.graph_page import GraphPage
+    from rqt_graph.server import show
 
-    try:
-        server = serve_somewhere(GraphServer, args.port, first=FIRST_PORT)
-    except OSError:
-        raise CommandError(
-            f'--port {args.port} is taken: leave it out to get a free one'
-        ) from None
-    # Whatever ends it ends it as Ctrl-C does.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    suffix = ''.join((f'?view={args.view}', '&debug=shown' if args.debug else ''))
-    address = server.address + (suffix if suffix != '?view=active' else '')
-    print(f'rqt_graph: the live graph is at {address} (Ctrl-C ends it)', flush=True)
-    open_on_a_desktop(address)
-    with server:
-        server.serve_forever(poll_interval=0.2)
+    query = ''.join((f'?view={args.view}', '&debug=shown' if args.debug else ''))
+    show(
+        GraphPage(),
+        args.port,
+        'rqt_graph: the live graph is at {} (Ctrl-C ends it)',
+        query if query != '?view=active' else '',
+    )
     return 0
 
 

@@ -20,9 +20,15 @@ from rqt_graph.selection import Drawing, Kind, Shape
 EMPTY = 'No nodes are running in this domain.'
 _PIXELS_PER_INCH = 144
 _INK, _SOFT = '#16202c', '#5b6878'
-_FAULTY = {'fillcolor': '#fde2e0', 'color': '#b3261e'}
+FAULTY = {'fillcolor': '#fde2e0', 'color': '#b3261e'}
+NODE_LOOK = {
+    'shape': 'ellipse',
+    'style': 'filled',
+    'fillcolor': '#dbe9fb',
+    'color': '#2563ae',
+}
 _LOOKS = {
-    Kind.NODE: {'shape': 'ellipse', 'style': 'filled', 'fillcolor': '#dbe9fb', 'color': '#2563ae'},
+    Kind.NODE: NODE_LOOK,
     Kind.TOPIC: {
         'shape': 'box',
         'style': 'filled,rounded',
@@ -34,14 +40,12 @@ _LOOKS = {
 
 def draw_svg(drawing: Drawing) -> bytes:
     """Return an SVG document, which may also be put into a page."""
-    return _draw(_graph(drawing), 'svg')
+    return draw(_graph(drawing), 'svg')
 
 
 def draw_png(drawing: Drawing) -> bytes:
     """Return a PNG file, two pixels a point."""
-    graph = _graph(drawing)
-    graph.graph_attr['dpi'] = str(_PIXELS_PER_INCH)
-    return _draw(graph, 'png')
+    return draw(_graph(drawing), 'png')
 
 
 @functools.cache
@@ -61,17 +65,29 @@ def _load_fonts() -> None:
         os.close(nowhere)
 
 
-def _draw(graph: Any, picture_format: str) -> bytes:
+def draw(graph: Any, picture_format: str) -> bytes:
+    """Draw a graph of pygraphviz; in a PNG two pixels are a point."""
     _load_fonts()
+    if picture_format == 'png':
+        graph.graph_attr['dpi'] = str(_PIXELS_PER_INCH)
     picture: bytes = graph.draw(format=picture_format, prog='dot')
     return picture
 
 
-def _graph(drawing: Drawing) -> Any:
-    """Put the graph together, from left to right; the same drawing always in the same way."""
+def draw_text(text: str, picture_format: str) -> bytes:
+    """Draw what is written in Graphviz's language."""
+    return draw(pygraphviz.AGraph(string=text), picture_format)
+
+
+def empty_graph(empty: str, *, direction: str) -> Any:
+    """Return a graph without shapes, in the look of all.
+
+    :param empty: what to say as long as nothing is in it; '' once something is.
+    :param direction: LR: from left to right; TB: from the top down.
+    """
     graph = pygraphviz.AGraph(
         directed=True,
-        rankdir='LR',
+        rankdir=direction,
         nodesep='0.35',
         ranksep='0.65',
         outputorder='nodesfirst',
@@ -80,9 +96,15 @@ def _graph(drawing: Drawing) -> Any:
     )
     font = {'fontname': 'DejaVu Sans,Verdana,Noto Sans,sans-serif', 'fontsize': '14'}
     graph.node_attr.update(**font, fontcolor=_INK, penwidth='1.5', height='0.53', width='1.1')
-    graph.edge_attr.update(color=_SOFT, penwidth='1.5', arrowsize='0.9')
-    if not drawing.shapes:
-        graph.add_node('empty', label=EMPTY, shape='plaintext', fontcolor=_SOFT)
+    graph.edge_attr.update(**font, fontcolor=_SOFT, color=_SOFT, penwidth='1.5', arrowsize='0.9')
+    if empty:
+        graph.add_node('empty', label=empty, shape='plaintext', fontcolor=_SOFT)
+    return graph
+
+
+def _graph(drawing: Drawing) -> Any:
+    """Put the graph together; the same drawing always in the same way."""
+    graph = empty_graph('' if drawing.shapes else EMPTY, direction='LR')
     for shape in drawing.shapes:
         graph.add_node(shape.key, **_attributes(shape))
     for arrow in drawing.arrows:
@@ -103,7 +125,7 @@ def _graph(drawing: Drawing) -> Any:
 
 
 def _attributes(shape: Shape) -> dict[str, str]:
-    look = _LOOKS[shape.kind] | (_FAULTY if shape.faulty else {})
+    look = _LOOKS[shape.kind] | (FAULTY if shape.faulty else {})
     names = ['topic'] * (shape.kind is Kind.TOPIC) + ['faulty'] * shape.faulty
     return {
         **look,

@@ -1,77 +1,83 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Serve the page on this computer only; it is told of every change."""
+"""Serve a picture that changes, on a page and in files; on this computer only."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Iterator
+import signal
+from typing import Any, Protocol
 
-from live_page import KEEP_ALIVE_SEC, LivePage, PageHandler, Query
-from ros2cli.discovery import settings_from_environment
-
-from rqt_graph.feed import GraphFeed
-from rqt_graph.picture import draw_png, draw_svg
-from rqt_graph.selection import Drawing, Kind, select, View
+from live_page import LivePage, open_on_a_desktop, PageHandler, Query, serve_somewhere
+from ros2cli.errors import CommandError
 
 FIRST_PORT = 8090
-_FIRST_GRAPH_SEC = 10.0
-_PAGE = Path(__file__).with_name('page.html')
 
 
-class GraphServer(LivePage):
+class Page(Protocol):
+    """What is shown: a document that asks for events, and the picture in files."""
+
+    def html(self) -> bytes: ...
+
+    def picture(self, query: Query, picture_format: str) -> bytes: ...
+
+    def events(self, query: Query) -> Iterator[dict[str, Any] | None]:
+        """Tell each change, at least every few seconds; None where there was none."""
+        ...
+
+
+class PictureServer(LivePage):
     """The page and the pictures."""
 
-    def __init__(self, port: int) -> None:
-        self.feed = GraphFeed()
+    def __init__(self, port: int, page: Page) -> None:
+        self.page = page
         super().__init__(port, _Handler)
 
 
+def show(page: Page, port: int | None, said: str, query: str = '') -> None:
+    """
+    Serve a page until Ctrl-C, and open it where there is a display.
+
+    :param port: None: the first free one.
+    :param said: what the terminal says, with {} for the address.
+    :raises CommandError: the port is taken.
+    """
+    try:
+        server = serve_somewhere(
+            lambda number: PictureServer(number, page), port, first=FIRST_PORT
+        )
+    except OSError:
+        raise CommandError(f'--port {port} is taken: leave it out to get a free one') from None
+    # Whatever ends it ends it as Ctrl-C does.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    address = server.address + query
+    print(said.format(address), flush=True)
+    open_on_a_desktop(address)
+    with server:
+        server.serve_forever(poll_interval=0.2)
+
+
 class _Handler(PageHandler):
-    server: GraphServer
+    server: PictureServer
 
     def answer(self, path: str, query: Query) -> None:
+        page = self.server.page
         match path:
             case '/':
-                self.send('text/html; charset=utf-8', _PAGE.read_bytes())
+                self.send('text/html; charset=utf-8', page.html())
             case '/events':
                 self._send_changes(query)
             case '/graph.svg':
-                self.send('image/svg+xml', draw_svg(self._drawing(query)))
+                self.send('image/svg+xml', page.picture(query, 'svg'))
             case '/graph.png':
-                self.send('image/png', draw_png(self._drawing(query)))
+                self.send('image/png', page.picture(query, 'png'))
             case _:
                 super().answer(path, query)
 
-    def _drawing(self, query: Query) -> Drawing:
-        view, debug = _asked(query)
-        with self.server.feed.watching():
-            _, graph = self.server.feed.wait(0, _FIRST_GRAPH_SEC)
-        return select(graph, view, debug=debug) if graph else Drawing((), ())
-
     def _send_changes(self, query: Query) -> None:
         self.begin_events()
-        view, debug = _asked(query)
-        version, shown = 0, None
-        domain_id = settings_from_environment().domain_id
-        with self.server.feed.watching():
-            while True:
-                version, graph = self.server.feed.wait(version, KEEP_ALIVE_SEC)
-                drawing = select(graph, view, debug=debug) if graph else None
-                if drawing is None or drawing == shown:
-                    self.send_sign_of_life()
-                    continue
-                shown = drawing
-                self.send_event(
-                    {
-                        'svg': draw_svg(drawing).decode(),
-                        'nodes': drawing.count(Kind.NODE),
-                        'topics': drawing.count(Kind.TOPIC),
-                        'domain': domain_id,
-                    }
-                )
-
-
-def _asked(query: Query) -> tuple[View, bool]:
-    """Return what is to be shown, and whether with the names that every graph has."""
-    view = View.ALL if query.get('view') == [View.ALL.value] else View.ACTIVE
-    return view, query.get('debug') == ['shown']
+        for event in self.server.page.events(query):
+            if event is None:
+                self.send_sign_of_life()
+            else:
+                self.send_event(event)
