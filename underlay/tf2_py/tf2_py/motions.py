@@ -86,6 +86,25 @@ def slerp(first: Quaternion, second: Quaternion, ratio: float) -> Quaternion:
     return (a * ax + b * bx, a * ay + b * by, a * az + b * bz, a * aw + b * bw)
 
 
+def normalized(rotation: Quaternion) -> Quaternion:
+    """Return a unit quaternion; zeros turn by nothing."""
+    length = math.hypot(*rotation)
+    if length == 0.0:
+        return NO_ROTATION
+    x, y, z, w = rotation
+    return (x / length, y / length, z / length, w / length)
+
+
+def matrix_of(rotation: Quaternion) -> tuple[Vector, Vector, Vector]:
+    """Return the rows of the matrix of a unit quaternion."""
+    x, y, z, w = rotation
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+        (2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+        (2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)),
+    )
+
+
 def as_from_matrix(rotation: Quaternion) -> Quaternion:
     """Return the unit quaternion that tf2 gets where it keeps a rotation as a matrix.
 
@@ -93,9 +112,8 @@ def as_from_matrix(rotation: Quaternion) -> Quaternion:
     or with its largest other component positive, where that is a turn by more than 120 degrees.
     Zeros have no such matrix and give nan.
     """
-    length = math.hypot(*rotation)
-    if length == 0.0:
+    if not any(rotation):
         return _NO_NUMBERS
-    x, y, z, w = (component / length for component in rotation)
+    x, y, z, w = normalized(rotation)
     leading = w if abs(w) > 0.5 else max(x, y, z, key=abs)
     return (x, y, z, w) if leading >= 0.0 else (-x, -y, -z, -w)

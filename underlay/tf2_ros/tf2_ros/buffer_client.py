@@ -27,7 +27,7 @@ from tf2_py import (
 
 from tf2_ros.buffer_interface import BufferInterface
 
-_EXCEPTIONS = {
+EXCEPTIONS = {
     TF2Error.LOOKUP_ERROR: LookupException,
     TF2Error.CONNECTIVITY_ERROR: ConnectivityException,
     TF2Error.EXTRAPOLATION_ERROR: ExtrapolationException,
@@ -170,6 +170,6 @@ def _transform_of(result: Any) -> TransformStamped:
             'wrong with the server.'
         )
     if result.error.error != TF2Error.NO_ERROR:
-        kind = _EXCEPTIONS.get(result.error.error, TransformException)
+        kind = EXCEPTIONS.get(result.error.error, TransformException)
         raise kind(result.error.error_string)
     return result.transform

@@ -8,6 +8,7 @@ from contextlib import suppress
 from threading import Thread
 
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
@@ -63,7 +64,8 @@ class TransformListener:
 
     def __del__(self) -> None:
         if hasattr(self, 'dedicated_listener_thread'):
-            self.executor.shutdown()
+            with suppress(InvalidHandle):  # at the end of a program parts may go before the whole
+                self.executor.shutdown()
             self.dedicated_listener_thread.join()
         self.unregister()
 

@@ -1,0 +1,291 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The programs of tf2_ros as processes: what they print, how they end, what they refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import re
+import signal
+import subprocess
+import time
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
+import pytest
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+import tf2_ros
+
+TURNED = """\
+At time 0.0
+- Translation: [1.000, -2.000, 0.500]
+- Rotation: in Quaternion [0.000, 0.000, 0.707, 0.707]
+- Rotation: in RPY (radian) [0.000, -0.000, 1.571]
+- Rotation: in RPY (degree) [0.000, -0.000, 90.000]
+- Matrix:
+  0.000 -1.000  0.000  1.000
+  1.000  0.000  0.000 -2.000
+  0.000  0.000  1.000  0.500
+  0.000  0.000  0.000  1.000
+"""
+
+
+def run(program: str, *arguments: str, timeout_sec: float = 30.0) -> Any:
+    answer = subprocess.run(
+        ['ros2', 'run', 'tf2_ros', program, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=timeout_sec,
+    )
+    assert 'Traceback' not in answer.stderr, answer.stderr
+    return answer
+
+
+def publish(processes: Any, *arguments: str) -> None:
+    """Start a static_transform_publisher; return once it publishes."""
+    command = ('ros2', 'run', 'tf2_ros', 'static_transform_publisher', *arguments)
+    processes.start(*command, ready="from 'odom' to 'base'")
+
+
+@pytest.mark.parametrize(
+    'arguments',
+    [
+        (
+            *('--x', '1', '--y', '-2', '--z', '0.5', '--yaw', '1.5707963267948966'),
+            *('--frame-id', 'odom', '--child-frame-id', 'base'),
+        ),
+        (
+            *('--x', '1', '--y', '-2', '--z', '0.5', '--qz', '1', '--qw', '1'),
+            *('--frame-id', 'odom', '--child-frame-id', 'base'),
+        ),
+        ('1', '-2', '0.5', '1.5707963267948966', '0', '0', 'odom', 'base'),
+        ('1', '-2', '0.5', '0', '0', '1', '1', 'odom', 'base'),
+    ],
+)
+def test_tf2_echo_prints_what_is_published_in_each_way(
+    processes: Any, arguments: tuple[str, ...]
+) -> None:
+    publish(processes, *arguments)
+    answer = run('tf2_echo', 'odom', 'base', '5', '--limit', '2')
+    assert answer.returncode == 0
+    assert re.sub(r'-(0\.000 )', r' \1', answer.stdout) == 2 * TURNED
+    waiting = r'\[INFO\] \[\d+\.\d+\] \[tf2_echo\]: Waiting for transform odom ->  base: '
+    waiting += 'Invalid frame ID "odom" passed to canTransform argument target_frame - '
+    assert re.match(waiting + 'frame does not exist\n', answer.stderr)
+
+
+def test_tf2_echo_has_more_digits_and_another_rate(processes: Any) -> None:
+    publish(processes, '--x', '0.123456', '--frame-id', 'odom', '--child-frame-id', 'base')
+    begin = time.monotonic()
+    answer = run('tf2_echo', 'odom', 'base', '-r', '20', '-p', '5', '-l', '10')
+    assert time.monotonic() - begin < 5.0
+    assert answer.stdout.count('- Translation: [0.12346, 0.00000, 0.00000]\n') == 10
+    assert ' 1.00000 0.00000 0.00000 0.12346\n' in answer.stdout
+
+
+def test_tf2_echo_says_what_is_wrong_once_frames_part(processes: Any, domain: int) -> None:
+    class Sender(Node):
+        """Moves a frame to another tree."""
+
+        def __init__(self, **arguments: Any) -> None:
+            super().__init__('sender', **arguments)
+            self.broadcaster = tf2_ros.StaticTransformBroadcaster(self)
+            self.send('odom')
+
+        def send(self, parent: str) -> None:
+            message = TransformStamped(child_frame_id='base')
+            message.header.frame_id = parent
+            tf2_ros.StaticTransformBroadcaster.__init__(self.broadcaster, self)
+            self.broadcaster.sendTransform(message)
+
+    with SpunNodes(domain) as nodes:
+        sender = nodes.start(Sender)
+        command = ('ros2', 'run', 'tf2_ros', 'tf2_echo', 'odom', 'base', '20')
+        echo = processes.start(*command, ready='At time 0.0')
+        sender.send('elsewhere')
+        failure = ''
+        for line in echo.stdout:
+            failure += line
+            if 'exists with parent' in line:
+                break
+    assert re.search(
+        r'Failure at \d+\.\d{3}\n'
+        "Exception thrown:Could not find a connection between 'odom' and 'base' because they are "
+        'not part of the same tree.Tf has two or more unconnected trees.\n'
+        'The current list of frames is:\n'
+        'Frame base exists with parent elsewhere.\n',
+        failure,
+    )
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'status', 'said'),
+    [
+        ((), 1, 'the following arguments are required: source_frame, target_frame'),
+        (('a', 'b', '1', 'c'), 1, 'unrecognized arguments: c'),
+        (('a', 'b', 'fast'), 2, "Failed to convert rate argument 'fast' to a floating-point"),
+        (('a', 'b', '1.0foo'), 3, "Failed to convert rate argument '1.0foo' to a floating-"),
+        (('a', 'b', '0'), 2, "tf2_echo: rate '0' is refused: it must be more than 0"),
+        (('a', 'b', '-p', '0'), 1, "'0' is refused: it must be a whole number from 1"),
+    ],
+)
+@pytest.mark.usefixtures('domain')
+def test_tf2_echo_refuses_bad_arguments(
+    arguments: tuple[str, ...], status: int, said: str
+) -> None:
+    answer = run('tf2_echo', *arguments)
+    assert (answer.returncode, said in answer.stderr) == (status, True), answer.stderr
+    assert answer.stdout.startswith('Usage: tf2_echo source_frame target_frame') == (status == 1)
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'said'),
+    [
+        ((), 'Frame id must not be empty'),
+        (('--frame-id', 'a'), 'Child frame id must not be empty'),
+        (('--x',), 'Not enough arguments for --x'),
+        (('--x', 'far'), 'Failed to parse --x argument as float'),
+        (('1', '2', 'far', '0', '0', '0', 'a', 'b'), 'Failed to parse z argument as float'),
+        (('--yaw', '1', '--qw', '1'), 'Cannot specify both quaternion and Euler rotations'),
+        (('1', '2'), 'Extra unparsed arguments on command-line'),
+        (
+            ('0', '0', '0', '0', '0', '0', 'a', 'b', '--x', '1'),
+            'Cannot specify both new-style (flags) and old-style (arguments)',
+        ),
+    ],
+)
+@pytest.mark.usefixtures('domain')
+def test_static_transform_publisher_refuses_bad_arguments(
+    arguments: tuple[str, ...], said: str
+) -> None:
+    answer = run('static_transform_publisher', *arguments)
+    assert answer.returncode == 1
+    assert f'[]: error parsing command line arguments: {said}\n' in answer.stderr
+    assert answer.stdout.startswith('usage: static_transform_publisher [--x X]')
+
+
+@pytest.mark.usefixtures('domain')
+def test_a_frame_is_not_published_in_itself() -> None:
+    answer = run('static_transform_publisher', '--frame-id', 'a', '--child-frame-id', 'a')
+    assert answer.returncode == 1
+    said = "[]: cannot publish static transform from 'a' to 'a', exiting\n"
+    assert said in answer.stderr
+
+
+def test_static_transform_publisher_tells_its_transform_as_parameters(
+    processes: Any, ros2: Any
+) -> None:
+    publish(processes, '--z', '3', '--frame-id', 'odom', '--child-frame-id', 'base')
+    (name,) = ros2('node', 'list').lines
+    assert re.fullmatch(r'/static_transform_publisher_[0-9A-Za-z]{16}', name)
+    for parameter, value in (('translation.z', '3.0'), ('child_frame_id', 'base')):
+        assert ros2('param', 'get', name, parameter).out.split()[-1] == value
+    refused = ros2('param', 'set', name, 'translation.z', '4.0')
+    assert 'read-only' in refused.out + refused.err
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ('program', 'ready'),
+    [
+        (('static_transform_publisher', '0', '0', '0', '0', '0', '0', 'a', 'b'), "from 'a' to"),
+        (('tf2_echo', 'a', 'b', '0.1'), 'Waiting for transform'),
+        (('tf2_monitor',), 'Gathering data on all frames for 10 seconds...'),
+    ],
+)
+def test_a_signal_ends_a_program_soon(
+    processes: Any, program: tuple[str, ...], ready: str, number: signal.Signals
+) -> None:
+    process = processes.start('ros2', 'run', 'tf2_ros', *program, ready=ready)
+    begin = time.monotonic()
+    process.send_signal(number)
+    output, _ = process.communicate(timeout=10)
+    assert (output, process.returncode) == ('', 0), output
+    assert time.monotonic() - begin < 2.0
+
+
+@pytest.mark.timeout(60)
+def test_tf2_monitor_reports_delays_and_the_chain(processes: Any, domain: int) -> None:
+    class Sender(Node):
+        """Sends a transform a quarter of a second late."""
+
+        def __init__(self, **arguments: Any) -> None:
+            super().__init__('sender', **arguments)
+            self.broadcaster = tf2_ros.TransformBroadcaster(self)
+            self.create_timer(0.1, self.send)
+
+        def send(self) -> None:
+            message = TransformStamped(child_frame_id='base')
+            message.header.frame_id = 'odom'
+            late = self.get_clock().now() - Duration(seconds=0.25)
+            message.header.stamp = late.to_msg()
+            self.broadcaster.sendTransform(message)
+
+    publish(processes, '0', '0', '0', '0', '0', '0', 'odom', 'base')
+    with SpunNodes(domain) as nodes:
+        nodes.start(Sender)
+        command = ('ros2', 'run', 'tf2_ros', 'tf2_monitor', 'base', 'odom')
+        monitor = processes.start(*command, ready='Gathering data on base -> odom for 10 seconds')
+        report = ''
+        for line in monitor.stdout:
+            report += line
+            if line.startswith('Node:'):
+                break
+    assert 'RESULTS: for base to odom\nChain is: base -> odom\nNet delay     avg = ' in report
+    (delay,) = re.findall(
+        'Frame: base, published by <no authority available>, Average Delay: ([0-9.e+]+)', report
+    )
+    assert float(delay) >= 0.25
+    (rate,) = re.findall(r'Node: <no authority available> ([0-9.]+) Hz', report)
+    assert 5.0 < float(rate) < 20.0
+
+
+@pytest.mark.usefixtures('domain')
+def test_tf2_monitor_wants_two_frames_or_none() -> None:
+    answer = run('tf2_monitor', 'a')
+    usage = 'TF_Monitor: usage: tf2_monitor framea frameb\n'
+    assert (answer.returncode, answer.stdout.startswith(usage)) == (255, True)
+
+
+@pytest.fixture
+def client(processes: Any, domain: int) -> Iterator[tf2_ros.BufferClient]:
+    processes.start('ros2', 'run', 'tf2_ros', 'buffer_server')
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'asking')
+        asking = tf2_ros.BufferClient(node, 'tf2_buffer_server')
+        wait_until(asking.action_client.server_is_ready, timeout_sec=10.0, what='the server')
+        yield asking
+    asking.destroy()
+
+
+def test_a_buffer_client_gets_transforms_and_refusals(
+    processes: Any, client: tf2_ros.BufferClient
+) -> None:
+    with pytest.raises(tf2_ros.LookupException) as caught:
+        client.lookup_transform('odom', 'base', Time())
+    assert str(caught.value) == (
+        '"odom" passed to lookupTransform argument target_frame does not exist. '
+    )
+    with pytest.raises(tf2_ros.InvalidArgumentException):
+        client.lookup_transform('/odom', 'base', Time())
+    assert not client.can_transform('odom', 'base', Time(), Duration(seconds=0.2))
+    publish(processes, '--x', '4', '--frame-id', 'odom', '--child-frame-id', 'base')
+    waited = client.lookup_transform('odom', 'base', Time(), Duration(seconds=10))
+    assert waited.transform.translation.x == 4.0
+    asked = ('base', Time(), 'odom', Time(), 'odom')
+    assert client.lookup_transform_full(*asked).transform.translation.x == -4.0
+    assert client.can_transform_full(*asked)
+    with pytest.raises(TypeError, match=r'^Must pass a rclpy.time.Time object.$'):
+        client.lookup_transform('odom', 'base', 1.0)
+
+
+def test_a_buffer_client_without_a_server_says_so(domain: int) -> None:
+    with SpunNodes(domain) as nodes:
+        client = tf2_ros.BufferClient(nodes.start(Node, 'asking'), 'nobody')
+        with pytest.raises(tf2_ros.TimeoutException, match=r'^The BufferServer is not ready.$'):
+            client.lookup_transform('odom', 'base', Time())
+    client.destroy()
