@@ -8,11 +8,13 @@ _GRAPH = '`ros2 run rqt_graph rqt_graph` shows the graph, and `ros2 doctor` what
 _DEMO = '`ros2 run topic_demo publisher` and `ros2 run topic_demo subscriber` talk'
 _HUSKY = '`ros2 launch husky_sim husky_playpen.launch.py` starts a robot in a world'
 _TELEOP = '`ros2 run husky_driver teleop` drives by the keys'
+_FRAMES = '`ros2 run tf2_tools view_frames --live` shows the tree of frames in the browser'
 _VIEW = f'{_HUSKY}, and with `viewer:=true` shows it in the browser'
 
 BY_PACKAGE = {
     **dict.fromkeys(('rviz2', 'foxglove_bridge'), _VIEW),
     **dict.fromkeys(('rqt', 'rqt_gui', 'rqt_topic', 'rqt_console', 'rqt_common_plugins'), _GRAPH),
+    'rqt_tf_tree': _FRAMES,
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
     **dict.fromkeys(('turtlesim', 'gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),

@@ -12,7 +12,6 @@ from live_page import read_port
 from ros2cli.discovery import read_graph
 from ros2cli.errors import CommandError
 
-
 from rqt_graph.picture import draw_png, draw_svg
 from rqt_graph.selection import select, View
 
