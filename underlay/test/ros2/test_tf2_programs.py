@@ -51,6 +51,26 @@ def publish(processes: Any, *arguments: str) -> None:
     processes.start(*command, ready="from 'odom' to 'base'")
 
 
+@pytest.mark.usefixtures('domain')
+def test_packages_and_programs_have_the_names_of_jazzy(ros2: Any) -> None:
+    known = {
+        'tf2_ros',
+        'tf2_ros_py',
+        'tf2_py',
+        'tf2_tools',
+        'tf2_geometry_msgs',
+        'tf2_sensor_msgs',
+    }
+    assert {*known, 'sensor_msgs_py'} <= {*ros2('pkg', 'list').lines}
+    programs = ('buffer_server', 'static_transform_publisher', 'tf2_echo', 'tf2_monitor')
+    assert ros2('pkg', 'executables', 'tf2_ros').lines == [f'tf2_ros {name}' for name in programs]
+    assert ros2('pkg', 'executables', 'tf2_tools').lines == ['tf2_tools view_frames']
+    versions = [
+        ros2('pkg', 'xml', name, '-t', 'version').out for name in ('tf2_ros', 'tf2_ros_py')
+    ]
+    assert versions[0] == versions[1]
+
+
 @pytest.mark.parametrize(
     'arguments',
     [

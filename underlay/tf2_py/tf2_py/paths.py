@@ -60,7 +60,7 @@ def find_path(frames: Frames, target: str, source: str, time: int) -> Path:
     other_top, down, other_failure = _climb_to(source, frames, target, time, root=top)
     if other_top == source:
         return Path([], down, source, time)
-    # What is missing above the target says more than what is missing above the source.
+    # Where both lack data upstream tells what the target lacks.
     failure = other_failure or (failure if other_top != top else None)
     if failure is not None:
         raise ExtrapolationException(
