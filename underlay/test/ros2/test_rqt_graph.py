@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from http.client import HTTPConnection
 import json
 from pathlib import Path
 import re
@@ -198,6 +199,25 @@ def test_the_page_shows_nodes_that_start_and_end(talk: Any) -> None:
     _wait_for_event(news, lambda keys: 'node:/talker_3' not in keys)
     assert urlopen(address + 'graph.png', timeout=20).read().startswith(b'\x89PNG')
     assert set(shapes(urlopen(address + 'graph.svg', timeout=20).read().decode())) == set(TALK)
+
+
+@pytest.mark.parametrize(
+    ('headers', 'status'),
+    [
+        ({}, 200),
+        ({'Host': 'evil.example'}, 421),
+        ({'Origin': 'http://evil.example'}, 403),
+    ],
+)
+def test_the_page_answers_to_this_computer_alone(
+    processes: Any, headers: dict[str, str], status: int
+) -> None:
+    server = processes.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
+    (place,) = re.findall(r'127\.0\.0\.1:\d+', server.stdout.readline())
+    connection = HTTPConnection(place, timeout=10.0)
+    connection.request('GET', '/graph.svg', headers=headers)
+    assert connection.getresponse().status == status
+    connection.close()
 
 
 def test_the_page_lights_what_hangs_on_a_pointed_shape(talk: Any) -> None:

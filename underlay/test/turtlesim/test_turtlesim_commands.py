@@ -11,6 +11,7 @@ import signal
 from ament_index_python import get_package_share_directory
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
+from playpen_testing.waiting import wait_until
 import pytest
 import yaml
 
@@ -114,12 +115,16 @@ def test_services_are_called_as_in_the_tutorials(ros2: Ros2, turtlesim: Process)
 
 
 def test_a_published_command_moves_and_draws(ros2: Ros2, turtlesim: Process) -> None:
-    ros2(
-        *('topic', 'pub', '--once', '/turtle1/cmd_vel', 'geometry_msgs/msg/Twist'),
-        '{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}',
-    )
-    seen = ros2('topic', 'echo', '--once', '/turtle1/color_sensor')
-    assert yaml.safe_load(seen.partition('---')[0]) == PEN
+    def draws() -> bool:
+        # Again where nothing comes of it: on a busy machine it may end before DDS has found all.
+        ros2(
+            *('topic', 'pub', '--once', '/turtle1/cmd_vel', 'geometry_msgs/msg/Twist'),
+            '{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}',
+        )
+        seen = ros2('topic', 'echo', '--once', '/turtle1/color_sensor')
+        return bool(yaml.safe_load(seen.partition('---')[0]) == PEN)
+
+    wait_until(draws, timeout_sec=30.0, what='the colour of the pen')
 
 
 def test_a_goal_is_sent_with_feedback(ros2: Ros2, turtlesim: Process) -> None:

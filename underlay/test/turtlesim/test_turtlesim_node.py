@@ -13,6 +13,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
+import psutil
 import pytest
 from rcl_interfaces.srv import DescribeParameters, SetParameters
 from rclpy.parameter import Parameter
@@ -221,14 +222,24 @@ def test_a_command_aborts_a_rotation_and_is_obeyed(
     turtlesim.wait_for_text('Velocity command received during rotation goal. Aborting goal')
 
 
-def test_goals_end_with_a_killed_turtle_and_odd_ones_are_refused(student: TurtleClient) -> None:
+def test_a_goal_without_a_direction_is_rejected(student: TurtleClient) -> None:
     assert not student.rotate(math.nan).accepted
-    goal = student.rotate(3.0)
-    ended = goal.get_result_async()
-    student.wait_for(lambda: len(student.feedback) > 5, 'feedback')
-    student.call(Kill, 'kill', name='turtle1')
-    assert student.result_of(ended, 'the result').status == GoalStatus.STATUS_ABORTED
-    assert student.call(Spawn, 'spawn', name='after').name == 'after'
+
+
+def test_goals_end_with_a_killed_turtle(student: TurtleClient) -> None:
+    def is_told(name: str) -> bool:
+        assert student.call(Spawn, 'spawn', x=3.0, y=3.0, name=name).name == name
+        ended = student.rotate(3.0, name).get_result_async()
+        student.wait_for(lambda: len(student.feedback) > 60, 'feedback of a second')
+        student.call(Kill, 'kill', name=name)
+        try:
+            student.wait_for(ended.done, 'the result', timeout_sec=5.0)
+        except AssertionError:
+            return False
+        return bool(ended.result().status == GoalStatus.STATUS_ABORTED)
+
+    # On a busy machine DDS may lose the last word of a server that is gone; not thrice.
+    assert any(is_told(f'other{number}') for number in range(3))
 
 
 def test_killing_and_resetting_under_way_harms_nothing(
@@ -281,11 +292,14 @@ def test_parameters_say_what_they_are_and_refuse_the_rest(student: TurtleClient)
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_it_within_two_seconds(turtlesim: Process, number: signal.Signals) -> None:
+    children = psutil.Process(turtlesim.pid).children(recursive=True)
+    node = next(child for child in children if '-m' in child.cmdline())
     start = time.monotonic()
-    turtlesim.signal(number)
-    assert turtlesim.wait() == (0 if number is signal.SIGINT else turtlesim.returncode)
+    node.send_signal(number)
+    assert turtlesim.wait() == 0  # `ros2 run` ends as its node does
     assert time.monotonic() - start < 2.0
-    assert not any('Traceback' in line for line in turtlesim.lines)
+    assert not node.is_running()
+    assert 'Traceback' not in turtlesim.output
 
 
 @pytest.mark.parametrize(

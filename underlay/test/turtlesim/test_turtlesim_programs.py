@@ -186,11 +186,12 @@ def test_mimic_lets_a_turtle_do_as_another(
         *('ros2', 'run', 'turtlesim', 'mimic', '--ros-args'),
         *(word for remap in remaps for word in ('-r', remap)),
     )
-    student.wait_for(
-        lambda: student.node.count_publishers('/turtle2/cmd_vel') == 1, 'the one that mimics'
-    )
-    student.command('turtle1', x=1.0, turn=1.0)
-    student.wait_for_pose(lambda pose: pose.theta > 0.8, 'a turtle that turned', 'turtle2')
+
+    def is_followed() -> bool:
+        student.command('turtle1', x=1.0, turn=1.0)
+        return bool(student.pose('turtle2').theta > 0.8)
+
+    wait_until(is_followed, timeout_sec=20.0, what='a turtle2 that turns as turtle1')
     assert 'turtle_mimic' in student.node.get_node_names()
     _ends_by_ctrl_c(mimic)
 
