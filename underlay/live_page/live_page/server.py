@@ -16,10 +16,10 @@ from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import json
 import os
-import threading
+import subprocess
+import sys
 from typing import TypeVar
 from urllib.parse import parse_qs, SplitResult, urlsplit
-import webbrowser
 
 HOST = '127.0.0.1'
 KEEP_ALIVE_SEC = 5.0
@@ -28,6 +28,7 @@ KEEP_ALIVE_SEC = 5.0
 Query = dict[str, list[str]]
 
 _NAMES = (HOST, 'localhost')
+_LIBRARIES = 'LD_LIBRARY_PATH'
 _PORTS_TRIED = 20
 _STALLED_SEC = 20.0
 
@@ -78,8 +79,19 @@ def read_port(text: str) -> int:
 
 def open_on_a_desktop(address: str) -> None:
     """Open the browser where there is a desktop; returns at once."""
-    if os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'):
-        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    if not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
+        return
+    # A browser must not get the libraries that the wheels of ROS bring.
+    paths = os.environ.get(_LIBRARIES, '').split(':')
+    others = ':'.join(path for path in paths if not path.startswith(sys.prefix))
+    subprocess.Popen(
+        [sys.executable, '-m', 'webbrowser', '-t', address],
+        env={**os.environ, _LIBRARIES: others},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,  # browsers say much
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,  # Ctrl-C ends the program, not the browser
+    )
 
 
 class PageHandler(BaseHTTPRequestHandler):
