@@ -16,7 +16,7 @@ BY_PACKAGE = {
     **dict.fromkeys(('rqt', 'rqt_gui', 'rqt_topic', 'rqt_console', 'rqt_common_plugins'), _GRAPH),
     'rqt_tf_tree': _FRAMES,
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
-    **dict.fromkeys(('turtlesim', 'gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
+    **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
     **dict.fromkeys(('demo_nodes_py', 'demo_nodes_cpp'), _DEMO),
 }

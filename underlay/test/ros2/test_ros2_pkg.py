@@ -89,7 +89,7 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
     [
         ('rviz2', 'viewer:=true'),
         ('rqt', 'ros2 run rqt_graph rqt_graph'),
-        ('ros2 run turtlesim turtlesim_node', 'husky_playpen.launch.py'),
+        ('ros2 run ros_gz_sim create', 'husky_playpen.launch.py'),
         ('ros2 run teleop_twist_keyboard teleop_twist_keyboard', 'ros2 run husky_driver teleop'),
     ],
 )
