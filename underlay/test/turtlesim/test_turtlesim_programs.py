@@ -25,11 +25,9 @@ from turtlesim.srv import Spawn
 TELEOP = ('ros2', 'run', 'turtlesim', 'turtle_teleop_key')
 UP, DOWN, RIGHT, LEFT = (f'\x1b[{letter}' for letter in 'ABCD')
 HELP = [
-    'Reading from keyboard',
-    '---------------------------',
-    'Use arrow keys to move the turtle.',
-    "Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.",
-    "'q' to quit.",
+    'The arrow keys move turtle1.',
+    'g, t, r, e, d, c, v and b turn it to a direction: they lie round f as directions do.',
+    'f ends such a turn, q this program.',
 ]
 
 
@@ -86,7 +84,7 @@ class Keyboard:
 def keyboard(student: TurtleClient) -> Iterator[Keyboard]:
     """Start turtle_teleop_key in a terminal, beside a turtlesim."""
     terminal = Keyboard(*TELEOP)
-    terminal.wait_for_text("'q' to quit.")
+    terminal.wait_for_text(HELP[-1])
     yield terminal
     terminal.close()
 
@@ -96,7 +94,7 @@ def _goes(pose: Any, *, forward: float, turn: float) -> bool:
 
 
 def test_arrows_move_the_turtle(keyboard: Keyboard, student: TurtleClient) -> None:
-    assert keyboard.shown.split('\r\n')[:5] == HELP
+    assert keyboard.shown.split('\r\n')[: len(HELP)] == HELP
     for keys, forward, turn in ((UP, 2.0, 0.0), (LEFT, 0.0, 2.0), (RIGHT, 0.0, -2.0)):
         keyboard.press_until(keys, partial(_goes, forward=forward, turn=turn), student)
     before = student.pose()

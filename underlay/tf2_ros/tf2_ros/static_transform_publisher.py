@@ -26,29 +26,18 @@ _USAGE = """\
 usage: static_transform_publisher [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW] \
 [--roll ROLL] [--pitch PITCH] [--yaw YAW] --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
 
-A command line utility for manually sending a static transform.
+Publishes a transform that never changes, for whoever listens now or later.
 
-If no translation or orientation is provided, the identity transform will be published.
+which must be given:
+  --frame-id FRAME_ID              the frame that is known
+  --child-frame-id CHILD_FRAME_ID  the one that is placed in it
 
-The translation offsets are in meters.
+where it is, in metres; 0 where nothing is said:
+  --x X, --y Y, --z Z
 
-The rotation may be provided with roll, pitch, yaw euler angles in radians, or as a quaternion.
-
-required arguments:
-  --frame-id FRAME_ID parent frame
-  --child-frame-id CHILD_FRAME_ID child frame id
-
-optional arguments:
-  --x X                 x component of translation
-  --y Y                 y component of translation
-  --z Z                 z component of translation
-  --qx QX               x component of quaternion rotation
-  --qy QY               y component of quaternion rotation
-  --qz QZ               z component of quaternion rotation
-  --qw QW               w component of quaternion rotation
-  --roll ROLL           roll component Euler rotation
-  --pitch PITCH         pitch component Euler rotation
-  --yaw YAW             yaw component Euler rotation
+how it is turned, in one of two ways; not at all where nothing is said:
+  --roll ROLL, --pitch PITCH, --yaw YAW     angles about x, y and z, in radians
+  --qx QX, --qy QY, --qz QZ, --qw QW        a quaternion
 """
 _TRANSLATION = ('x', 'y', 'z')
 _ANGLES = ('roll', 'pitch', 'yaw')

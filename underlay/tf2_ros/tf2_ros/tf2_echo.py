@@ -26,12 +26,11 @@ from tf2_ros.transform_listener import TransformListener
 _USAGE = """\
 Usage: tf2_echo source_frame target_frame [echo_rate]
 
-This will echo the transform from the coordinate frame of the source_frame
-to the coordinate frame of the target_frame.
-Note: This is the transform to get data from target_frame into the source_frame.
-Default echo rate is 1 if echo_rate is not given.
+Prints where target_frame is in source_frame: what takes a point that is told in
+target_frame into source_frame.
 
-  -r, --rate RATE            the same as echo_rate
+  echo_rate                  how often a second (default: 1)
+  -r, --rate RATE            the same
   -p, --precision PRECISION  digits after the point (default: 3)
   -l, --limit LIMIT          end after so many transforms
   -h, --help                 this text

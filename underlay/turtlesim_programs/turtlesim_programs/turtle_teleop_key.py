@@ -25,11 +25,9 @@ from turtlesim_programs.program import refuse, run_node, spin
 from turtlesim_programs.turtle_topics import QOS
 
 HELP = """\
-Reading from keyboard
----------------------------
-Use arrow keys to move the turtle.
-Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.
-'q' to quit."""
+The arrow keys move turtle1.
+g, t, r, e, d, c, v and b turn it to a direction: they lie round f as directions do.
+f ends such a turn, q this program."""
 
 # The last byte of what an arrow sends, and how far it goes forward and turns.
 MOVES = {b'A': (1.0, 0.0), b'B': (-1.0, 0.0), b'C': (0.0, -1.0), b'D': (0.0, 1.0)}

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Find a sandbox that works on this machine."""
 
+from collections.abc import Sequence
 from pathlib import Path
 import subprocess
 from tempfile import TemporaryDirectory
@@ -49,12 +50,19 @@ def _try(sandbox: Sandbox) -> None:
         folder.mkdir()
         with Jail(sandbox, folder) as jail:
             exit_code = jail.run(['true'], log=log, within_sec=_TRIED_WITHIN_SEC)
-            beside = subprocess.run(jail.beside(['true']), capture_output=True, text=True)
+            beside = _run(jail.beside(['true']))
         if beside.returncode != 0:
             raise SandboxFails(beside.stderr.strip().replace('\n', ' '))
         if exit_code != 0:
             said = log.read_text(encoding='utf-8', errors='replace').strip().splitlines()
             raise SandboxFails(said[-1] if said else f'exit code {exit_code}')
+
+
+def _run(command: Sequence[str]) -> 'subprocess.CompletedProcess[str]':
+    try:
+        return subprocess.run(command, capture_output=True, text=True)
+    except OSError as error:
+        raise SandboxFails(f'{command[0]}: {error.strerror}') from None
 
 
 def _advice() -> str:

@@ -11,6 +11,7 @@ does, or when nobody reads its output any more: the grader has been killed.
 
 import _thread
 import ctypes
+import errno
 import marshal
 import os
 import resource
@@ -185,9 +186,17 @@ def _start(command: list[str], environment: dict[str, str]) -> int:
         try:
             os.execvpe(command[0], command, environment)
         except OSError as error:
-            os.write(2, f'{command[0]}: {error.strerror}\n'.encode())
+            os.write(2, f'{command[0]}: {_why(error, command[0], environment)}\n'.encode())
         os._exit(_NO_COMMAND)
     return child
+
+
+def _why(error: OSError, program: str, environment: dict[str, str]) -> str:
+    """Return why a program cannot be started; a folder of PATH that is barred is no reason."""
+    folders = [''] if '/' in program else os.get_exec_path(environment)
+    if any(os.path.lexists(os.path.join(folder, program)) for folder in folders):
+        return str(error.strerror)
+    return os.strerror(errno.ENOENT)
 
 
 def _end_without_reader() -> None:
