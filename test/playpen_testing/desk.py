@@ -12,7 +12,7 @@ from playpen_testing.processes import Processes
 from playpen_testing.terminal import Terminal
 from playpen_testing.waiting import wait_until
 
-STEP_WITHIN_SEC = 60.0
+STEP_WITHIN_SEC = 120.0
 
 Seen = Callable[[Terminal], object]
 """Called with a terminal that shows what the sheet says."""
