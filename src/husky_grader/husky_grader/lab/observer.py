@@ -141,12 +141,23 @@ def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = N
             if not complaints and (wrong := complaint(message, step.content)):
                 complaints.append(wrong)
 
+    def listen() -> str:
+        """Wait for a message; return why there is none that can be judged, or nothing."""
+        observer.spin_until(
+            lambda: times_sec or _other_fields(step, observer.node), step.within_sec
+        )
+        other = _other_fields(step, observer.node)
+        if times_sec or other:
+            return other
+        return _why_silent(step, read_graph(observer.node, (NAME, *OTHERS)))
+
     observer.node.create_subscription(get_message(step.type), step.topic, on_message, HEARS_ALL)
     if robot is not None:
-        observer.spin_until(lambda: times_sec, step.within_sec)
-        if times_sec and step.content and not complaints:
+        if why := listen():
+            return nothing(why)
+        if step.content and not complaints:
             return nothing('what it publishes is the same before the Husky has driven')
-        if times_sec and (why := _driven(robot, observer)):
+        if why := _driven(robot, observer):
             return nothing(f'the Husky beside it did not come to the end of its course: {why}')
     if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
         return found
@@ -154,13 +165,15 @@ def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = N
         observer.spin_for(SETTLED_SEC)
         times_sec.clear()
         complaints.clear()
-    observer.spin_until(lambda: times_sec, step.within_sec)
-    if other := _other_fields(step, observer.node):
-        return nothing(other)
-    if not times_sec:
-        return nothing(_why_silent(step, read_graph(observer.node, (NAME, *OTHERS))))
+    if why := listen():
+        return nothing(why)
     rate = _rate_hz(step, observer, times_sec)
     defects = {'content': complaints[0]} if complaints else {}
+    return _with_rate(step, rate, defects)
+
+
+def _with_rate(step: PublisherStep, rate: float, defects: dict[str, str]) -> Finding:
+    """Return the finding on what was published, at a rate in Hz, with these defects so far."""
     shown = about(rate)
     if step.rate_hz is not None:
         wanted = f'{step.rate_hz:g}'
