@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from threading import Thread
+from threading import Event, Thread
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.exceptions import InvalidHandle
@@ -16,6 +16,7 @@ from tf2_msgs.msg import TFMessage
 
 from tf2_ros.buffer import Buffer
 
+_LATENCY_SEC = 0.1
 _AUTHORITY = 'default_authority'  # rclpy does not say who has sent a message
 
 
@@ -57,13 +58,15 @@ class TransformListener:
         )
         if spin_thread:
             self.executor = SingleThreadedExecutor()
+            self._ended = Event()
             self.dedicated_listener_thread = Thread(
-                target=_spin, args=(self.executor, node), name='tf listener'
+                target=_spin, args=(self.executor, node, self._ended), name='tf listener'
             )
             self.dedicated_listener_thread.start()
 
     def __del__(self) -> None:
         if hasattr(self, 'dedicated_listener_thread'):
+            self._ended.set()
             with suppress(InvalidHandle):  # at the end of a program parts may go before the whole
                 self.executor.shutdown()
             self.dedicated_listener_thread.join()
@@ -88,8 +91,11 @@ def _profile(durability: DurabilityPolicy) -> QoSProfile:
     return QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
 
 
-def _spin(executor: SingleThreadedExecutor, node: Node) -> None:
+def _spin(executor: SingleThreadedExecutor, node: Node, ended: Event) -> None:
     executor.add_node(node)
     with suppress(ExternalShutdownException):
-        executor.spin()
+        # Always with a timeout: without one rclpy 7.1.6 may miss a Ctrl-C, and Python's end would
+        # wait for this thread for ever.
+        while node.context.ok() and not ended.is_set():
+            executor.spin_once(timeout_sec=_LATENCY_SEC)
     executor.remove_node(node)
