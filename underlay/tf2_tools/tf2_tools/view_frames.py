@@ -7,7 +7,9 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
+import signal
 import sys
+import threading
 import time
 
 from live_page import read_port
@@ -48,16 +50,21 @@ def main() -> int:
 def _parse(words: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog='view_frames',
-        description='Create a diagram of the TF frames being broadcast over ROS',
+        description='Draw which frame hangs at which, as /tf and /tf_static say it.',
     )
     parser.add_argument(
         '--wait-time',
         '-t',
         type=_wait_time,
         default=5.0,
-        help='Listen to the /tf topic for this many seconds before rendering the frame tree',
+        help='seconds to listen before it is drawn (%(default)s)',
     )
-    parser.add_argument('-o', '--output', type=_output, help='Output filename')
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=_output,
+        help='name of the files, without .gv and .pdf; default: the time',
+    )
     parser.add_argument(
         '--live', action='store_true', help='show the frames in the browser instead of in files'
     )
@@ -70,9 +77,14 @@ def _write(node: Node, args: argparse.Namespace) -> int:
     buffer = Buffer(node=node)
     listener = TransformListener(buffer, node)
     logger.info(f'Listening to tf data for {args.wait_time} seconds...')
+    interrupted = threading.Event()  # raised in a callback, an interrupt might be printed and lost
+    before = signal.signal(signal.SIGINT, lambda *_: interrupted.set())
     end = time.monotonic() + args.wait_time
-    while (left_sec := end - time.monotonic()) > 0.0:
+    while not interrupted.is_set() and (left_sec := end - time.monotonic()) > 0.0:
         rclpy.spin_once(node, timeout_sec=min(0.1, left_sec))
+    signal.signal(signal.SIGINT, before)
+    if interrupted.is_set():
+        return _INTERRUPTED
     logger.info('Generating graph...')
     result = FrameGraph.Response(frame_yaml=buffer.all_frames_as_yaml())
     listener.unregister()
