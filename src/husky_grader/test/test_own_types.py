@@ -195,3 +195,9 @@ def test_what_a_rubric_is_read_from_holds_its_interfaces() -> None:
     assert RUBRIC.parent / 'courses' / 'short.yaml' in rubric.files
     packed = packed_rubric(rubric)
     assert 'docs/rubrics/odometer_interfaces/msg/Distance.msg' in packed.files
+
+
+def test_a_machine_without_colcon_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('PATH', str(tmp_path))
+    with pytest.raises(ValueError, match='colcon, which builds them, is not installed here'):
+        build_types((INTERFACES,))

@@ -208,6 +208,29 @@ def test_static_transform_publisher_tells_its_transform_as_parameters(
     assert 'read-only' in refused.out + refused.err
 
 
+@pytest.mark.parametrize(
+    ('package', 'program'),
+    [
+        ('tf2_ros', ('tf2_echo', 'a', 'b')),
+        ('tf2_ros', ('tf2_monitor',)),
+        ('tf2_ros', ('buffer_server',)),
+        ('tf2_ros', ('static_transform_publisher', '--frame-id', 'a', '--child-frame-id', 'b')),
+        ('tf2_tools', ('view_frames',)),
+        ('turtlesim', ('turtlesim_node', '--platform', 'offscreen')),
+    ],
+)
+@pytest.mark.parametrize('wrong', [('-p', 'x'), ('--nonsense',), ('-r', '__node:=7')])
+@pytest.mark.usefixtures('domain')
+def test_wrong_ros_arguments_are_told_without_a_traceback(
+    package: str, program: tuple[str, ...], wrong: tuple[str, ...]
+) -> None:
+    command = ('ros2', 'run', package, *program, '--ros-args', *wrong)
+    answer = subprocess.run(command, capture_output=True, text=True, timeout=30.0)
+    assert answer.returncode == 2, answer.stderr
+    assert 'Traceback' not in answer.stderr
+    assert wrong[-1] in answer.stderr
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize(
     ('program', 'ready'),

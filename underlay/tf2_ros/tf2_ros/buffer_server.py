@@ -7,6 +7,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from node_program import run_node
 from rclpy.action import ActionServer
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -17,7 +18,6 @@ from tf2_py import TransformException
 
 from tf2_ros.buffer import Buffer
 from tf2_ros.buffer_client import EXCEPTIONS
-from tf2_ros.program import spin
 from tf2_ros.transform_listener import TransformListener
 
 _CODES = {kind: code for code, kind in EXCEPTIONS.items()}
@@ -25,8 +25,7 @@ _CODES = {kind: code for code, kind in EXCEPTIONS.items()}
 
 def main() -> int:
     """Serve until Ctrl-C."""
-    spin(lambda _: BufferServer())
-    return 0
+    return run_node(lambda _: BufferServer(), sys.argv)
 
 
 class BufferServer(Node):

@@ -12,14 +12,13 @@ import sys
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
+from node_program import own_words, run_node
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.utilities import remove_ros_args
 from tf2_py.motions import Quaternion, Vector
 
-from tf2_ros.program import spin
 from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 
 _USAGE = """\
@@ -98,7 +97,7 @@ class StaticTransformPublisher(Node):
 
 def main() -> int:
     """Publish until Ctrl-C; 1: the arguments are wrong."""
-    words = remove_ros_args(sys.argv)[1:]
+    words = own_words(sys.argv)
     if {'-h', '--help'} & {*words}:
         print(_USAGE, end='')
         return 0
@@ -114,8 +113,7 @@ def main() -> int:
             f"'{fixed.child_frame_id}', exiting"
         )
         return 1
-    spin(lambda _: StaticTransformPublisher(fixed))
-    return 0
+    return run_node(lambda _: StaticTransformPublisher(fixed), sys.argv)
 
 
 def parse(words: list[str]) -> Fixed:

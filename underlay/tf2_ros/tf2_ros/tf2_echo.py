@@ -12,15 +12,14 @@ import sys
 from typing import NoReturn
 
 from geometry_msgs.msg import TransformStamped
+from node_program import own_words, run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.time import Time
-from rclpy.utilities import remove_ros_args
 from tf2_py import TransformException
 from tf2_py.motions import matrix_of, Vector
 
 from tf2_ros.buffer import Buffer
-from tf2_ros.program import spin
 from tf2_ros.transform_listener import TransformListener
 
 _USAGE = """\
@@ -40,9 +39,8 @@ _NUMBER = re.compile(r'\s*[+-]?(\d|\.\d|inf|nan)', re.IGNORECASE)
 
 def main() -> int:
     """Echo until Ctrl-C, or as often as is asked for."""
-    args = _parse(remove_ros_args(sys.argv)[1:])
-    spin(lambda finish: Echo(args, finish))
-    return 0
+    args = _parse(own_words(sys.argv))
+    return run_node(lambda stop: Echo(args, stop.set), sys.argv)
 
 
 class Echo(Node):

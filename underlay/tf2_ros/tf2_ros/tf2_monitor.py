@@ -8,16 +8,15 @@ from collections import deque
 from collections.abc import Iterable
 import sys
 
+from node_program import own_words, run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
-from rclpy.utilities import remove_ros_args
 from tf2_msgs.msg import TFMessage
 from tf2_py import TransformException
 
 from tf2_ros.buffer import Buffer
-from tf2_ros.program import spin
 from tf2_ros.transform_listener import TransformListener
 
 _AUTHORITY = '<no authority available>'
@@ -28,12 +27,11 @@ _LOWPASS = 0.01  # share of the newest net delay in its average
 
 def main() -> int:
     """Report every ten seconds until Ctrl-C; 255: the arguments are wrong, as upstream."""
-    frames = remove_ros_args(sys.argv)[1:]
+    frames = own_words(sys.argv)
     if len(frames) not in (0, 2):
         print('TF_Monitor: usage: tf2_monitor framea frameb')
         return 255
-    spin(lambda _: Monitor(frames))
-    return 0
+    return run_node(lambda _: Monitor(frames), sys.argv)
 
 
 class Monitor(Node):

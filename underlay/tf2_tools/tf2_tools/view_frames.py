@@ -13,10 +13,10 @@ import threading
 import time
 
 from live_page import read_port
+from node_program import own_words
 import rclpy
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import remove_ros_args
 from ros2cli.errors import CommandError
 from rqt_graph.picture import draw_text
 from tf2_msgs.srv import FrameGraph
@@ -29,7 +29,7 @@ _INTERRUPTED = 130
 
 def main() -> int:
     """Listen, write the picture and end; or show it live until Ctrl-C."""
-    args = _parse(remove_ros_args(sys.argv)[1:])
+    args = _parse(own_words(sys.argv))
     # Interrupts are Python's: the wait of an executor is short, and the page has no other.
     rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     node = Node('view_frames')

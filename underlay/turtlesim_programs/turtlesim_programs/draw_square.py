@@ -10,6 +10,7 @@ import sys
 from typing import NamedTuple
 
 from geometry_msgs.msg import Twist
+from node_program import run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
@@ -17,7 +18,6 @@ from std_srvs.srv import Empty
 from turtlesim.msg import Pose
 
 from turtlesim_programs.motion import PERIOD_SEC
-from turtlesim_programs.program import run_node
 from turtlesim_programs.turtle_topics import QOS
 
 SIDE_M = 2.0
@@ -117,7 +117,7 @@ class DrawSquare(Node):
 
 
 def main(argv: list[str] | None = None) -> int:
-    return run_node(DrawSquare, sys.argv if argv is None else argv)
+    return run_node(lambda _: DrawSquare(), sys.argv if argv is None else argv)
 
 
 if __name__ == '__main__':

@@ -7,10 +7,10 @@ from __future__ import annotations
 import sys
 
 from geometry_msgs.msg import Twist
+from node_program import run_node
 from rclpy.node import Node
 from turtlesim.msg import Pose
 
-from turtlesim_programs.program import run_node
 from turtlesim_programs.turtle_topics import QOS
 
 
@@ -29,7 +29,7 @@ class Mimic(Node):
 
 
 def main(argv: list[str] | None = None) -> int:
-    return run_node(Mimic, sys.argv if argv is None else argv)
+    return run_node(lambda _: Mimic(), sys.argv if argv is None else argv)
 
 
 if __name__ == '__main__':

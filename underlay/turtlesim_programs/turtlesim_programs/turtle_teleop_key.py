@@ -14,6 +14,7 @@ import threading
 import tty
 
 from geometry_msgs.msg import Twist
+from node_program import refuse, run_node, spin
 from rclpy.action import ActionClient
 from rclpy.action.client import ClientGoalHandle
 from rclpy.clock import Clock, ClockType
@@ -21,7 +22,6 @@ from rclpy.node import Node
 from rclpy.task import Future
 from turtlesim.action import RotateAbsolute
 
-from turtlesim_programs.program import refuse, run_node, spin
 from turtlesim_programs.turtle_topics import QOS
 
 HELP = """\
@@ -115,7 +115,7 @@ def _pressed(terminal: int) -> list[bytes]:
 def main(argv: list[str] | None = None) -> int:
     if not sys.stdin.isatty():
         return refuse('turtle_teleop_key: needs a terminal to read keys from; run it in one')
-    return run_node(TeleopTurtle, sys.argv if argv is None else argv, use)
+    return run_node(lambda _: TeleopTurtle(), sys.argv if argv is None else argv, use)
 
 
 if __name__ == '__main__':

@@ -10,10 +10,11 @@ import sys
 import threading
 
 from live_page import open_on_a_desktop, read_port, serve_somewhere
+from node_program import own_words, refuse, run_node, spin
+from rclpy.experimental import EventsExecutor
 
 from turtlesim_programs.node import TurtlesimNode
 from turtlesim_programs.page import FIRST_PORT, TurtlePage
-from turtlesim_programs.program import own_words, refuse, run_node, spin
 
 WITHOUT_PAGE = ('offscreen', 'minimal')
 """Names of Qt's platforms that have no window; with upstream's turtlesim they do the same."""
@@ -38,9 +39,9 @@ def main(argv: list[str] | None = None) -> int:
             return refuse(
                 f'turtlesim_node: --port {arguments.port} is taken: leave it out to get a free one'
             )
-        return spin(node, stop)
+        return spin(node, stop, EventsExecutor())  # with many turtles half of the time
 
-    return run_node(TurtlesimNode, argv, use)
+    return run_node(lambda _: TurtlesimNode(), argv, use)
 
 
 def _serve(node: TurtlesimNode, port: int | None) -> bool:

@@ -26,6 +26,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rclpy.type_hash import TypeHash
 from rosidl_runtime_py.utilities import get_message, get_service
 
 from husky_grader.lab.file_steps import asked
@@ -63,6 +64,7 @@ HEARD_BY_ALL = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 
+_NO_HASH = str(TypeHash())  # of a publisher whose DDS tells none
 _LOGGED_AT = re.compile(r'\[\d+\.\d+\] ')  # the time of a logger's line
 
 Over = Callable[[], bool]
@@ -220,13 +222,13 @@ def _driven(robot: Robot, observer: _Observer) -> str:
 
 def _other_fields(step: PublisherStep, node: Node) -> str:
     """Return that a publisher's type has the name that is asked for, and other fields."""
-    own = {
+    fitting = {_NO_HASH} | {
         str(each.topic_type_hash)
         for each in node.get_subscriptions_info_by_topic(step.topic)
         if each.node_name == NAME
     }
     for each in node.get_publishers_info_by_topic(step.topic):
-        if each.topic_type == step.type and str(each.topic_type_hash) not in own:
+        if each.topic_type == step.type and str(each.topic_type_hash) not in fitting:
             fields = get_message(step.type).get_fields_and_field_types().items()
             asked_for = ', '.join(f'{name} ({kind})' for name, kind in fields)
             return f'its {step.type} has other fields; {asked(asked_for)}'

@@ -96,14 +96,15 @@ def _kept_folder(name: str) -> Iterator[Path]:
     folder = cache / 'husky_playpen_lab' / 'interfaces' / name
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        with folder.with_suffix('.lock').open('w') as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            yield folder
+        lock = folder.with_suffix('.lock').open('w')
     except OSError as error:
         raise ValueError(
             f'interfaces cannot be built in {folder}: {error.strerror}; '
             'let XDG_CACHE_HOME name a folder that can be written'
         ) from None
+    with lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield folder
 
 
 def _build(packages: Sequence[Path], folder: Path) -> None:
@@ -113,9 +114,12 @@ def _build(packages: Sequence[Path], folder: Path) -> None:
     command += ['--build-base', str(folder / 'build')]
     command += ['--install-base', str(folder / 'install')]
     command += ['--paths', *map(str, packages)]
-    built = subprocess.run(
-        command, capture_output=True, check=False, cwd=folder, text=True, errors='replace'
-    )
+    try:
+        built = subprocess.run(
+            command, capture_output=True, cwd=folder, text=True, errors='replace'
+        )
+    except FileNotFoundError:
+        raise ValueError('colcon, which builds them, is not installed here') from None
     if built.returncode != 0:
         told = built.stderr.partition('--- stderr: ')[2].splitlines()[1:] or [built.stderr]
         why = next((line.strip() for line in told if line.strip()), 'colcon build fails')
@@ -125,6 +129,8 @@ def _build(packages: Sequence[Path], folder: Path) -> None:
 def _sourced(install: Path) -> Variables:
     """Return what sourcing a prefix puts into variables that are empty before."""
     command = ['bash', '-c', _SOURCED, 'bash', str(install), *_NAMES]
-    told = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    told = subprocess.run(command, capture_output=True, text=True).stdout
     pairs = dict(entry.split('=', 1) for entry in told.split('\0') if '=' in entry)
+    if not pairs.get('PYTHONPATH'):
+        raise ValueError(f'{install}: nothing was built that Python can read')
     return {name: pairs[name] for name in _NAMES if pairs.get(name)}

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Run a node until a signal comes, as each program of turtlesim does."""
+"""Run a node until a signal comes, or until its work is done."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import threading
 from typing import TypeVar
 
 import rclpy
-from rclpy.experimental import EventsExecutor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
@@ -22,11 +22,16 @@ _LATENCY_SEC = 0.1  # the longest time until a signal is handled
 AnyNode = TypeVar('AnyNode', bound=Node)
 
 
-def spin(node: Node, stop: threading.Event) -> int:
-    """Spin a node until it is to stop, and return the exit status."""
-    executor = EventsExecutor()
+def spin(node: Node, stop: threading.Event, executor: Executor | None = None) -> int:
+    """
+    Spin a node until it is to stop, and return the exit status.
+
+    :param executor: None: a SingleThreadedExecutor.
+    """
+    executor = executor or SingleThreadedExecutor()
     executor.add_node(node)
-    # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up.
+    # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up, and no
+    # executor for an event that is set just before it waits.
     while not stop.is_set():
         executor.spin_once(timeout_sec=_LATENCY_SEC)
     executor.remove_node(node)  # before it is destroyed: the executor may hold its events
@@ -35,13 +40,17 @@ def spin(node: Node, stop: threading.Event) -> int:
 
 
 def run_node(
-    make: Callable[[], AnyNode],
+    make: Callable[[threading.Event], AnyNode],
     argv: list[str],
     use: Callable[[AnyNode, threading.Event], int] = spin,
 ) -> int:
     """
     Make a node, use it and let it go; return the exit status.
 
+    Signals only set an event. rclpy's own handlers shut ROS down under whatever is being made, and
+    one that comes just before the first wait is missed by it for good (rclpy 7.1.6).
+
+    :param make: is given the event, for a node whose work may be done.
     :param use: returns soon after the event is set, which SIGINT and SIGTERM do.
     """
     stop = threading.Event()
@@ -49,7 +58,7 @@ def run_node(
         signal.signal(number, lambda *_: stop.set())
     try:
         rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
-        node = make()
+        node = make(stop)
     except Exception as error:  # rcl raises many types for wrong arguments
         rclpy.try_shutdown()
         return refuse(' '.join(str(error).split()))
@@ -61,11 +70,11 @@ def run_node(
 
 
 def own_words(argv: list[str]) -> list[str]:
-    """Return what of a command line is not for ROS; nothing where `rclpy.init` will refuse it."""
+    """Return what of a command line is not for ROS; end the program where that is wrong."""
     try:
         return remove_ros_args(argv)[1:]
-    except RuntimeError:
-        return []
+    except RuntimeError as error:
+        raise SystemExit(refuse(f'wrong ROS arguments: {" ".join(str(error).split())}')) from None
 
 
 def refuse(reason: str) -> int:
