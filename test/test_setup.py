@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `./lab` says when it cannot set up: one line, exit status 2, nothing broken."""
 
+import fcntl
 import os
 from pathlib import Path
 import shutil
+import signal
 import subprocess
 import sys
 import venv
@@ -13,6 +15,8 @@ import zipfile
 from husky_runtime.set_up_progress import STEPS
 import pip as pip_package
 from playpen_testing.processes import IN_A_TERMINAL, Processes
+from playpen_testing.waiting import wait_until
+from psutil import process_iter
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -232,6 +236,31 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> Non
     (clone / '.venv' / 'bin' / 'python').symlink_to('/nonexistent/python')
     done = lab(clone, 'exec', 'true', PIP_INDEX_URL=NOBODY, PIP_CONFIG_FILE=os.devnull)
     refused(done, 'no network', 'call ./lab again')
+
+
+def test_interrupts_are_kept_by_the_kernel_but_in_a_set_up(clone: Path, tmp_path: Path) -> None:
+    # Bash loses one of some hundred that come while it starts or ends a command.
+    masks = tmp_path / 'masks'
+    folder = tmp_path / 'bin'
+    program(folder, 'sha256sum', f'grep SigBlk /proc/$PPID/status >>{masks}; exec cksum')
+    path = program(folder, 'df', 'printf "h\\nfs 1 1 90000 1%% /\\n"')
+    refused(lab(clone, 'exec', 'true', PATH=path), 'disk is full')
+    blocked = [int(line.split()[1], 16) for line in masks.read_text().splitlines()]
+    assert [bool(mask & 1 << signal.SIGINT - 1) for mask in blocked] == [True, False]
+
+
+def test_an_interrupt_ends_the_wait_for_another_set_up(processes: Processes, clone: Path) -> None:
+    with (clone / '.lab.lock').open('w') as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run = processes.start(str(clone / 'lab'), 'exec', 'true')
+        wait_until(
+            lambda: ['flock', '9'] in [each.info['cmdline'] for each in process_iter(['cmdline'])],
+            timeout_sec=20.0,
+            what='./lab that waits for the lock',
+        )
+        run.signal(signal.SIGINT)
+        assert run.wait(timeout_sec=2.0) == 128 + signal.SIGINT
+    assert run.lines[-1:] == ['lab: interrupted']
 
 
 @pytest.mark.parametrize(

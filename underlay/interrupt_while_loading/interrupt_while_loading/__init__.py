@@ -14,18 +14,22 @@ this module has set its handler, so that none is lost.
 
 from __future__ import annotations
 
+import _thread
 from collections.abc import Iterator
 import contextlib
 import os
 import signal
 import sys
+import time
 from types import FrameType, TracebackType
 
+_IMPORT = ('importlib', 'zipimport')  # parts of their file names
 _RUNPY = ('<frozen runpy>', 'runpy.py')
 _ENTRY_POINT_LOADERS = ('importlib_load_entry_point', 'load_entry_point')
-
+_AGAIN_SEC = 0.01
 
 _print_uncaught = sys.excepthook
+_print_unraisable = sys.unraisablehook
 _was_interrupted = False
 
 
@@ -34,6 +38,7 @@ def install() -> None:
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _on_interrupt)
         sys.excepthook = _on_uncaught
+        sys.unraisablehook = _on_unraisable
     signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
 
 
@@ -76,6 +81,20 @@ def _on_uncaught(
             _print_uncaught(kind, error, trace)
 
 
+def _on_unraisable(lost: sys.UnraisableHookArgs) -> None:
+    # Python prints and drops an interrupt in some callbacks, as that of a weak reference.
+    if lost.exc_type is KeyboardInterrupt and _was_interrupted:
+        if not sys.is_finalizing():
+            _thread.start_new_thread(_interrupt_again, ())
+    else:
+        _print_unraisable(lost)
+
+
+def _interrupt_again() -> None:
+    time.sleep(_AGAIN_SEC)  # until that callback has returned
+    os.kill(os.getpid(), signal.SIGINT)
+
+
 def _is_of_interrupt(error: BaseException) -> bool:
     return isinstance(error, KeyboardInterrupt) or type(error).__module__.startswith('rclpy.')
 
@@ -92,7 +111,9 @@ def _loads(frame: FrameType | None) -> bool:
     frames = list(_outermost_first(frame))
     for each in frames:
         code = each.f_code
-        if 'importlib' in code.co_filename or code.co_name in _ENTRY_POINT_LOADERS:
+        if code.co_name in _ENTRY_POINT_LOADERS or any(
+            each in code.co_filename for each in _IMPORT
+        ):
             return True
         if code.co_name != '<module>' and not code.co_filename.endswith(_RUNPY):
             return False
