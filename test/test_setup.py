@@ -254,7 +254,10 @@ def test_an_interrupt_ends_the_wait_for_another_set_up(processes: Processes, clo
         fcntl.flock(lock, fcntl.LOCK_EX)
         run = processes.start(str(clone / 'lab'), 'exec', 'true')
         wait_until(
-            lambda: ['flock', '9'] in [each.info['cmdline'] for each in process_iter(['cmdline'])],
+            lambda: any(
+                each.info == {'cmdline': ['flock', '9'], 'ppid': run.pid}
+                for each in process_iter(['cmdline', 'ppid'])
+            ),
             timeout_sec=20.0,
             what='./lab that waits for the lock',
         )
