@@ -18,7 +18,7 @@ _MADE_SEC = 0.2  # a younger file may not be mapped yet
 
 
 def clean_shared_memory() -> None:
-    """Remove the files of this user that no process has mapped."""
+    """Remove the files of this user that no process has mapped or locked."""
     if not Path('/proc/self/maps').exists():  # not Linux
         return
     # A second look and no deadline: on a busy machine one look at all processes takes long.
@@ -37,8 +37,10 @@ def _remove_older() -> list[float]:
 
 
 def unused_files() -> dict[Path, float]:
-    """Return the age of every file of this user that no process has mapped, as far as one sees."""
+    """Return the age of every file of this user that nobody uses, as far as one sees."""
     ages: dict[Path, float] = {}
+    used: set[str] = set()
+    locked = _locked_inodes()
     for file in _FOLDER.glob(f'*{_MARK}*'):
         try:
             status = file.stat()
@@ -46,6 +48,9 @@ def unused_files() -> dict[Path, float]:
             continue
         if status.st_uid == os.getuid():
             ages[file] = time.time() - status.st_mtime
+            # A busy machine may take long from the lock on NAME_el to the map of NAME.
+            if status.st_ino in locked:
+                used.add(_stem_of(file.name))
     if not ages:
         return ages
     maps = [_maps_of(process) for process in Path('/proc').glob('[0-9]*')]
@@ -53,7 +58,19 @@ def unused_files() -> dict[Path, float]:
     if None in maps and os.geteuid() == 0 and not _may_trace():
         return {}
     mapped = ''.join(filter(None, maps))
-    return {file: age for file, age in ages.items() if _stem_of(file.name) not in mapped}
+    stems = {file: _stem_of(file.name) for file in ages}
+    return {
+        file: ages[file] for file, stem in stems.items() if stem not in mapped and stem not in used
+    }
+
+
+def _locked_inodes() -> set[int]:
+    """Return the inodes of all files that a process has locked: proc_locks(5)."""
+    try:
+        locks = Path('/proc/locks').read_text()
+    except OSError:
+        return set()
+    return {int(line.split()[-3].rpartition(':')[2]) for line in locks.splitlines()}
 
 
 def _stem_of(name: str) -> str:

@@ -3,6 +3,7 @@
 """Children are ended with everything that they have started."""
 
 from collections.abc import Callable
+import fcntl
 import os
 from pathlib import Path
 import signal
@@ -192,6 +193,20 @@ def test_shared_memory_that_others_may_use_stays() -> None:
         left = [file for file in files if file.exists()]
         alive.communicate(b'', timeout=10.0)
     assert (done.returncode, left) == (0, list(files))
+
+
+def test_shared_memory_that_is_being_made_stays() -> None:
+    file = Path(f'/dev/shm/fastrtps_made_by_{os.getpid()}_el')
+    try:
+        with file.open('w') as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            os.utime(file, (0.0, 0.0))
+            clean_shared_memory()
+            assert file.exists()
+        clean_shared_memory()
+        assert not file.exists()
+    finally:
+        file.unlink(missing_ok=True)
 
 
 def participant(domain: int) -> 'subprocess.Popen[bytes]':
