@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from playpen_testing.lab_sheet import Block, matches, write_file
+from playpen_testing.lab_sheet import ALL, Block, matches, write_file
 from playpen_testing.processes import Processes
 from playpen_testing.terminal import Terminal
 from playpen_testing.waiting import wait_until
@@ -58,6 +58,12 @@ def do_steps(
         elif block.language == 'text':
             _compare(terminals[block.terminal], block, _command(blocks, number))
             on_seen(terminals[block.terminal])
+        elif block.language == 'Ctrl-C':
+            _interrupt(terminals if block.terminal == ALL else [terminals[block.terminal]])
+    _interrupt(terminals)
+
+
+def _interrupt(terminals: Iterable[Terminal]) -> None:
     for terminal in terminals:
         if terminal.busy:
             terminal.interrupt()

@@ -10,6 +10,8 @@ The first words after the fence of a block say what it is; Markdown shows only i
     ```text terminal=2          what then stands in that terminal
     ```python file=PATH         a file, below the workspace
     ```python edit=PATH         a part of a file, which replaces what begins and ends alike
+
+A sentence counts as a block, too: `End ... in all terminals with Ctrl-C.`, or in one of them.
 """
 
 from dataclasses import dataclass
@@ -17,14 +19,18 @@ from pathlib import Path
 import re
 
 _BLOCK = re.compile(r'^```(?P<info>\w.*?)\n(?P<text>.*?)^```$', re.MULTILINE | re.DOTALL)
+_END = re.compile(
+    r'\bEnd [^`.]+? in\s(?:all\sterminals|terminal\s(?P<terminal>\d+))\swith\sCtrl-C\.'
+)
 _NUMBER = re.compile(r'[-+]?\d+(?:\.\d+)?')
 _ANY_NUMBER = r'[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?'
 LEFT_OUT = '...'
+ALL = 'all'
 
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block of the sheet."""
+    """A fenced block of the sheet; or, in the language `Ctrl-C`, that programs are ended."""
 
     language: str
     attributes: dict[str, str]
@@ -43,12 +49,18 @@ class Block:
 def read_blocks(sheet: str) -> list[Block]:
     """Return the blocks of a Markdown text in their order."""
     blocks = []
-    for match in _BLOCK.finditer(sheet):
-        language, *words = match['info'].split()
+
+    def add(match: re.Match[str], info: str, text: str) -> None:
+        language, *words = info.split()
         attributes = dict(word.split('=', 1) for word in words)
         line = sheet.count('\n', 0, match.start()) + 1
-        blocks.append(Block(language, attributes, match['text'], line))
-    return blocks
+        blocks.append(Block(language, attributes, text, line))
+
+    for match in _BLOCK.finditer(sheet):
+        add(match, match['info'], match['text'])
+    for match in _END.finditer(sheet):
+        add(match, f'Ctrl-C terminal={match["terminal"] or ALL}', '')
+    return sorted(blocks, key=lambda block: block.line)
 
 
 def write_file(workspace: Path, block: Block) -> None:
