@@ -13,9 +13,14 @@ SPEED_MARGIN_M_S = 0.1
 
 
 class ObstacleStop:
-    """Decides when the robot has to stand; times are the stamps of scans and odometry."""
+    """
+    Decides when the robot has to stand; times are the stamps of scans and odometry.
 
-    def __init__(self) -> None:
+    :param topic: of the scans, to be named.
+    """
+
+    def __init__(self, topic: str = 'front/scan') -> None:
+        self._topic = topic
         self._restart(-math.inf)
 
     def _restart(self, now_sec: float) -> None:
@@ -61,5 +66,5 @@ class ObstacleStop:
 
     def _describe(self) -> str:
         if self._state == 'silent':
-            return 'standing: no scan comes on front/scan; is the laser on (lidar_rate_hz)?'
+            return f'standing: no scan comes on {self._topic}; is the laser on (lidar_rate_hz)?'
         return f'stopping: {self._sighting}' if self._sighting else 'the way is free: driving on'

@@ -15,7 +15,6 @@ import time
 import tty
 from typing import Any
 
-from geometry_msgs.msg import Twist
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.executor import spin
 from husky_runtime.parameters import declare_settings
@@ -31,7 +30,8 @@ from rclpy.utilities import remove_ros_args
 
 from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, split_keys
 from husky_driver.motion import Command, STOP
-from husky_driver.ros.settings import refuse
+from husky_driver.ros.commands import Commands
+from husky_driver.ros.settings import INTERFACES, refuse
 
 PERIOD_SEC = 0.05
 HINT_AFTER_SEC = 2.0
@@ -45,6 +45,11 @@ class TeleopSettings:
 
     speed: float = setting(0.5, 'forward speed of a key, m/s', 0.01, MAX_SPEED_M_S)
     turn: float = setting(1.0, 'yaw rate of a key, rad/s', 0.01, MAX_TURN_RAD_S)
+    interface: str = setting(
+        'lab',
+        'topics of the robot: lab, or clearpath, those of a real A200',
+        choices=INTERFACES,
+    )
 
 
 class Teleop(Node):
@@ -59,7 +64,7 @@ class Teleop(Node):
         self.keyboard = Keyboard(speed_m_s=settings.speed, turn_rad_s=settings.turn)
         self._terminal = terminal
         self._last = STOP
-        self._commands = self.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+        self._commands = Commands(self, INTERFACES[settings.interface])
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(PERIOD_SEC, self._on_tick, clock=steady)
         self._hint = self.create_timer(HINT_AFTER_SEC, self._on_hint, clock=steady)
@@ -74,10 +79,10 @@ class Teleop(Node):
 
     def _on_hint(self) -> None:
         self._hint.cancel()
-        if not self._commands.get_subscription_count():
-            domain = self.context.get_domain_id()
+        if not self._commands.publisher.get_subscription_count():
+            topic, domain = self._commands.publisher.topic_name, self.context.get_domain_id()
             print(
-                f'\rnobody takes {self._commands.topic_name} yet: is the simulator running, with '
+                f'\rnobody takes {topic} yet: is the simulator running, with '
                 f'ROS_DOMAIN_ID={domain} as here? `ros2 launch husky_sim husky_playpen.launch.py`',
                 file=sys.stderr,
             )
@@ -101,13 +106,11 @@ class Teleop(Node):
 
     def _publish(self, command: Command) -> None:
         self._last = command
-        message = Twist()
-        message.linear.x, message.angular.z = command
-        self._commands.publish(message)
+        self._commands.publish(*command, self.get_clock().now().seconds_nanoseconds())
 
     def deliver(self) -> None:
         """Wait until the last command has arrived: a destroyed node sends nothing more."""
-        self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
+        self._commands.publisher.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
 
     def end(self) -> None:
         """Stop the robot and finish."""

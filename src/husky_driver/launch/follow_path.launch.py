@@ -22,6 +22,7 @@ def generate_launch_description() -> LaunchDescription:
                     ('waypoints', course, 'Waypoint file (YAML) to follow'),
                     ('namespace', '', 'Namespace of the robot to drive'),
                     ('use_sim_time', 'true', 'Take the time from /clock'),
+                    ('interface', 'lab', 'Topics of the robot: lab, or clearpath'),
                     ('params_file', defaults, 'Parameters of follow_path'),
                 )
             ),
@@ -35,7 +36,11 @@ def generate_launch_description() -> LaunchDescription:
                     LaunchConfiguration('params_file'),
                     {
                         name: ParameterValue(LaunchConfiguration(name), value_type=kind)
-                        for name, kind in (('waypoints', str), ('use_sim_time', bool))
+                        for name, kind in (
+                            ('waypoints', str),
+                            ('use_sim_time', bool),
+                            ('interface', str),
+                        )
                     },
                 ],
             ),

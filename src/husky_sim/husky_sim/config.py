@@ -69,6 +69,9 @@ class StartConfig:
     yaw: float = setting(0.0, 'Heading at the start, rad.', -1000.0, 1000.0)
 
 
+INTERFACES = ('lab', 'clearpath')
+
+
 @dataclass(frozen=True, kw_only=True)
 class RunConfig:
     """How time passes, and what is kept of a run."""
@@ -79,6 +82,11 @@ class RunConfig:
     )
     lockstep: bool = setting(
         False, 'Wait for a command after each odometry message, then advance one control period.'
+    )
+    interface: str = setting(
+        'lab',
+        "Topics: lab, or clearpath: those of a real A200 on ROS 2 Jazzy beside the lab's.",
+        choices=INTERFACES,
     )
     record: str = setting('', 'File for the record of the run, written as it goes; empty: none.')
     limit_sec: float = setting(

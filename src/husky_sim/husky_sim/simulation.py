@@ -39,6 +39,7 @@ class SimulatedRobot:
     ) -> None:
         self.name = start.name
         self.start = start
+        self.is_stopped = False  # by the emergency stop, which a reset does not release
         self.husky = Husky(start.name, world.model, data)
         self.controller = VelocityController(config.drive)
         self.odometry = WheelOdometry(config.drive)

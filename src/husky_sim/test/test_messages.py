@@ -139,7 +139,7 @@ def test_the_command_out_is_what_the_limits_left(worlds: Path, drive: Drive) -> 
 
 
 def test_scan_and_fix_describe_themselves() -> None:
-    scan, packed = new_scan(10.0), messages.FixMessage()
+    scan, packed = new_scan('front_laser', 10.0), messages.FixMessage()
     packed.pack(STAMP, (49.5, 8.5, 12.0))
     fix = deserialize_message(bytes(packed), NavSatFix)
     assert scan.header.frame_id == 'front_laser'

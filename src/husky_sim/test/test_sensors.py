@@ -186,11 +186,11 @@ def test_the_camera_shows_objects_in_place_or_is_refused(
         assert 'set camera_rate_hz to 0' in str(error)
         return
     pixels = camera.picture()
-    message = new_image(pixels, Time(sec=7))
+    message = new_image('camera', pixels, Time(sec=7))
     assert (message.header.frame_id, message.header.stamp.sec) == ('camera', 7)
     assert (message.encoding, message.step, len(message.data)) == ('rgb8', 1920, 480 * 1920)
     picture = np.array(message.data).reshape(480, 640, 3).astype(int)
-    info = new_camera_info(camera.focal_length_px)
+    info = new_camera_info('camera', camera.focal_length_px)
     camera.close()
     camera.close()
     assert pixels.shape == (info.height, info.width, 3) == (480, 640, 3)

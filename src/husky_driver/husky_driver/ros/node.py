@@ -8,7 +8,6 @@ import os
 import time
 from typing import Any
 
-from geometry_msgs.msg import Twist
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_runtime.parameters import declare_settings
@@ -29,6 +28,7 @@ from husky_driver.checks.plausibility import no_rotation
 from husky_driver.drive.drive import Drive
 from husky_driver.motion import Odometry, relative_odometry
 from husky_driver.obstacle_stop import ObstacleStop
+from husky_driver.ros.commands import Commands, NO_STAMP
 from husky_driver.ros.display import DriveDisplay
 from husky_driver.ros.progress import make_progress
 from husky_driver.ros.readings import (
@@ -40,7 +40,7 @@ from husky_driver.ros.readings import (
     wrong_imu,
     wrong_scan,
 )
-from husky_driver.ros.settings import ODOMETRY_TOPICS, refuse, Settings
+from husky_driver.ros.settings import refuse, Settings
 
 TICK_SEC = 0.05  # wall time: progress, waiting and giving up
 HINT_AFTER_SEC = 2.0
@@ -49,8 +49,6 @@ DELIVERY_SEC = 1.0  # how long the first command may take to arrive
 STOP_WITHIN_SEC = 1.0
 
 DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
-NO_STAMP = (-1, -1)
-IMU_TOPIC, SCAN_TOPIC = 'imu/data', 'front/scan'
 SENSOR = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 ChooseDrive = Callable[[Settings, Callable[[str], object]], Drive]
@@ -84,10 +82,10 @@ class FollowPath(Node):
         self._hint = ''
         self._origin: Odometry | None = None
         self._paused = False
-        self._obstacles = ObstacleStop() if self.settings.scan else None
-        self._command = Twist()
+        scan = self.settings.topics.scan
+        self._obstacles = ObstacleStop(scan) if self.settings.scan else None
         self._begun_sec = self._received_sec = time.monotonic()
-        self._commands = self.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+        self._commands = Commands(self, self.settings.topics)
         self._odometry = self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(TICK_SEC, self._on_tick, clock=steady)
@@ -96,16 +94,17 @@ class FollowPath(Node):
 
     def _subscribe(self) -> Subscription:
         """Return the subscription to the odometry that is followed."""
+        topics = self.settings.topics
         if self.settings.odometry != 'filtered':
             # A simulator in lockstep waits for a subscriber of this topic.
             self.create_subscription(
-                OdometryMsg, ODOMETRY_TOPICS['filtered'], lambda _: None, 10, raw=True
+                OdometryMsg, topics.odometry['filtered'], lambda _: None, 10, raw=True
             )
         if self.settings.imu:
-            self.create_subscription(Imu, IMU_TOPIC, self._on_imu, SENSOR)
+            self.create_subscription(Imu, topics.imu, self._on_imu, SENSOR)
         if self._obstacles is not None:
             watch = partial(self._on_scan, self._obstacles)
-            self.create_subscription(LaserScan, SCAN_TOPIC, watch, SENSOR)
+            self.create_subscription(LaserScan, topics.scan, watch, SENSOR)
         topic = self.settings.odometry_topic
         return self.create_subscription(OdometryMsg, topic, self._on_odometry, 10)
 
@@ -124,7 +123,7 @@ class FollowPath(Node):
         if stamp == self._last_stamp or self.finished.done():
             return
         if not self._has_listener:
-            self._has_listener = self._commands.get_subscription_count() > 0
+            self._has_listener = self._commands.publisher.get_subscription_count() > 0
             if not self._has_listener:
                 self._pending = msg
                 return
@@ -142,7 +141,7 @@ class FollowPath(Node):
         elif command is not None:
             self._publish(command.speed_m_s, command.yaw_rate_rad_s)
             if first:  # the publisher may have matched before the subscription has
-                self._commands.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
+                self._commands.publisher.wait_for_all_acked(Duration(seconds=DELIVERY_SEC))
         elif self._exit_code is not None:
             self._finish(self._exit_code)
         else:
@@ -174,7 +173,7 @@ class FollowPath(Node):
         if not has_orientation(msg):
             return
         if what := wrong_imu(msg):
-            self._refuse(IMU_TOPIC, what)
+            self._refuse(self.settings.topics.imu, what)
         else:
             self._drive.add_acceleration(time_of(msg), read_acceleration(msg))
 
@@ -196,7 +195,7 @@ class FollowPath(Node):
 
     def _on_scan(self, obstacles: ObstacleStop, msg: LaserScan) -> None:
         if what := wrong_scan(msg):
-            self._refuse(SCAN_TOPIC, what)
+            self._refuse(self.settings.topics.scan, what)
         else:
             obstacles.add_scan(read_scan(msg), self._drive)
 
@@ -222,9 +221,7 @@ class FollowPath(Node):
         return relative_odometry(odometry, self._origin)
 
     def _publish(self, speed_m_s: float, yaw_rate_rad_s: float) -> None:
-        self._command.linear.x = speed_m_s
-        self._command.angular.z = yaw_rate_rad_s
-        self._commands.publish(self._command)
+        self._commands.publish(speed_m_s, yaw_rate_rad_s, self._last_stamp)
 
     def _conclude(self) -> None:
         drive = self._drive
@@ -259,7 +256,7 @@ class FollowPath(Node):
         if self.finished.done():
             return
         if self._exit_code is not None:
-            gone = self._commands.get_subscription_count() == 0
+            gone = self._commands.publisher.get_subscription_count() == 0
             if gone or now > self._stop_deadline_sec:
                 self._finish(self._exit_code)
             elif now - self._received_sec > TICK_SEC:
@@ -292,6 +289,6 @@ class FollowPath(Node):
         where = f'is the simulator running, with ROS_DOMAIN_ID={domain} as here?'
         if self._odometry.get_publisher_count() == 0:
             return f'nobody publishes {self._odometry.topic_name}; {where}'
-        if self._commands.get_subscription_count() == 0:
-            return f'nobody listens to {self._commands.topic_name}; {where}'
+        if self._commands.publisher.get_subscription_count() == 0:
+            return f'nobody listens to {self._commands.publisher.topic_name}; {where}'
         return f'{self._odometry.topic_name} is silent; is the simulation paused?'

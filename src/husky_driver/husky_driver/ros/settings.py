@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of `follow_path`: the only place where their defaults live."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,11 +10,43 @@ from husky_runtime.settings import Setting, setting, settings_of
 
 from husky_driver.drive.slip import NO_SLIP, SlipModel
 
-ODOMETRY_TOPICS = {
-    'filtered': 'odometry/filtered',
-    'wheel': 'husky_velocity_controller/odom',
-    'ground_truth': 'ground_truth/odom',
-}
+
+@dataclass(frozen=True)
+class Interface:
+    """The topics of a robot, without its namespace."""
+
+    commands: str
+    stamped: bool  # commands are TwistStamped
+    odometry: Mapping[str, str]  # topics by what they tell
+    imu: str
+    scan: str
+
+
+LAB = Interface(
+    commands='husky_velocity_controller/cmd_vel',
+    stamped=False,
+    odometry={
+        'filtered': 'odometry/filtered',
+        'wheel': 'husky_velocity_controller/odom',
+        'ground_truth': 'ground_truth/odom',
+    },
+    imu='imu/data',
+    scan='front/scan',
+)
+# Of a real A200 on ROS 2 Jazzy: Clearpath's Platform API and Sensors API. Only the simulator can
+# tell the ground truth.
+CLEARPATH = Interface(
+    commands='cmd_vel',
+    stamped=True,
+    odometry={
+        'filtered': 'platform/odom/filtered',
+        'wheel': 'platform/odom',
+        'ground_truth': 'ground_truth/odom',
+    },
+    imu='sensors/imu_0/data',
+    scan='sensors/lidar2d_0/scan',
+)
+INTERFACES = {'lab': LAB, 'clearpath': CLEARPATH}
 PROGRESS = ('auto', 'bar', 'lines', 'off')
 
 
@@ -24,10 +57,15 @@ class Settings:
     waypoints: str = setting(
         '', 'file of waypoints to follow; empty: ask at the terminal', changeable=True
     )
+    interface: str = setting(
+        'lab',
+        'topics of the robot: lab, or clearpath, those of a real A200',
+        choices=INTERFACES,
+    )
     odometry: str = setting(
         'filtered',
         'which pose to follow: filtered, wheel or ground_truth',
-        choices=ODOMETRY_TOPICS,
+        choices=LAB.odometry,
     )
     odometry_timeout_sec: float = setting(
         5.0, 'give up when no odometry comes for so long, wall time', low=0.1, high=600.0
@@ -45,8 +83,8 @@ class Settings:
         (0.0, 0.0, 0.0), 'where the robot starts in that world: x m, y m, yaw rad'
     )
     slip: bool = setting(True, 'count with the sliding in bends that odometry cannot see')
-    imu: bool = setting(True, 'give up when imu/data shows that something holds the robot')
-    scan: bool = setting(False, 'stop before what front/scan sees on the path')
+    imu: bool = setting(True, 'give up when the IMU shows that something holds the robot')
+    scan: bool = setting(False, 'stop before what the laser sees on the path')
     progress: str = setting(
         'auto', 'how progress is shown: auto, bar, lines or off', choices=PROGRESS
     )
@@ -59,7 +97,11 @@ class Settings:
 
     @property
     def odometry_topic(self) -> str:
-        return ODOMETRY_TOPICS[self.odometry]
+        return self.topics.odometry[self.odometry]
+
+    @property
+    def topics(self) -> Interface:
+        return INTERFACES[self.interface]
 
     @property
     def slip_model(self) -> SlipModel:

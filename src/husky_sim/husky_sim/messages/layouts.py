@@ -12,5 +12,6 @@ def packed_messages() -> list[PackedMessage]:
         *(messages.WheelOdometryMessage(), messages.FilteredOdometryMessage()),
         *(messages.GroundTruthMessage(), messages.ImuMessage(), messages.JointStateMessage()),
         *(messages.CommandMessage(), messages.FixMessage(), messages.ClockMessage()),
+        *(messages.StampedCommandMessage(), messages.EmergencyStopMessage()),
         *([] if transforms.TFMessage is None else [transforms.TransformsMessage()]),
     ]

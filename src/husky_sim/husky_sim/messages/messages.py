@@ -10,10 +10,11 @@ import math
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
+from std_msgs.msg import Bool
 
 from husky_sim.messages.packed_message import PackedMessage
 from husky_sim.robot.contacts import Collision
@@ -105,9 +106,9 @@ class GroundTruthMessage(OdometryMessage):
 class ImuMessage(PackedMessage):
     """An IMU message with the variances of its noise, whether that is on or not."""
 
-    def __init__(self) -> None:
+    def __init__(self, frame_id: str = 'base_link') -> None:
         message = Imu()
-        message.header.frame_id = 'base_link'
+        message.header.frame_id = frame_id
         message.orientation_covariance[::4] = IMU_VARIANCE
         message.angular_velocity_covariance[::4] = IMU_VARIANCE
         message.linear_acceleration_covariance[::4] = IMU_VARIANCE
@@ -161,12 +162,41 @@ class CommandMessage(PackedMessage):
         self._twist(controller.speed_m_s, 0.0, 0.0, 0.0, 0.0, controller.yaw_rate_rad_s)
 
 
+class StampedCommandMessage(PackedMessage):
+    """A velocity command with its time."""
+
+    def __init__(self) -> None:
+        message = TwistStamped()
+        message.header.frame_id = 'base_link'
+        super().__init__(message)
+        self._stamp = self.packer(self.places['header']['stamp'])
+        self._twist = self.packer(self.places['twist'])
+
+    def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the command as the limits left it."""
+        controller = robot.controller
+        self._stamp(*stamp)
+        self._twist(controller.speed_m_s, 0.0, 0.0, 0.0, 0.0, controller.yaw_rate_rad_s)
+
+
+class EmergencyStopMessage(PackedMessage):
+    """Whether the emergency stop is pressed."""
+
+    def __init__(self) -> None:
+        super().__init__(Bool())
+        self._data = self.packer(self.places)
+
+    def pack(self, _: Stamp, robot: SimulatedRobot) -> None:
+        """Pack the state."""
+        self._data(robot.is_stopped)
+
+
 class FixMessage(PackedMessage):
     """A fix of the satellite receiver, with the variances of its noise."""
 
-    def __init__(self) -> None:
+    def __init__(self, frame_id: str = 'base_link') -> None:
         message = NavSatFix(position_covariance_type=NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN)
-        message.header.frame_id = 'base_link'
+        message.header.frame_id = frame_id
         message.status.status = NavSatStatus.STATUS_FIX
         message.status.service = NavSatStatus.SERVICE_GPS
         message.position_covariance[::4] = VARIANCE_M2

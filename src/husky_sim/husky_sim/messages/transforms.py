@@ -8,6 +8,7 @@ with another filter it is that one's. Ground truth is never on tf (REP-105: one 
 every edge).
 """
 
+from collections.abc import Mapping
 import math
 from typing import Any
 
@@ -17,7 +18,7 @@ from husky_sim.messages.messages import Stamp
 from husky_sim.messages.packed_message import PackedMessage
 from husky_sim.robot.husky import WHEELS
 from husky_sim.simulation import SimulatedRobot
-from husky_sim.world import FIXED_FRAMES, Frame
+from husky_sim.world import Frame
 
 try:
     from tf2_msgs.msg import TFMessage
@@ -59,9 +60,9 @@ class TransformsMessage(PackedMessage):
             pack_turn(0.0, y, 0.0, w)
 
 
-def fixed_transforms() -> Any:
+def fixed_transforms(frames: Mapping[str, Frame]) -> Any:
     """Return the message of what never moves in base_link."""
-    return TFMessage(transforms=[_fixed(*item) for item in FIXED_FRAMES.items()])
+    return TFMessage(transforms=[_fixed(*item) for item in frames.items()])
 
 
 def _half_turn(angle_rad: float) -> tuple[float, float]:

@@ -74,6 +74,7 @@ class SimulatorNode(Node):
             self.simulation,
             on_command=self._on_command,
             on_commander=lambda *event: self._interference.check_commands(*event),
+            interface=self._run.interface,
             as_real=trial is not None,
         )
         self._interference = InterferenceWatch(

@@ -3,7 +3,7 @@
 """The topics of one robot's scanner, receiver and camera; each only where its rate is not 0."""
 
 from array import array
-from typing import Any
+from typing import NamedTuple
 
 from builtin_interfaces.msg import Time
 import numpy as np
@@ -14,9 +14,32 @@ from sensor_msgs.msg import CameraInfo, Image, LaserScan, NavSatFix
 from husky_sim.config import SensorConfig
 from husky_sim.messages.messages import FixMessage, Stamp, time_message
 from husky_sim.messages.packed_message import Form
+from husky_sim.ros import clearpath
 from husky_sim.sensors import camera, lidar
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import SimulatedRobot, Simulation
+
+
+class Names(NamedTuple):
+    """Topics and frames of the sensors."""
+
+    scan: str
+    scan_frame: str
+    fix: str
+    fix_frame: str
+    image: str
+    camera_info: str
+    camera_frame: str
+
+
+OF_LAB = Names(
+    *('front/scan', lidar.FRAME, 'navsat/fix', 'base_link'),
+    *('camera/image_raw', 'camera/camera_info', camera.FRAME),
+)
+OF_CLEARPATH = Names(
+    *(clearpath.SCAN, clearpath.SCAN_FRAME, clearpath.FIX, clearpath.FIX_FRAME),
+    *(clearpath.IMAGE, clearpath.CAMERA_INFO, clearpath.CAMERA_FRAME),
+)
 
 
 class SensorTopics:
@@ -30,6 +53,8 @@ class SensorTopics:
         namespace: str,
         qos: QoSProfile,
         form: Form,
+        *,
+        interface: str,
     ) -> None:
         """
         Create the publishers.
@@ -40,39 +65,68 @@ class SensorTopics:
         self._robot = robot
         self._simulation = simulation
         self._form = form
-        self._scans: Any = None
-        self._fixes: Any = None
         self._camera: camera.Camera | None = None
-        if config.lidar_rate_hz > 0.0:
-            self._scans = node.create_publisher(LaserScan, f'{namespace}front/scan', qos)
-            self._scan = new_scan(config.lidar_rate_hz)
-        if config.navsat_rate_hz > 0.0:
-            self._fixes = node.create_publisher(NavSatFix, f'{namespace}navsat/fix', qos)
-            self._fix = FixMessage()
+        self._pictures = Rate(config.camera_rate_hz)
         if config.camera_rate_hz > 0.0:
             self._camera = camera.Camera(robot.name, simulation.model, simulation.data)
-            self._pictures = Rate(config.camera_rate_hz)
-            self._images = node.create_publisher(Image, f'{namespace}camera/image_raw', qos)
-            self._infos = node.create_publisher(CameraInfo, f'{namespace}camera/camera_info', qos)
-            self._info = new_camera_info(self._camera.focal_length_px)
+        every = [OF_LAB, *([OF_CLEARPATH] if interface == clearpath.NAME else [])]
+        self._scans = [
+            (
+                new_scan(names.scan_frame, config.lidar_rate_hz),
+                node.create_publisher(LaserScan, f'{namespace}{names.scan}', qos),
+            )
+            for names in every
+            if config.lidar_rate_hz > 0.0
+        ]
+        self._fixes = [
+            (
+                FixMessage(names.fix_frame),
+                node.create_publisher(NavSatFix, f'{namespace}{names.fix}', qos),
+            )
+            for names in every
+            if config.navsat_rate_hz > 0.0
+        ]
+        self._images = [
+            (names.camera_frame, node.create_publisher(Image, f'{namespace}{names.image}', qos))
+            for names in every
+            if self._camera is not None
+        ]
+        self._infos = [
+            (
+                new_camera_info(names.camera_frame, self._camera.focal_length_px),
+                node.create_publisher(CameraInfo, f'{namespace}{names.camera_info}', qos),
+            )
+            for names in every
+            if self._camera is not None
+        ]
 
     def publish(self, stamp: Stamp) -> None:
         """Publish the measurements of the control period that ended at stamp."""
         sensors = self._robot.sensors
-        if sensors.scan is not None and self._scans.get_subscription_count():
-            self._scan.header.stamp = time_message(stamp)
-            self._scan.ranges = array('f', sensors.scan.tobytes())
-            self._scans.publish(self._scan)
-        if sensors.fix is not None and self._fixes.get_subscription_count():
-            self._fix.pack(stamp, sensors.fix)
-            self._fixes.publish(self._form(self._fix))
-        if self._camera is None or not self._pictures.is_due(self._simulation.periods):
-            return
-        if self._infos.get_subscription_count():
-            self._info.header.stamp = time_message(stamp)
-            self._infos.publish(self._info)
-        if self._images.get_subscription_count():  # drawing costs more than all the rest
-            self._images.publish(new_image(self._camera.picture(), time_message(stamp)))
+        if sensors.scan is not None:
+            for scan, publisher in self._scans:
+                if publisher.get_subscription_count():
+                    scan.header.stamp = time_message(stamp)
+                    scan.ranges = array('f', sensors.scan.tobytes())
+                    publisher.publish(scan)
+        if sensors.fix is not None:
+            for fix, publisher in self._fixes:
+                if publisher.get_subscription_count():
+                    fix.pack(stamp, sensors.fix)
+                    publisher.publish(self._form(fix))
+        if self._camera is not None and self._pictures.is_due(self._simulation.periods):
+            self._publish_picture(self._camera, time_message(stamp))
+
+    def _publish_picture(self, seen_by: camera.Camera, time: Time) -> None:
+        for info, publisher in self._infos:
+            if publisher.get_subscription_count():
+                info.header.stamp = time
+                publisher.publish(info)
+        read = [each for each in self._images if each[1].get_subscription_count()]
+        if read:  # drawing costs more than all the rest
+            image = new_image(read[0][0], seen_by.picture(), time)
+            for image.header.frame_id, publisher in read:
+                publisher.publish(image)
 
     def close(self) -> None:
         """Release the camera; may be called twice."""
@@ -81,7 +135,7 @@ class SensorTopics:
             self._camera = None
 
 
-def new_scan(rate_hz: float) -> LaserScan:
+def new_scan(frame: str, rate_hz: float) -> LaserScan:
     """Make a scan with everything but its ranges."""
     message = LaserScan(
         angle_min=-lidar.HALF_ANGLE_RAD,
@@ -91,15 +145,15 @@ def new_scan(rate_hz: float) -> LaserScan:
         range_min=lidar.RANGE_MIN_M,
         range_max=lidar.RANGE_MAX_M,
     )
-    message.header.frame_id = lidar.FRAME
+    message.header.frame_id = frame
     return message
 
 
-def new_camera_info(focal_length_px: float) -> CameraInfo:
+def new_camera_info(frame: str, focal_length_px: float) -> CameraInfo:
     """Make the description of a camera without distortion."""
     middle_x, middle_y = camera.WIDTH / 2.0, camera.HEIGHT / 2.0
     message = CameraInfo(width=camera.WIDTH, height=camera.HEIGHT, distortion_model='plumb_bob')
-    message.header.frame_id = camera.FRAME
+    message.header.frame_id = frame
     message.d = [0.0] * 5
     message.k = [focal_length_px, 0.0, middle_x, 0.0, focal_length_px, middle_y, 0.0, 0.0, 1.0]
     message.r = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
@@ -107,12 +161,12 @@ def new_camera_info(focal_length_px: float) -> CameraInfo:
     return message
 
 
-def new_image(pixels: np.ndarray, stamp: Time) -> Image:
+def new_image(frame: str, pixels: np.ndarray, stamp: Time) -> Image:
     """Make a picture."""
     message = Image(
         width=camera.WIDTH, height=camera.HEIGHT, encoding='rgb8', step=3 * camera.WIDTH
     )
-    message.header.frame_id = camera.FRAME
+    message.header.frame_id = frame
     message.header.stamp = stamp
     message.data = array('B', pixels.tobytes())
     return message

@@ -21,6 +21,7 @@ class SimulationTopics:
     :param on_command: called after every command was taken.
     :param on_commander: called with a topic of commands when a publisher of it comes or goes, and
         with how many there were at the same time.
+    :param interface: lab, or clearpath: the topics of a real robot as well.
     :param as_real: publish only what a real robot measures: no true pose, no collisions.
     """
 
@@ -31,6 +32,7 @@ class SimulationTopics:
         *,
         on_command: Callable[[], None],
         on_commander: Callable[[str, int], None],
+        interface: str = 'lab',
         as_real: bool = False,
     ) -> None:
         self._node = node
@@ -46,6 +48,7 @@ class SimulationTopics:
                 on_command,
                 self._form,
                 on_commander=on_commander,
+                interface=interface,
                 as_real=as_real,
             )
             for robot in simulation.robots
@@ -63,7 +66,7 @@ class SimulationTopics:
     @property
     def command_topics(self) -> list[str]:
         """Return the topics that one driver a robot should publish."""
-        return [topics.command_subscription.topic_name for topics in self._robots]
+        return [topic for topics in self._robots for topic in topics.commands.topics]
 
     @property
     def has_drivers(self) -> bool:
@@ -78,17 +81,17 @@ class SimulationTopics:
     @property
     def has_commanders(self) -> bool:
         """Whether the commands of every robot have a publisher."""
-        return all(topics.is_commanded() for topics in self._robots)
+        return all(topics.commands.is_commanded() for topics in self._robots)
 
     @property
     def commanded(self) -> bool:
         """Whether every robot was commanded since the last `forget_commands`."""
-        return all(topics.commanded for topics in self._robots)
+        return all(topics.commands.commanded for topics in self._robots)
 
     def forget_commands(self) -> None:
         """Wait for a new command for every robot."""
         for topics in self._robots:
-            topics.commanded = False
+            topics.commands.commanded = False
 
     def publish_clock(self) -> None:
         """Tell the time on /clock."""
@@ -124,7 +127,7 @@ class SimulationTopics:
     def warn_of_other_types(self) -> None:
         """Log which publishers of commands have another message type, each once."""
         for topics in self._robots:
-            topics.warn_of_other_types(self._node)
+            topics.commands.warn_of_other_types(self._node)
 
     def close(self) -> None:
         """Release what the node does not own; may be called twice."""

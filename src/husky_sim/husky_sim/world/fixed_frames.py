@@ -19,3 +19,11 @@ FIXED_FRAMES = {
     # Optical: z forward, x to the right (REP-103).
     'camera': Frame((0.45, 0.0, 0.29), (0.5, -0.5, 0.5, -0.5)),
 }
+
+CLEARPATH_FRAMES = {
+    'imu_0_link': FIXED_FRAMES['imu_link'],
+    'lidar2d_0_laser': FIXED_FRAMES['front_laser'],
+    'gps_0_link': Frame((0.0, 0.0, 0.0)),
+    'camera_0_color_optical_frame': FIXED_FRAMES['camera'],
+}
+"""The same places, and that of the receiver, by the names of Clearpath's Sensors API."""

@@ -1,0 +1,134 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics by which one robot is commanded."""
+
+from collections.abc import Callable
+from typing import Any
+
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+from std_msgs.msg import Bool
+
+from husky_sim.ros import clearpath
+from husky_sim.simulation import SimulatedRobot, Simulation
+
+_NAMES = {Twist: 'geometry_msgs/msg/Twist', TwistStamped: 'geometry_msgs/msg/TwistStamped'}
+_Found = Callable[[str, int], None]
+
+
+class CommandTopics:
+    """
+    Takes the commands of a robot, and its emergency stop.
+
+    :param namespace: before every topic; empty for the only robot, ending in / for one of many.
+    :param interface: lab, or clearpath: the stamped commands of a real robot as well.
+    :param on_command: called after every command was taken.
+    :param on_commander: called with a topic of commands when a publisher of it comes or goes, and
+        with how many there were at the same time.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        robot: SimulatedRobot,
+        namespace: str,
+        qos: QoSProfile,
+        interface: str,
+        on_command: Callable[[], None],
+        *,
+        on_commander: _Found,
+    ) -> None:
+        self.commanded = False  # since it was last set to False
+        self._robot = robot
+        self._simulation = simulation
+        self._on_command = on_command
+        self._logger = node.get_logger()
+        takes: list[tuple[Any, str, Callable[[Any], None]]] = [
+            (Twist, 'husky_velocity_controller/cmd_vel', self._take)
+        ]
+        if interface == clearpath.NAME:
+            stamped = clearpath.StampedCommands(
+                self._take, lambda: simulation.time_sec, robot.name, self._logger
+            )
+            takes.append((TwistStamped, clearpath.COMMANDS, stamped.on_message))
+        self._subscriptions: list[tuple[Subscription, str]] = [
+            (
+                node.create_subscription(
+                    kind,
+                    f'{namespace}{topic}',
+                    callback,
+                    qos,
+                    event_callbacks=_watch(
+                        node.resolve_topic_name(f'{namespace}{topic}'), on_commander
+                    ),
+                ),
+                _NAMES[kind],
+            )
+            for kind, topic, callback in takes
+        ]
+        # As the Husky's twist_mux has it: while true, no command reaches the wheels.
+        node.create_subscription(Bool, f'{namespace}e_stop', self._on_e_stop, qos)
+        self._other_types: set[str] = set()
+
+    @property
+    def topics(self) -> list[str]:
+        """Return the names of the topics on which commands are taken."""
+        return [subscription.topic_name for subscription, _ in self._subscriptions]
+
+    def is_commanded(self) -> bool:
+        """Return whether the commands have a publisher."""
+        return any(each.get_publisher_count() > 0 for each, _ in self._subscriptions)
+
+    def _on_e_stop(self, message: Bool) -> None:
+        robot = self._robot
+        if message.data != robot.is_stopped:
+            robot.is_stopped = message.data
+            what = 'emergency stop' if robot.is_stopped else 'emergency stop released'
+            self._logger.warning(f'{robot.name}: {what}')
+        if robot.is_stopped:
+            robot.controller.command(0.0, 0.0, time_sec=self._simulation.time_sec)
+
+    def _take(self, message: Twist) -> None:
+        speed, yaw_rate = message.linear.x, message.angular.z
+        if self._robot.is_stopped:
+            speed = yaw_rate = 0.0
+        try:
+            self._robot.controller.command(speed, yaw_rate, time_sec=self._simulation.time_sec)
+        except ValueError as error:
+            self._logger.error(f'{self._robot.name}: {error}', throttle_duration_sec=1.0)
+        self.commanded = True
+        self._on_command()
+
+    def warn_of_other_types(self, node: Node) -> None:
+        """
+        Log an error, once, for a publisher of commands with another message type.
+
+        DDS does not connect the two, so the robot would not move. Most often it is a TwistStamped,
+        which Jazzy's own controllers take.
+        """
+        for subscription, taken in self._subscriptions:
+            topic = subscription.topic_name
+            for publisher in node.get_publishers_info_by_topic(topic):
+                kind = publisher.topic_type
+                if kind != taken and kind not in self._other_types:
+                    self._other_types.add(kind)
+                    self._logger.error(
+                        f'{publisher.node_name} publishes {kind} on {topic}, which nobody hears; '
+                        f'publish {taken}'
+                    )
+
+
+def _watch(topic: str, on_commander: _Found) -> SubscriptionEventCallbacks:
+    return SubscriptionEventCallbacks(
+        matched=lambda event: on_commander(topic, most_at_once(event))
+    )
+
+
+def most_at_once(event: Any) -> int:
+    """Return how many were matched at the same time since the last event of a subscription."""
+    before = event.current_count - event.current_count_change
+    return int(before + event.total_count_change)

@@ -1,0 +1,164 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The interface of a real A200, beside that of the lab: names, types, QoS, frames, and a drive."""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from geometry_msgs.msg import TwistStamped
+from husky_course.record import read_record, read_run
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+from husky_driver.drive import Drive
+from husky_driver.ros.node import FollowPath
+from husky_sim.ros.node import SimulatorNode
+from nav_msgs.msg import Odometry
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
+import pytest
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data, ReliabilityPolicy
+from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
+from std_msgs.msg import Bool
+
+COURSE = Path(__file__).resolve().parent.parent / 'config' / 'waypoints' / 'straight.yaml'
+# Clearpath's Platform API and Sensors API for ROS 2 Jazzy, of what the simulator has.
+PUBLISHED: dict[str, tuple[Any, str]] = {
+    'platform/odom': (Odometry, 'base_link'),
+    'platform/odom/filtered': (Odometry, 'base_link'),
+    'platform/cmd_vel': (TwistStamped, ''),
+    'platform/joint_states': (JointState, ''),
+    'platform/emergency_stop': (Bool, ''),
+    'sensors/imu_0/data': (Imu, 'imu_0_link'),
+    'sensors/lidar2d_0/scan': (LaserScan, 'lidar2d_0_laser'),
+    'sensors/gps_0/fix': (NavSatFix, 'gps_0_link'),
+}
+SENSOR_DATA = ('sensors/imu_0/data', 'platform/emergency_stop')
+NAMESPACE = '/a200_0000/'
+
+
+class Station(Node):
+    """A computer beside the robot: it hears all topics, and commands."""
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__('station', namespace=NAMESPACE.strip('/'), **arguments)
+        self.heard: dict[str, list[Any]] = {topic: [] for topic in PUBLISHED}
+        for topic, (kind, _) in PUBLISHED.items():
+            self.create_subscription(
+                kind, topic, self.heard[topic].append, qos_profile_sensor_data
+            )
+        self.commands = self.create_publisher(TwistStamped, 'cmd_vel', 10)
+        self.stops = self.create_publisher(Bool, 'e_stop', 10)
+
+    def drive(self, speed_m_s: float, stamp_sec: int = 0) -> None:
+        message = TwistStamped()
+        message.header.stamp.sec = stamp_sec
+        message.twist.linear.x = speed_m_s
+        self.commands.publish(message)
+
+    def latest(self, topic: str) -> Any:
+        wait_until(lambda: bool(self.heard[topic]), timeout_sec=10.0, what=f'a message on {topic}')
+        return self.heard[topic][-1]
+
+    @property
+    def speed_m_s(self) -> float:
+        return float(self.latest('platform/odom').twist.twist.linear.x)
+
+
+@pytest.fixture
+def station(nodes: SpunNodes) -> Station:
+    make = partial(SimulatorNode, namespace=NAMESPACE.strip('/'))
+    nodes.start(make, interface='clearpath', lidar_rate_hz=10.0)
+    return nodes.start(Station)
+
+
+def keep(
+    station: Station, command: Callable[[], object], until: Callable[[], bool], what: str
+) -> None:
+    """Command until something is true: a robot that hears nothing stops."""
+
+    def is_so() -> bool:
+        command()
+        return until()
+
+    wait_until(is_so, timeout_sec=10.0, what=what)
+
+
+def test_topics_have_the_names_types_qos_and_frames_of_the_robot(station: Station) -> None:
+    for topic, (kind, frame) in PUBLISHED.items():
+        message = station.latest(topic)
+        (publisher,) = station.get_publishers_info_by_topic(NAMESPACE + topic)
+        reliable = publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        assert (type(message), reliable) == (kind, topic not in SENSOR_DATA), topic
+        child = getattr(message, 'child_frame_id', None)
+        assert not frame or frame in (child, message.header.frame_id), topic
+    assert station.latest('platform/joint_states').name[0] == 'front_left_wheel_joint'
+    (taker,) = station.get_subscriptions_info_by_topic(f'{NAMESPACE}cmd_vel')
+    assert taker.topic_type == 'geometry_msgs/msg/TwistStamped'
+
+
+def test_a_stamped_command_drives_unless_it_is_old(station: Station) -> None:
+    without_stamp = partial(station.drive, 0.5)
+    keep(station, without_stamp, lambda: station.speed_m_s > 0.45, 'a robot that drives')
+    wait_until(lambda: abs(station.speed_m_s) < 1e-3, timeout_sec=10.0, what='a robot that stands')
+    now_sec = station.latest('platform/odom').header.stamp.sec
+    wait_until(
+        lambda: station.latest('platform/odom').header.stamp.sec > now_sec + 1,
+        timeout_sec=10.0,
+        what='a time long after the stamp of the next command',
+    )
+    heard = len(station.heard['platform/cmd_vel'])
+    keep(
+        station,
+        lambda: station.drive(0.5, stamp_sec=max(now_sec, 1)),
+        lambda: len(station.heard['platform/cmd_vel']) > heard + 25,
+        'half a second of old commands',
+    )
+    since = station.heard['platform/cmd_vel'][heard:]
+    assert {each.twist.linear.x for each in since} == {0.0}
+
+
+def test_the_emergency_stop_is_told_and_holds(station: Station) -> None:
+    assert not station.latest('platform/emergency_stop').data
+    pressed = Bool(data=True)
+    keep(
+        station,
+        lambda: station.stops.publish(pressed),
+        lambda: bool(station.latest('platform/emergency_stop').data),
+        'an emergency stop',
+    )
+    heard = len(station.heard['platform/odom'])
+    keep(
+        station,
+        lambda: station.drive(0.5),
+        lambda: len(station.heard['platform/odom']) > heard + 25,
+        'half a second of commands',
+    )
+    assert abs(station.speed_m_s) < 1e-3
+
+
+def test_follow_path_drives_the_same_by_either_interface(nodes: SpunNodes, tmp_path: Path) -> None:
+    trajectories = set()
+    for interface in ('lab', 'clearpath'):
+        record = tmp_path / f'{interface}.csv'
+        simulator = nodes.start(
+            partial(SimulatorNode, namespace='a200_0000'),
+            interface=interface,
+            record=str(record),
+            lockstep=True,
+            real_time_factor=0.0,
+        )
+        driver = nodes.start(
+            partial(FollowPath, namespace='a200_0000'),
+            lambda *_: Drive(plan_route(load_course(COURSE))),
+            progress='off',
+            interface=interface,
+        )
+        wait_until(driver.finished.done, timeout_sec=60.0, what=f'the end by {interface}')
+        assert driver.finished.result() == 0
+        nodes.close(driver)
+        nodes.close(simulator)
+        trajectories.add(read_run(read_record(record)).trajectory_sha256)
+    assert len(trajectories) == 1
