@@ -31,6 +31,7 @@ from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
 
 INTERRUPTED = 130
+INTERFACES = ('lab', 'clearpath')
 YAML = ('.yaml', '.yml')
 
 
@@ -86,6 +87,12 @@ def _parser() -> argparse.ArgumentParser:
         type=float,
         default=1.0,
         help='how fast time passes at most, up to 2, for one that does not just answer (1.0)',
+    )
+    parser.add_argument(
+        '--interface',
+        default='lab',
+        choices=INTERFACES,
+        help="the topics of a controller's Husky: lab, or clearpath, those of a real A200 as well",
     )
     parser.add_argument('--robot', metavar='NAME', help='which robot of the record')
     parser.add_argument(
@@ -229,6 +236,7 @@ def _grade_controller(options: argparse.Namespace) -> int:
             folder,
             jail,
             world=options.world,
+            interface=options.interface,
             answers=_answer_lines(options.answers),
             environment=os.environ,
             start_in=Path.cwd(),

@@ -26,6 +26,7 @@ OF_SIMULATOR = (
     ('record', '', 'where the simulator writes the run'),
     ('limit_sec', '0.0', 'most simulated time; 0.0: any'),
     ('real_time_factor', '1.0', '1.0 keeps pace with the wall, 0.0 is as fast as possible'),
+    ('interface', 'lab', "lab, or clearpath: driven by a real A200's topics"),
     ('lockstep', 'false', 'true: the simulator waits for each command, so that a run repeats'),
     ('viewer', 'false', 'true: a live view in the browser'),
     ('viewer_port', '8080', 'port of the view; the next free one if it is taken'),
@@ -83,7 +84,9 @@ def generate_launch_description() -> LaunchDescription:
             package='husky_driver',
             executable='follow_path',
             # No use_sim_time: the driver's clock is the stamps of the odometry.
-            parameters=[{'startup_timeout_sec': 60.0}],
+            parameters=[
+                {'startup_timeout_sec': 60.0, 'interface': LaunchConfiguration('interface')}
+            ],
             arguments=['--waypoints', LaunchConfiguration('waypoints')],
             output='screen',
         )

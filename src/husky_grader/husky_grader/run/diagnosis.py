@@ -22,6 +22,11 @@ MAX_LINE = 200  # characters of an error in a reason
 COMMAND_TOPIC = '/husky_velocity_controller/cmd_vel'
 COMMAND_TYPE = 'geometry_msgs/msg/Twist'
 VELOCITY_TYPES = (COMMAND_TYPE, 'geometry_msgs/msg/TwistStamped')
+TAKEN = {
+    'lab': {COMMAND_TOPIC: COMMAND_TYPE},
+    'clearpath': {COMMAND_TOPIC: COMMAND_TYPE, '/cmd_vel': 'geometry_msgs/msg/TwistStamped'},
+}
+"""Types of commands by their topics, by interface; the one to name is last."""
 EVERYWHERE = ('/clock', '/parameter_events', '/rosout')  # topics of which each node may have one
 # Which file an error stands in tells most; one of these is not what a student has written.
 LIBRARIES = tuple(
@@ -80,13 +85,14 @@ def reasons(
     return tuple(dict.fromkeys(map(printable, found)))
 
 
-def reasons_of_graph(graph: Graph) -> list[str]:
+def reasons_of_graph(graph: Graph, interface: str = 'lab') -> list[str]:
     """
     Return what a program's place in the graph says, the most telling first.
 
     :param graph: where it stood, with the publishers of the simulator as others.
+    :param interface: that of the Husky.
     """
-    return [*unheard_topics(graph), *unheard_commands(graph)]
+    return [*unheard_topics(graph), *unheard_commands(graph, interface)]
 
 
 def crash(printed: str) -> str:
@@ -172,15 +178,16 @@ def _wrong_qos(wanted: Endpoint, offered: Sequence[Endpoint]) -> Iterator[str]:
         )
 
 
-def unheard_commands(graph: Graph) -> Iterator[str]:
-    """Yield why the Husky hears no commands."""
-    commands = [each for each in graph.publishers if each.topic == COMMAND_TOPIC]
+def unheard_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
+    """Yield why the Husky hears no commands; by the interface clearpath it takes both kinds."""
+    taken = TAKEN[interface]
+    commands = [each for each in graph.publishers if each.topic in taken]
     for each in commands:
-        if each.type != COMMAND_TYPE:
-            yield f'it publishes {each.type} on {COMMAND_TOPIC}; the Husky takes {COMMAND_TYPE}'
+        if each.type != taken[each.topic]:
+            yield f'it publishes {each.type} on {each.topic}; the Husky takes {taken[each.topic]}'
         if not each.reliable:
             yield (
-                f'it publishes {COMMAND_TOPIC} best effort; the Husky listens reliably and hears '
+                f'it publishes {each.topic} best effort; the Husky listens reliably and hears '
                 'nothing'
             )
     if not commands:
@@ -188,7 +195,7 @@ def unheard_commands(graph: Graph) -> Iterator[str]:
             if each.type in VELOCITY_TYPES:
                 yield (
                     f'it publishes {each.type} on {each.topic}; the Husky listens on '
-                    f'{COMMAND_TOPIC}'
+                    f'{next(reversed(taken))}'
                 )
 
 

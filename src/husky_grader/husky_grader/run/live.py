@@ -70,6 +70,7 @@ def drive_live(
     jail: Jail,
     *,
     world: str = '',
+    interface: str = 'lab',
     answers: str = '',
     real_time_factor: float = 1.0,
     environment: Mapping[str, str] | None = None,
@@ -80,6 +81,7 @@ def drive_live(
     Run the simulator and the command until the run is over.
 
     :param waypoints: the file of the course.
+    :param interface: lab, or clearpath: what a real A200 has as well.
     :param answers: what is typed into the controller, for one that asks.
     :param real_time_factor: simulated seconds a second at most, for a controller that does not
         answer each odometry message; one that does is as fast as it can be.
@@ -96,7 +98,7 @@ def drive_live(
         file.unlink(missing_ok=True)
     trial = trusted('husky_grader.run.trial', '--waypoints', str(Path(waypoints).absolute()))
     trial += ['--record', str(record), '--told', str(told), '--controller', str(first)]
-    trial += ['--real-time-factor', f'{real_time_factor:g}']
+    trial += ['--real-time-factor', f'{real_time_factor:g}', '--interface', interface]
     trial += ['--world', str(Path(world).absolute()) if world else '']
     theirs = {CHECK_FIELDS: '1', 'PYTHONUNBUFFERED': '1', **(environment or {})}
     with (

@@ -43,6 +43,7 @@ class TrialRun:
     """
     A simulator with a referee.
 
+    :param interface: of the simulator: lab or clearpath.
     :param factor: simulated seconds a second for a controller that is not in lockstep.
     :param told: the file that says what happens.
     :param controller: the file in which the number of its first process will be.
@@ -55,6 +56,7 @@ class TrialRun:
         record: str,
         *,
         world: str,
+        interface: str,
         factor: float,
         told: Path,
         controller: Path,
@@ -70,10 +72,11 @@ class TrialRun:
             parameter_overrides=[
                 Parameter('record', value=record),
                 Parameter('world', value=world),
+                Parameter('interface', value=interface),
                 Parameter('start_type_description_service', value=False),
             ],
         )
-        self._graph = GraphWatcher(self.node)
+        self._graph = GraphWatcher(self.node, interface)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.node.create_timer(LOOK_SEC, self._on_look, clock=steady)
         signal.signal(signal.SIGUSR1, lambda *_: self._pace.leave_alone())
@@ -135,6 +138,7 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument('--told', required=True, type=Path)
     parser.add_argument('--controller', required=True, type=Path)
     parser.add_argument('--world', default='')
+    parser.add_argument('--interface', default='lab')
     parser.add_argument('--real-time-factor', type=float, default=1.0)
     options = parser.parse_args(args)
     limit_memory()
@@ -147,6 +151,7 @@ def main(args: Sequence[str] | None = None) -> int:
             route,
             options.record,
             world=options.world,
+            interface=options.interface,
             factor=options.real_time_factor,
             told=options.told,
             controller=options.controller,

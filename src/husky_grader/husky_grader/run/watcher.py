@@ -13,8 +13,9 @@ from husky_grader.run.graph import read_graph
 class GraphWatcher:
     """Keeps what the graph says of the controller, as the simulator's node sees it."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, interface: str) -> None:
         self._node = node
+        self._interface = interface
         self._unheard_since_sec: float | None = None
         self.reasons: list[str] = []
 
@@ -23,8 +24,8 @@ class GraphWatcher:
         graph = read_graph(self._node, ours=(self._node.get_name(),))
         if not (graph.publishers or graph.subscriptions):
             return
-        self.reasons = reasons_of_graph(graph)
-        if not any(unheard_commands(graph)):
+        self.reasons = reasons_of_graph(graph, self._interface)
+        if not any(unheard_commands(graph, self._interface)):
             self._unheard_since_sec = None
         elif self._unheard_since_sec is None:
             self._unheard_since_sec = time.monotonic()
