@@ -23,7 +23,8 @@ from rclpy.qos import qos_profile_sensor_data, ReliabilityPolicy
 from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
 from std_msgs.msg import Bool
 
-COURSE = Path(__file__).resolve().parent.parent / 'config' / 'waypoints' / 'straight.yaml'
+ROOT = Path(__file__).resolve().parent.parent
+COURSE = ROOT / 'config' / 'waypoints' / 'straight.yaml'
 # Clearpath's Platform API and Sensors API for ROS 2 Jazzy, of what the simulator has.
 PUBLISHED: dict[str, tuple[Any, str]] = {
     'platform/odom': (Odometry, 'base_link'),
@@ -97,6 +98,11 @@ def test_topics_have_the_names_types_qos_and_frames_of_the_robot(station: Statio
     assert station.latest('platform/joint_states').name[0] == 'front_left_wheel_joint'
     (taker,) = station.get_subscriptions_info_by_topic(f'{NAMESPACE}cmd_vel')
     assert taker.topic_type == 'geometry_msgs/msg/TwistStamped'
+
+
+def test_the_page_on_the_robot_names_every_topic() -> None:
+    page = (ROOT / 'docs' / 'real_husky.md').read_text()
+    assert [topic for topic in (*PUBLISHED, 'cmd_vel') if f'`{topic}`' not in page] == []
 
 
 def test_a_stamped_command_drives_unless_it_is_old(station: Station) -> None:
