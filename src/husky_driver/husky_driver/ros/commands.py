@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands of a driver, in the message that its robot takes."""
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node
 
@@ -37,5 +36,6 @@ class Commands:
             self.publisher.publish(self._twist)
             return
         if stamp != NO_STAMP:
-            self._stamped.header.stamp = Time(sec=stamp[0], nanosec=stamp[1])
+            time = self._stamped.header.stamp
+            time.sec, time.nanosec = stamp
         self.publisher.publish(self._stamped)
