@@ -166,8 +166,8 @@ class Simulation:
 
     def reset(self) -> None:
         """Put everything back as it was at the start, bit for bit."""
+        self.broadphase.reset()  # first: what touches, sleeps together, and is woken together
         mujoco.mj_resetData(self.model, self.data)
-        self.broadphase.reset()
         self._detector.reset()
         self.touches = []
         self.periods = 0

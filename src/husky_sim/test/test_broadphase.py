@@ -52,6 +52,15 @@ def test_a_drive_is_that_with_every_obstacle_looked_at(
     assert not differing, f'they part in control period {differing[0]}'
 
 
+def test_what_touches_sleeps_together_after_a_reset_too(worlds: Path) -> None:
+    simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml')))
+    at_start = simulation.data.tree_asleep.tolist()
+    for _ in range(3):  # then most of the playpen is left out
+        simulation.advance()
+    simulation.reset()
+    assert simulation.data.tree_asleep.tolist() == at_start
+
+
 def test_only_what_can_be_reached_is_looked_at(worlds: Path) -> None:
     simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml')))
 
