@@ -16,6 +16,7 @@ from husky_sim.sensors import lidar, navsat
 from husky_sim.sensors.camera import Camera
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import Simulation
+import mujoco
 import numpy as np
 import pytest
 
@@ -131,6 +132,55 @@ def test_the_scanner_turns_with_the_robot_and_does_not_see_it(drive: Drive) -> N
     # Across the barrier's face, 1.576 m from the origin to its upright.
     assert scan[lidar.BEAMS // 2] == pytest.approx(1.576 - lidar.PLACE[0], abs=0.05)
     assert scan.min() > 1.0
+
+
+THINGS = """
+    <geom type="sphere" size="0.3" pos="2.5 0 0.6"/>
+    <geom type="capsule" size="0.1 0.6" pos="2 2 0.2" euler="70 20 0"/>
+    <geom type="ellipsoid" size="0.5 0.2 0.3" pos="-1 2 0.1" euler="0 40 0"/>
+    <geom type="cylinder" size="0.2 0.4" pos="1 -2 0.9"/>
+    <geom type="box" size="0.2 0.2 0.1" pos="2 -1 1.5"/>
+    <geom type="mesh" mesh="tent" pos="0 -2 0.3"/>
+    <geom type="hfield" hfield="hill" pos="6 0 0"/>
+    <geom name="ramp_plane" type="plane" size="30 30 1" pos="0 0 -0.2" euler="0 -3 0"/>
+    <body name="crate" pos="2.2 1 0.2"><freejoint/><geom type="box" size="0.2 0.2 0.2"/></body>
+  </worldbody>
+  <asset>
+    <mesh name="tent" vertex="0 0 0  1 0 0  0 1 0  0 0 0.4"/>
+    <hfield name="hill" nrow="3" ncol="3" size="2 2 1 0.1" elevation="0 0 0 0 1 0 0 0 0"/>
+  </asset>
+  <worldbody>
+"""
+
+
+@pytest.mark.parametrize('turn', [(1.0, 0.0, 0.0), (0.98, 0.1, 0.1), (0.9, -0.3, 0.2)])
+def test_a_scan_is_the_same_as_with_every_geom(
+    make_world: Callable[..., str], turn: tuple[float, float, float]
+) -> None:
+    simulation = Simulation(
+        SimulationConfig(world=make_world(THINGS), sensors=SensorConfig(lidar_rate_hz=10.0))
+    )
+    model, data = simulation.model, simulation.data
+    mujoco.mj_forward(model, data)
+    scanner, groups = lidar.Lidar('husky', model, data, None), model.geom_group.copy()
+    state = simulation.robots[0].state._replace(orientation=(*turn, 0.1))
+    seen = scanner.scan(state, 0.1)
+    place, matrix = np.array(state.position), np.zeros(9)
+    mujoco.mju_quat2Mat(matrix, np.array(state.orientation))
+    axes = matrix.reshape(3, 3)
+    place += axes @ np.array(lidar.PLACE)
+    angles = -lidar.HALF_ANGLE_RAD + lidar.ANGLE_INCREMENT_RAD * np.arange(lidar.BEAMS)
+    base, hit = model.body('husky/base_link').id, np.zeros(1, dtype=np.int32)
+    for angle, measured in zip(angles, seen, strict=True):
+        beam = axes @ np.array([math.cos(angle), math.sin(angle), 0.0])
+        range_m = mujoco.mj_ray(model, data, place, beam, None, True, base, hit)
+        if not 0.0 <= range_m <= lidar.RANGE_MAX_M:
+            range_m = math.inf
+        elif range_m < lidar.RANGE_MIN_M:
+            range_m = -math.inf
+        assert measured == pytest.approx(range_m, rel=1e-6)
+    assert (np.isfinite(seen)).sum() > 50
+    assert (model.geom_group == groups).all()
 
 
 def test_scans_come_at_their_rate_and_not_by_default(drive: Drive) -> None:

@@ -47,7 +47,9 @@ class Sensors:
         of_lidar = lidar.new_noise([*seed, 1]) if config.noise else None
         of_navsat = navsat.new_noise([*seed, 2]) if config.noise else None
         self._noises = [noise for noise in (of_lidar, of_navsat) if noise is not None]
-        self._lidar = lidar.Lidar(name, model, data, of_lidar)
+        self._lidar: lidar.Lidar | None = None
+        if config.lidar_rate_hz > 0.0:
+            self._lidar = lidar.Lidar(name, model, data, of_lidar)
         self._navsat = navsat.NavSat(of_navsat)
         self._scans = Rate(config.lidar_rate_hz)
         self._fixes = Rate(config.navsat_rate_hz)
@@ -65,7 +67,7 @@ class Sensors:
     def measure(self, state: RobotState, periods: int) -> None:
         """Measure what is due at the end of this control period."""
         self.scan = self.fix = None
-        if self._scans.is_due(periods):
+        if self._lidar is not None and self._scans.is_due(periods):
             self.scan = self._lidar.scan(state, self._scan_period_sec)
         if self._fixes.is_due(periods):
             self.fix = self._navsat.locate(state.position, self._fix_period_sec)
