@@ -45,9 +45,8 @@ class Lidar:
     def __init__(
         self, name: str, model: mujoco.MjModel, data: mujoco.MjData, noise: Noise | None
     ) -> None:
-        self._model = copy.copy(
-            model
-        )  # its groups of geoms are ours: what beams can reach, or not
+        # A copy, for its groups of geoms: they say here what beams can reach.
+        self._model = copy.copy(model)
         self._data = data
         self._without_box = np.isin(model.geom_type, _WITHOUT_BOX)
         self._base = model.body(f'{name}/base_link').id
