@@ -3,12 +3,17 @@
 """`./lab drive` and `./lab grade` as a person uses them: real launch, real nodes, a report."""
 
 import json
+import math
 import os
 from pathlib import Path
 import re
 import signal
 import sys
+from typing import Any
 
+from husky_course.record import read_record
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
 from playpen_testing.page_client import PageClient
 from playpen_testing.processes import IN_A_TERMINAL, Process, Processes
 from playpen_testing.shared_memory import left, own_files
@@ -53,6 +58,47 @@ def test_drive_ends_with_a_report_and_success(
     assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
     driven = ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'
     assert (tmp_path / 'waypoints.yaml').read_bytes() == driven.read_bytes()
+    check_bag(processes, tmp_path)
+
+
+def read_bag(path: Path) -> dict[str, list[tuple[int, Any]]]:
+    """Return times and messages of each topic, read by the definitions that stand in the file."""
+    read: dict[str, list[tuple[int, Any]]] = {}
+    with path.open('rb') as stream:
+        reader = make_reader(stream, decoder_factories=[DecoderFactory()])
+        for _, channel, message, decoded in reader.iter_decoded_messages():
+            read.setdefault(channel.topic, []).append((message.log_time, decoded))
+    return read
+
+
+def check_bag(processes: Processes, folder: Path) -> None:
+    """Ask `ros2 bag` and MCAP's own reader what a drive has left, and compare with the record."""
+    info = processes.start(LAB, 'exec', 'ros2', 'bag', 'info', str(folder / 'run.mcap'))
+    assert info.wait(timeout_sec=30.0) == 0, info.output
+    told = dict(re.findall(r'Topic: (\S+) \| Type: \S+ \| Count: (\d+)', info.output))
+    record = read_record(folder)
+    assert told['/odometry/filtered'] == told['/tf'] == str(len(record.rows)), info.output
+    assert (told['/path'], told['/tf_static'], told['/collisions']) == ('1', '1', '0')
+    read = read_bag(folder / 'run.mcap')
+    truth, tf = read['/ground_truth/odom'], read['/tf']
+    assert [ns for ns, _ in truth] == [round(sec * 1e9) for sec in record.time_sec.tolist()]
+    for name, topic, value in (
+        ('x', truth, lambda each: each.pose.pose.position.x),
+        ('speed_m_s', truth, lambda each: each.twist.twist.linear.x),
+        ('odom_y', tf, lambda each: each.transforms[0].transform.translation.y),
+    ):
+        assert [value(each) for _, each in topic] == record.column(0, name).tolist(), name
+    (path,) = read['/path']
+    assert path[1].header.frame_id == 'odom'
+    assert len(path[1].poses) > 100
+    rms_m = json.loads((folder / 'report.json').read_text())['cross_track_rms_m']
+    errors = [each.data for _, each in read['/cross_track_error']]
+    assert math.sqrt(sum(error**2 for error in errors) / len(errors)) < 1.1 * rms_m
+    layout = (ROOT / 'config' / 'foxglove_layout.json').read_text()
+    shown = {path.partition('.')[0] for path in re.findall(r'"(/[^"]+)"', layout)}
+    assert shown <= set(told), 'the layout shows topics that the file lacks'
+    panels = set(re.findall(r'"(?:first|second)": "([^"]+)"', layout))
+    assert panels == set(json.loads(layout)['configById']), 'panels without a place'
 
 
 def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_path: Path) -> None:

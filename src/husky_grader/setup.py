@@ -22,6 +22,7 @@ setup(
         'distributed',
         'jinja2',
         'markupsafe',
+        'mcap',
         'numpy',
         'pebble',
         'psutil',

@@ -75,7 +75,7 @@ def main(args: Sequence[str] | None = None) -> int:
     if not (folder / FILE_NAME).is_file():
         print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
         return BAD_INPUT
-    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints]
+    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints, '--mcap']
     status = grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
     if status in (PASSED, NOT_PASSED):
         _show_again(folder, page)

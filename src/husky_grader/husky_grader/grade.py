@@ -96,6 +96,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('--robot', metavar='NAME', help='which robot of the record')
     parser.add_argument(
+        '--mcap',
+        action='store_true',
+        help='write the record as run.mcap, too, for Foxglove and ros2 bag',
+    )
+    parser.add_argument(
         '--report', metavar='DIR', default='report', help='where the reports go (%(default)s)'
     )
     parser.add_argument(
@@ -139,6 +144,8 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if not options.real_time_factor > 0.0:
         parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
+    if options.mcap and not options.record:
+        parser.error('--mcap needs --record FILE, the run to write')
     if options.rubric and not (options.lab or zipped):
         parser.error('--rubric needs --lab SUBMISSION, the workspace to grade by it')
     if options.lab and (options.waypoints or options.answers):
@@ -212,10 +219,19 @@ def _make_gradescope(options: argparse.Namespace) -> int:
 
 def _grade_record(options: argparse.Namespace) -> int:
     route = plan_route(load_course(options.waypoints))
-    run = read_run(read_record(options.record), options.robot)
+    record = read_record(options.record)
+    run = read_run(record, options.robot)
     report = judge(run, route, wall_time_sec=options.wall_time)
     grade = Grade(options.waypoints, as_json(report), summary(report))
-    return _show_one(grade, options, _write(Path(options.report), report, run, route))
+    folder = Path(options.report)
+    unwritten = _write(folder, report, run, route)
+    status = _show_one(grade, options, unwritten)
+    if options.mcap and not unwritten:
+        from husky_grader.report.bag import write_bag  # ROS 2 messages take their time
+
+        if wrong := write_bag(folder, record, record.place_of(options.robot), route, report):
+            print(printable(wrong), file=sys.stderr)
+    return status
 
 
 def _grade_controller(options: argparse.Namespace) -> int:

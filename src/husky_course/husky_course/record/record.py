@@ -63,6 +63,23 @@ class Record:
         """Return one column of a robot, a view."""
         return self.rows[:, robot, COLUMNS.index(name)]
 
+    def place_of(self, robot: str | None) -> int:
+        """
+        Return which of the robots has a name; None asks for the only one.
+
+        :raises RecordRefused: when there is none, or there are several.
+        """
+        names = [start.name for start in self.robots]
+        if robot is None and len(names) > 1:
+            raise RecordRefused(
+                f'the record has {len(names)} robots; name one of: {", ".join(names)}'
+            )
+        if robot is not None and robot not in names:
+            raise RecordRefused(
+                f'robot {robot!r} is not in the record; it has: {", ".join(names)}'
+            )
+        return 0 if robot is None else names.index(robot)
+
     def begin(self, robot: int) -> int:
         """Return the entry at which a robot got its first command, or was touched before."""
         command = COLUMNS.index('command_speed_m_s')

@@ -16,7 +16,7 @@ import numpy as np
 from husky_course.frames import Array, Indices, Pose, to_odom, to_world
 from husky_course.outline import Outline
 from husky_course.record.contents import Collision, COLUMNS, Columns, Disturbance
-from husky_course.record.record import Record, RecordRefused
+from husky_course.record.record import Record
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -56,7 +56,7 @@ def read_run(record: Record, robot: str | None = None) -> Run:
     :param robot: its name; None takes the only one.
     :raises RecordRefused: when the robot is not in the record.
     """
-    place = _place_of(record, robot)
+    place = record.place_of(robot)
     start = record.robots[place]
     begin = record.begin(place)
     begin_sec = float(record.rows[begin, place, 0])
@@ -83,12 +83,3 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         trajectory_sha256=hashlib.sha256(poses).hexdigest(),
         complete=record.complete,
     )
-
-
-def _place_of(record: Record, robot: str | None) -> int:
-    names = [start.name for start in record.robots]
-    if robot is None and len(names) > 1:
-        raise RecordRefused(f'the record has {len(names)} robots; name one of: {", ".join(names)}')
-    if robot is not None and robot not in names:
-        raise RecordRefused(f'robot {robot!r} is not in the record; it has: {", ".join(names)}')
-    return 0 if robot is None else names.index(robot)

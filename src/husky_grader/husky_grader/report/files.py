@@ -20,6 +20,7 @@ from husky_grader.scoring.report import FORMULA, FULL_TRACKING_M, Report
 
 COURSE_FILE = 'waypoints.yaml'
 PICTURE = 'path.png'
+BAG = 'run.mcap'
 REPORT_FILES = ('report.json', 'report.html', PICTURE)
 JSON_KEYS = (
     *('course', 'passed', 'completed', 'ended_early', 'waypoints_reached', 'waypoints_total'),
@@ -63,6 +64,7 @@ def write_report(
     :param picture: whether path.png is written; what it shows is in report.html, too.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    (folder / BAG).unlink(missing_ok=True)  # it is of another run
     content = as_json(report)
     _write(folder / 'report.json', json.dumps(content, indent=2) + '\n')
     scene = run_map(run, route, report)

@@ -25,7 +25,7 @@ try:
 except ImportError:
     TFMessage = None
 
-__all__ = ['TFMessage', 'TransformsMessage', 'fixed_transforms']
+__all__ = ['TFMessage', 'TransformsMessage', 'fixed_transforms', 'new_transform']
 
 _WHEEL_X_M, _WHEEL_Y_M, _WHEEL_Z_M = 0.256, 0.2854, 0.03282
 
@@ -38,7 +38,7 @@ class TransformsMessage(PackedMessage):
     """
 
     def __init__(self, *, localization: bool = True) -> None:
-        base = [_moved('odom', 'base_link', (0.0, 0.0, 0.0))] if localization else []
+        base = [new_transform('odom', 'base_link')] if localization else []
         moving = [*base, *map(_wheel, WHEELS)]
         super().__init__(TFMessage(transforms=moving))
         places = [self.places['transforms'][i] for i in range(len(moving))]
@@ -71,7 +71,7 @@ def _half_turn(angle_rad: float) -> tuple[float, float]:
 
 
 def _fixed(name: str, frame: Frame) -> TransformStamped:
-    transform = _moved('base_link', name, frame.position_m)
+    transform = new_transform('base_link', name, frame.position_m)
     rotation = transform.transform.rotation
     rotation.w, rotation.x, rotation.y, rotation.z = frame.orientation
     return transform
@@ -80,10 +80,13 @@ def _fixed(name: str, frame: Frame) -> TransformStamped:
 def _wheel(name: str) -> TransformStamped:
     x = _WHEEL_X_M if name.startswith('front') else -_WHEEL_X_M
     y = _WHEEL_Y_M if name.endswith('left') else -_WHEEL_Y_M
-    return _moved('base_link', f'{name}_wheel_link', (x, y, _WHEEL_Z_M))
+    return new_transform('base_link', f'{name}_wheel_link', (x, y, _WHEEL_Z_M))
 
 
-def _moved(parent: str, child: str, by: tuple[float, float, float]) -> TransformStamped:
+def new_transform(
+    parent: str, child: str, by: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> TransformStamped:
+    """Return where a frame stands in another, turned like it."""
     transform = TransformStamped()
     transform.header.frame_id = parent
     transform.child_frame_id = child

@@ -1,0 +1,199 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A run as ROS 2 messages in one file, for Foxglove and `ros2 bag`.
+
+The topics have the names and the times that they had in the run, and hold what the record holds:
+the motion in the plane, without wheels, heights and covariances. Two are for those who look at
+it: cross_track_error is that of the report, and tf_static tells where odom stands in world.
+"""
+
+from collections.abc import Iterator
+from functools import partial
+import math
+from pathlib import Path
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import PoseStamped, Twist
+from husky_course.files import replacing
+from husky_course.frames import Array
+from husky_course.record import Record
+from husky_course.robot import RobotStart
+from husky_course.route import Route
+from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.messages import (
+    fixed_transforms,
+    new_collision,
+    new_transform,
+    OdometryMessage,
+    PackedMessage,
+    TFMessage,
+)
+from nav_msgs.msg import Odometry
+from nav_msgs.msg import Path as PathMessage
+import numpy as np
+from std_msgs.msg import Float64
+
+from husky_grader.report.files import BAG
+from husky_grader.report.mcap_file import Topic, write_mcap
+from husky_grader.scoring.report import Report
+
+EVERY = 5  # of the samples of the path, 2 cm apart
+_UNKNOWN = (0.0,) * 6  # as covariances
+
+Messages = Iterator[tuple[int, bytes]]
+
+
+def write_bag(folder: Path, record: Record, place: int, route: Route, report: Report) -> str:
+    """
+    Write the run of one robot; return why it cannot be written, or nothing.
+
+    :param place: which robot of the record.
+    """
+    try:
+        with replacing(folder / BAG) as part:
+            write_mcap(part, _topics(record, place, route, report))
+    except OSError as error:
+        return f'{folder / BAG}: cannot be written: {error.strerror}; the report is there'
+    return ''
+
+
+def _topics(record: Record, place: int, route: Route, report: Report) -> list[Topic]:
+    start = record.robots[place]
+    space = f'/{start.name}/' if len(record.robots) > 1 else '/'
+    motion = _Motion(record, place)
+    first_ns = motion.times_ns[0]
+    path_message = [(first_ns, _bytes(_path(route)))]
+    touches = [
+        (_ns(touch.time_sec), _bytes(new_collision(touch)))
+        for touch in record.collisions
+        if touch.robot == start.name
+    ]
+    topics = [
+        Topic(f'{space}path', PathMessage, path_message, latched=True),
+        Topic(f'{space}odometry/filtered', Odometry, motion.filtered()),
+        Topic(f'{space}ground_truth/odom', Odometry, motion.truth()),
+        Topic(f'{space}husky_velocity_controller/cmd_vel', Twist, motion.commands(report.begin)),
+        Topic(f'{space}collisions', DiagnosticStatus, touches),
+        Topic(f'{space}cross_track_error', Float64, motion.errors(report)),
+    ]
+    if TFMessage is not None:
+        fixed = fixed_transforms()
+        fixed.transforms.append(_odom_in_world(start))
+        fixed_message = [(first_ns, _bytes(fixed))]
+        topics += [
+            Topic(f'{space}tf_static', TFMessage, fixed_message, latched=True),
+            Topic(f'{space}tf', TFMessage, motion.transforms()),
+        ]
+    return topics
+
+
+class _Motion:
+    """The rows of a robot as messages."""
+
+    def __init__(self, record: Record, place: int) -> None:
+        self._column = partial(record.column, place)
+        self.times_ns = [_ns(time_sec) for time_sec in record.time_sec.tolist()]
+
+    def filtered(self) -> Messages:
+        """Yield where odometry believed the robot, with the twist by which it came there."""
+        x, y, yaw = (self._column(name) for name in ('odom_x', 'odom_y', 'odom_yaw'))
+        yaw = np.unwrap(yaw)
+        turn = np.diff(yaw, prepend=yaw[0])
+        heading = yaw - turn / 2
+        way = np.diff(x, prepend=x[0]) * np.cos(heading)
+        way += np.diff(y, prepend=y[0]) * np.sin(heading)
+        rates = way / CONTROL_PERIOD_SEC, turn / CONTROL_PERIOD_SEC
+        return self._odometry('odom', x, y, yaw, *rates)
+
+    def truth(self) -> Messages:
+        """Yield where the robot was."""
+        names = ('x', 'y', 'yaw', 'speed_m_s', 'yaw_rate_rad_s')
+        return self._odometry('world', *map(self._column, names))
+
+    def transforms(self) -> Messages:
+        """Yield where base_link was believed in odom."""
+        message = PackedMessage(TFMessage(transforms=[new_transform('odom', 'base_link')]))
+        place = message.places['transforms'][0]
+        pack_stamp = message.packer(place['header']['stamp'])
+        pack = message.packer(place['transform'])
+        names = ('odom_x', 'odom_y', 'odom_yaw')
+        for time_ns, x, y, yaw in self._rows(*map(self._column, names)):
+            pack_stamp(*_stamp(time_ns))
+            pack(x, y, 0.0, *_quaternion(yaw))
+            yield time_ns, bytes(message)
+
+    def commands(self, begin: int) -> Messages:
+        """Yield the command of each control period when that begins, from the first on."""
+        names = ('command_speed_m_s', 'command_yaw_rate_rad_s')
+        speeds, yaw_rates = (self._column(name)[begin + 1 :].tolist() for name in names)
+        message = PackedMessage(Twist())
+        pack = message.packer(message.places)
+        for time_ns, speed, yaw_rate in zip(
+            self.times_ns[begin:-1], speeds, yaw_rates, strict=True
+        ):
+            pack(speed, 0.0, 0.0, 0.0, 0.0, yaw_rate)
+            yield time_ns, bytes(message)
+
+    def errors(self, report: Report) -> Messages:
+        """Yield how far the robot was off the path, positive to its left, while it drove."""
+        drive = slice(report.begin, report.end + 1)
+        message = PackedMessage(Float64())
+        pack = message.packer(message.places)
+        for time_ns, error_m in zip(
+            self.times_ns[drive], report.errors_m[drive].tolist(), strict=True
+        ):
+            pack(error_m)
+            yield time_ns, bytes(message)
+
+    def _odometry(
+        self, frame_id: str, x: Array, y: Array, yaw: Array, speed: Array, yaw_rate: Array
+    ) -> Messages:
+        message = OdometryMessage(frame_id, _UNKNOWN)
+        rows = self._rows(x, y, yaw, speed, yaw_rate)
+        for time_ns, east, north, heading, forward, turn in rows:
+            message.pack_stamp(*_stamp(time_ns))
+            message.pack_pose(east, north, 0.0, *_quaternion(heading))
+            message.pack_twist(forward, 0.0, 0.0, 0.0, 0.0, turn)
+            yield time_ns, bytes(message)
+
+    def _rows(self, *columns: Array) -> Iterator[Any]:
+        return zip(self.times_ns, *(column.tolist() for column in columns), strict=True)
+
+
+def _path(route: Route) -> PathMessage:
+    curve = route.curve
+    path = PathMessage()
+    path.header.frame_id = 'odom'
+    for x, y in zip(
+        [*curve.x[:-1:EVERY], curve.x[-1]], [*curve.y[:-1:EVERY], curve.y[-1]], strict=True
+    ):
+        stamped = PoseStamped()
+        stamped.header.frame_id = 'odom'
+        stamped.pose.position.x, stamped.pose.position.y = x, y
+        path.poses.append(stamped)
+    return path
+
+
+def _odom_in_world(start: RobotStart) -> Any:
+    transform = new_transform('world', 'odom', (start.x, start.y, 0.0))
+    rotation = transform.transform.rotation
+    rotation.x, rotation.y, rotation.z, rotation.w = _quaternion(start.yaw)
+    return transform
+
+
+def _quaternion(yaw: float) -> tuple[float, float, float, float]:
+    return 0.0, 0.0, math.sin(yaw / 2.0), math.cos(yaw / 2.0)
+
+
+def _ns(time_sec: float) -> int:
+    return round(time_sec * 1e9)
+
+
+def _stamp(time_ns: int) -> tuple[int, int]:
+    return divmod(time_ns, 10**9)
+
+
+def _bytes(message: Any) -> bytes:
+    return bytes(PackedMessage(message))
