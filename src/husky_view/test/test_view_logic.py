@@ -8,6 +8,7 @@ import math
 from pathlib import Path
 import socket
 
+from husky_course.outline import Outline
 from husky_course.record import read_record, Record, RecordRefused
 from husky_course.robot import RobotStart
 from husky_runtime.web_address import AddressError, free_port, new_token, TOKEN_VARIABLE
@@ -20,6 +21,7 @@ from husky_view.live.checks import RealTimeFactor
 from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
 from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
 from husky_view.picture.history import History, MOST_POINTS
+from husky_view.picture.marks import ObstacleShadows, soft_spot
 from husky_view.picture.matte import matte_meshes
 from husky_view.picture.page import Direction, in_decimals
 from husky_view.picture.picture import first_of_run
@@ -28,6 +30,7 @@ from husky_view.replay.run import load_run, RunScenes
 from mjviser import scene as mjviser_scene
 import numpy as np
 import pytest
+import viser
 
 from husky_sim.config import SimulationConfig
 
@@ -63,6 +66,31 @@ def test_a_painted_obstacle_is_not_written_as_metal() -> None:
     assert tree['materials'][place]['pbrMetallicRoughness']['metallicFactor'] == 0.0
     # 0.72 as it is on a screen reflects 0.48 of the light (sRGB, IEC 61966-2-1).
     assert mesh.visual.vertex_colors[0, 0] == pytest.approx(0.477 * 255.0, abs=1.0)
+
+
+def test_a_shadow_stands_under_its_obstacle_and_goes_with_it() -> None:
+    cone = Outline(name='cone', x=1.0, y=2.0, yaw=0.0, size=(0.3,))
+    wall = Outline(name='wall', x=4.0, y=0.0, yaw=0.5, size=(4.0, 0.8))
+    server = viser.ViserServer('127.0.0.1', free_port('127.0.0.1', 18200), verbose=False)
+    try:
+        shadows = ObstacleShadows(server, (cone, wall), 0.01)
+        shadows.show((replace(cone, x=1.5, yaw=math.pi), wall))
+        under_cone, under_wall = map(server.scene.get_handle_by_name, ('/shadows/0', '/shadows/1'))
+        assert under_cone is not None
+        assert under_wall is not None
+        assert under_cone.position.tolist() == [1.5, 2.0, 0.01]
+        assert under_cone.wxyz[3] == pytest.approx(1.0)
+        assert under_wall.position.tolist() == [4.0, 0.0, 0.01]
+    finally:
+        server.stop()
+
+
+@pytest.mark.parametrize(('size', 'dark'), [((0.5,), 0.35), ((1.0, 1.0), 0.44)])
+def test_a_shadow_is_as_large_as_what_casts_it(size: tuple[float, ...], dark: float) -> None:
+    shade = soft_spot(size, 1.5, 1.5)[..., 3]
+    assert shade[0].max() == shade[:, -1].max() == 0, 'it ends at its border'
+    assert (shade == shade.max()).mean() == pytest.approx(dark, abs=0.05)
+    assert ((shade > 0) & (shade < shade.max())).mean() > 0.2, 'it is soft'
 
 
 def test_a_ray_meets_the_ground_only_below_itself() -> None:

@@ -11,7 +11,7 @@ import math
 import time
 
 from husky_course.frames import Array
-from husky_course.robot import RobotStart
+from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M, RobotStart
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
 import numpy as np
@@ -28,6 +28,7 @@ from husky_view.picture.marks import (
     ContactShadow,
     lifted,
     NumberedDiscs,
+    ObstacleShadows,
     Trail,
 )
 from husky_view.picture.page import TOP
@@ -82,7 +83,12 @@ class RobotMarks:
             point_size=0.04,
             visible=False,
         )
-        self._shadow = ContactShadow(server, f'{name}/shadow', ground_m + ABOVE_GROUND_M / 2.0)
+        self._shadow = ContactShadow(
+            server,
+            f'{name}/shadow',
+            (ROBOT_LENGTH_M, ROBOT_WIDTH_M),
+            ground_m + ABOVE_GROUND_M / 2.0,
+        )
         self._name = server.scene.add_label(
             f'{name}/name',
             start.name,
@@ -208,6 +214,9 @@ class Picture:
             RobotMarks(server, start, self.scene.ground_m, is_named=len(world.robots) > 1)
             for start in world.robots
         ]
+        self._shadows = ObstacleShadows(
+            server, self.scene.outlines(), self.scene.ground_m + ABOVE_GROUND_M / 3.0
+        )
         self.collisions = CollisionMarks(server)
         seen = bounds(world.obstacles, at_least_m=SEEN_M)
         self._cameras = Cameras(
@@ -230,6 +239,7 @@ class Picture:
         self._run = scene.run
         self._time_sec = float(scene.time_sec[-1])
         self.scene.show(scene.qpos)
+        self._shadows.show(self.scene.outlines())
         for place, robot in enumerate(self.robots):
             robot.move(scene.track[first:, place])
         track = scene.track[first:, self.followed]
