@@ -18,7 +18,7 @@ from husky_sim.messages.messages import Stamp
 from husky_sim.messages.packed_message import PackedMessage
 from husky_sim.robot.husky import WHEELS
 from husky_sim.simulation import SimulatedRobot
-from husky_sim.world import Frame
+from husky_sim.world import FIXED_FRAMES, Frame
 
 try:
     from tf2_msgs.msg import TFMessage
@@ -60,7 +60,7 @@ class TransformsMessage(PackedMessage):
             pack_turn(0.0, y, 0.0, w)
 
 
-def fixed_transforms(frames: Mapping[str, Frame]) -> Any:
+def fixed_transforms(frames: Mapping[str, Frame] = FIXED_FRAMES) -> Any:
     """Return the message of what never moves in base_link."""
     return TFMessage(transforms=[_fixed(*item) for item in frames.items()])
 
