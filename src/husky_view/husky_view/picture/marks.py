@@ -13,6 +13,7 @@ import numpy.typing as npt
 import trimesh
 import viser
 
+from husky_view.picture.page import SHADOWS
 from husky_view.picture.palette import Rgb
 
 Colors = Rgb | npt.NDArray[np.uint8]
@@ -245,7 +246,7 @@ class ObstacleShadows:
         self, server: viser.ViserServer, outlines: Sequence[Outline], height_m: float
     ) -> None:
         self._shadows = [
-            ContactShadow(server, f'/shadows/{place}', outline.size, height_m)
+            ContactShadow(server, f'{SHADOWS}{place}', outline.size, height_m)
             for place, outline in enumerate(outlines)
         ]
         self._shown: Sequence[Outline | None] = [None] * len(outlines)

@@ -24,8 +24,13 @@ FREE, FOLLOW, TOP = 'Free', 'Follow', 'Top'
 PRESETS = (FREE, FOLLOW, TOP)
 """Of the camera of a tab; the first one holds at the beginning."""
 
-ON_TOP = '/on_top/'
-"""What has a name that begins so is drawn over everything; viser has lines without that."""
+ON_TOP, SHADOWS, FIXED = '/on_top/', '/shadows/', '/fixed_bodies/'
+"""
+How names begin of what is drawn over everything, of shadows, and of what mjviser calls fixed.
+
+viser has no order for them: the transparent border of a shadow would be a hole in the ground,
+which is transparent as well, and a shadow would lie on the lines of a path.
+"""
 
 
 class Direction(Enum):
@@ -61,7 +66,7 @@ button.husky-active { background: var(--mantine-color-blue-filled); color: #fff;
 
 _SCRIPT = """
 if (window.huskyPage) return;  // it runs again when a tab has lost its connection
-const keys = KEYS, areas = AREAS, presets = PRESETS, onTop = ON_TOP;
+const keys = KEYS, areas = AREAS, presets = PRESETS, places = PLACES;
 const style = document.createElement('style');
 style.textContent = STYLE;
 document.head.append(style);
@@ -131,14 +136,16 @@ const markActive = () => {
     b.setAttribute('aria-pressed', is);
   }
 };
-const seeThrough = () => {
+const order = () => {
   const viewer = window.__viserMutable;
   for (const name in viewer?.nodeRefFromName ?? {}) {
-    if (!name.startsWith(onTop)) continue;
+    const [, place] = places.find(([begin]) => name.startsWith(begin)) ?? [];
+    if (place === undefined) continue;
     viewer.nodeRefFromName[name]?.traverse((drawn) => {
-      if (!drawn.material?.depthTest) return;
-      drawn.material.depthTest = false;
-      drawn.renderOrder = 1;
+      if (!drawn.material || drawn.renderOrder === place) return;
+      drawn.renderOrder = place;
+      if (place > 0) drawn.material.depthTest = false;
+      if (place === -1) drawn.material.depthWrite = false;
       viewer.requestRender();
     });
   }
@@ -147,7 +154,7 @@ const arrange = () => {
   makeRoom();
   play();
   markActive();
-  seeThrough();
+  order();
   for (const sign in areas) {
     const cell = button(sign)?.parentElement;
     if (!cell || cell.style.gridArea) continue;
@@ -172,7 +179,7 @@ def add_page_script(server: viser.ViserServer) -> None:
         .replace('AREAS', json.dumps({d.sign: d.area for d in Direction}))
         .replace('PLAY', json.dumps(PLAY))
         .replace('PRESETS', json.dumps(PRESETS))
-        .replace('ON_TOP', json.dumps(ON_TOP))
+        .replace('PLACES', json.dumps([[ON_TOP, 1], [SHADOWS, -1], [FIXED, -2]]))
         .replace('STOPS', json.dumps([STOP, RELEASE]))
         .replace('STYLE', json.dumps(_STYLE))
     )

@@ -31,7 +31,7 @@ from husky_view.picture.marks import (
     ObstacleShadows,
     Trail,
 )
-from husky_view.picture.page import TOP
+from husky_view.picture.page import SHADOWS, TOP
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
 
 _X, _ODOM_X, _YAW = TRACK.index('x'), TRACK.index('odom_x'), TRACK.index('yaw')
@@ -85,7 +85,7 @@ class RobotMarks:
         )
         self._shadow = ContactShadow(
             server,
-            f'{name}/shadow',
+            f'{SHADOWS}{start.name}',
             (ROBOT_LENGTH_M, ROBOT_WIDTH_M),
             ground_m + ABOVE_GROUND_M / 2.0,
         )

@@ -15,6 +15,7 @@ import numpy as np
 import viser
 
 from husky_view.picture.matte import matte_meshes
+from husky_view.picture.page import FIXED
 
 GROUND = (176, 174, 168)
 GROUND_LINES = (160, 158, 152)
@@ -127,7 +128,7 @@ def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
         if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE:
             continue
         body = model.body(model.geom_bodyid[geom]).name
-        grid = server.scene.get_handle_by_name(f'/fixed_bodies/{body}/{model.geom(geom).name}')
+        grid = server.scene.get_handle_by_name(f'{FIXED}{body}/{model.geom(geom).name}')
         if isinstance(grid, viser.GridHandle):
             grid.plane_color = GROUND
             grid.plane_opacity = 1.0
