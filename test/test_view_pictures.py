@@ -6,9 +6,10 @@ What is drawn, looked at pixel by pixel.
 PLAYPEN_PICTURES=docs keeps the pictures there, for the README.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 import shutil
+from typing import Protocol
 
 from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
@@ -38,19 +39,32 @@ from husky_sim.config import SimulationConfig
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSE = ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'
+ORDER = """['/fixed_bodies/', '/shadows/husky'].map((begin) => {
+  const nodes = window.__viserMutable.nodeRefFromName, orders = new Set();
+  for (const name in nodes) if (name.startsWith(begin))
+    nodes[name]?.traverse((drawn) => { if (drawn.material) orders.add(drawn.renderOrder); });
+  return [...orders].join();
+}).map(Number)"""
 DESK, PHONE = (1200, 750) if KEPT else (900, 560), (390, 844)
 
 
+class Keep(Protocol):
+    def __call__(self, page: Page, name: str, *, still: bool = True) -> None: ...
+
+
 @pytest.fixture(scope='module')
-def keep() -> Iterator[Callable[[Page, str], None]]:
-    """Keep a picture of a page, if pictures are to be kept."""
+def keep() -> Iterator[Keep]:
+    """Keep a picture of a page, if any are to be kept; `still`: when nothing moves any more."""
     folder = ROOT / (KEPT or '')
     kept = list[Path]()
 
-    def keep_picture(page: Page, name: str) -> None:
+    def keep_picture(page: Page, name: str, *, still: bool = True) -> None:
         if KEPT:
             kept.append(folder / name)
-            keep_still(page, folder / name)
+            if still:
+                keep_still(page, folder / name)
+            else:
+                (folder / name).write_bytes(screenshot(page))
 
     yield keep_picture
     for file in kept:
@@ -83,19 +97,18 @@ def red(png: bytes) -> int:
 
 
 @pytest.mark.timeout(180)
-def test_a_drive_shows_path_and_trail_in_the_legends_colours(
-    lab: Lab, keep: Callable[[Page, str], None]
-) -> None:
+def test_a_drive_shows_path_and_trail_in_the_legends_colours(lab: Lab, keep: Keep) -> None:
+    page = lab.open(*DESK, drawn=True)
+    button(page, 'Follow').dispatch_event('click')
     driver = lab.drive(COURSE)
     wait_until(
         lambda: lab.truth.pose.pose.position.x > 3.2,
         timeout_sec=60.0,
         what=lambda: f'a robot at the end of the barrier\n{driver.output}',
     )
+    keep(page, 'view_live.png', still=False)
     lab.pause()
-    page = lab.open(*DESK, drawn=True)
     button(page, 'Resume').wait_for()
-    button(page, 'Follow').dispatch_event('click')
     shown = {'path': palette.PATH, 'true trail': palette.TRUE_TRAIL}
 
     def missing() -> list[str]:
@@ -106,8 +119,8 @@ def test_a_drive_shows_path_and_trail_in_the_legends_colours(
     legend = page.locator('.husky-legend')
     expect(legend).to_contain_text('given path and waypoints')
     expect(legend).not_to_contain_text('lidar')
-    keep(page, 'view_live.png')
     assert errors(page) == []
+    assert page.evaluate(ORDER) == [-2, -1], 'shadows would be holes in the ground'
     assert int(number(page, 'left').inner_text()) < 13
     assert abs(float(number(page, 'cross').inner_text().split()[0])) < 0.3
     page.close()
@@ -115,9 +128,7 @@ def test_a_drive_shows_path_and_trail_in_the_legends_colours(
 
 
 @pytest.mark.timeout(180)
-def test_the_editor_shows_where_a_course_passes_too_near(
-    lab: Lab, keep: Callable[[Page, str], None]
-) -> None:
+def test_the_editor_shows_where_a_course_passes_too_near(lab: Lab, keep: Keep) -> None:
     lab.pause()
     through = lab.folder / 'through.yaml'
     through.write_text('waypoints:\n  - [0, 0]\n  - [-3, 2]\n  - [0, 4]\n  - [4.2, -3.2]\n')
@@ -144,9 +155,7 @@ def test_the_editor_shows_where_a_course_passes_too_near(
 
 
 @pytest.mark.timeout(180)
-def test_a_phone_shows_the_playpen_above_the_controls(
-    lab: Lab, keep: Callable[[Page, str], None]
-) -> None:
+def test_a_phone_shows_the_playpen_above_the_controls(lab: Lab, keep: Keep) -> None:
     lab.pause()  # `still` is only what stands
     page = lab.open(*PHONE, drawn=True)
 
@@ -161,7 +170,7 @@ def test_a_phone_shows_the_playpen_above_the_controls(
 
 @pytest.mark.timeout(180)
 def test_a_replay_shows_the_collision_in_red(
-    browser: Browser, tmp_path: Path, keep: Callable[[Page, str], None], processes: Processes
+    browser: Browser, tmp_path: Path, keep: Keep, processes: Processes
 ) -> None:
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
     record = RunRecorder(simulation, tmp_path / 'run.record')

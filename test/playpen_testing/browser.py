@@ -37,7 +37,8 @@ _DRAW_SELDOM = """
 const soon = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 250);
 """
-# Smooth edges take most of the time; only pictures to keep have them.
+# Smooth edges take most of the time: only pictures to keep have them. These are not drawn seldom
+# either, or what moves would stand elsewhere than its shadow.
 _DRAW_ROUGHLY = """
 const context = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, given) {
@@ -81,9 +82,9 @@ def open_page(
     """
     page = browser.new_page(viewport={'width': width, 'height': height}, is_mobile=width < 600)
     page.set_default_timeout(60_000 if drawn else 30_000)
-    if drawn:
-        page.add_init_script(_DRAW_SELDOM + ('' if KEPT else _DRAW_ROUGHLY))
-    else:
+    if drawn and not KEPT:
+        page.add_init_script(_DRAW_SELDOM + _DRAW_ROUGHLY)
+    elif not drawn:
         page.add_init_script(_DRAW_NOTHING)
     page.goto(url, wait_until='commit')
     expect(number(page, 'time')).not_to_be_empty()
