@@ -10,8 +10,9 @@ import sys
 
 from ament_index_python import get_resource, get_resources
 from husky_runtime.browser import open_when_served
+from husky_runtime.domains import Lock
 from husky_runtime.supervise import run_to_end
-from husky_runtime.web_address import free_port, new_token, TOKEN_VARIABLE
+from husky_runtime.web_address import new_token, reserve_port, TOKEN_VARIABLE
 
 HOST, FIRST_PORT = '127.0.0.1', 8080
 REPLAYS = 'husky_grader.replay'
@@ -24,11 +25,13 @@ class DrivePage:
     Where the page of a drive is.
 
     :param opens: whether this desktop's browser is to open it.
+    :param reservation: of its port, or a view that starts meanwhile would take it.
     """
 
     port: int
     token: str
     opens: bool
+    reservation: Lock
 
     @property
     def environment(self) -> dict[str, str]:
@@ -65,8 +68,8 @@ def drive_page(opens: bool | None) -> DrivePage:
     :raises AddressError: if there is no free port.
     """
     token = new_token()
-    port = free_port(HOST, FIRST_PORT)
-    return DrivePage(port, token, _is_on_a_desktop() if opens is None else opens)
+    port, reservation = reserve_port(HOST, FIRST_PORT)
+    return DrivePage(port, token, _is_on_a_desktop() if opens is None else opens, reservation)
 
 
 def is_at_a_terminal() -> bool:

@@ -8,6 +8,8 @@ import re
 import secrets
 import socket
 
+from husky_runtime.domains import Lock
+
 PORTS_TRIED = 100
 
 TOKEN_VARIABLE = 'HUSKY_VIEW_TOKEN'
@@ -24,7 +26,9 @@ class AddressError(Exception):
 
 def free_port(host: str, port: int) -> int:
     """
-    Return the first free port from `port` on.
+    Return the first free port from `port` on that nobody has reserved.
+
+    A program that is given a token is the one for which its port is reserved.
 
     :raises AddressError: if the host is not one of this machine's, or every port is taken.
     """
@@ -36,6 +40,8 @@ def free_port(host: str, port: int) -> int:
             '0.0.0.0 lets others of the network look'
         ) from error
     for candidate in range(port, min(port + PORTS_TRIED, 65536)):
+        if TOKEN_VARIABLE not in os.environ and _is_reserved(candidate):
+            continue
         with socket.socket(address[0], socket.SOCK_STREAM) as trial:
             trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
@@ -48,6 +54,32 @@ def free_port(host: str, port: int) -> int:
     raise AddressError(
         f'viewer_port={port}: no free port from {port} to {port + PORTS_TRIED - 1}; give another'
     )
+
+
+def reserve_port(host: str, port: int) -> tuple[int, Lock]:
+    """
+    Return the first free port from `port` on, and its reservation until it is served or given up.
+
+    :raises AddressError: if the host is not one of this machine's, or every port is taken.
+    """
+    while True:
+        port = free_port(host, port)
+        try:
+            return port, Lock(_reservation(port))
+        except BlockingIOError:
+            port += 1
+
+
+def _is_reserved(port: int) -> bool:
+    try:
+        Lock(_reservation(port)).close()
+    except BlockingIOError:
+        return True
+    return False
+
+
+def _reservation(port: int) -> str:
+    return f'husky_page_at_port_{port}'
 
 
 def new_token() -> str:

@@ -11,7 +11,13 @@ import socket
 from husky_course.outline import Outline
 from husky_course.record import read_record, Record, RecordRefused
 from husky_course.robot import RobotStart
-from husky_runtime.web_address import AddressError, free_port, new_token, TOKEN_VARIABLE
+from husky_runtime.web_address import (
+    AddressError,
+    free_port,
+    new_token,
+    reserve_port,
+    TOKEN_VARIABLE,
+)
 from husky_sim.recording import loose_bodies, MOVED, RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
@@ -179,6 +185,19 @@ def test_a_taken_port_is_skipped_and_a_foreign_host_refused() -> None:
         free_port('192.0.2.1', 8080)
     with pytest.raises(AddressError, match="viewer_host='no such host'"):
         free_port('no such host', 8080)
+
+
+def test_a_reserved_port_is_for_whom_it_is_reserved(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(TOKEN_VARIABLE, raising=False)
+    port, reservation = reserve_port('127.0.0.1', 18300)
+    other, other_reservation = reserve_port('127.0.0.1', port)
+    assert port < other < free_port('127.0.0.1', port)
+    monkeypatch.setenv(TOKEN_VARIABLE, 'kept-token')
+    assert free_port('127.0.0.1', port) == port
+    monkeypatch.delenv(TOKEN_VARIABLE)
+    reservation.close()
+    other_reservation.close()
+    assert free_port('127.0.0.1', port) == port
 
 
 def test_a_token_of_the_environment_is_kept_or_refused(monkeypatch: pytest.MonkeyPatch) -> None:
