@@ -12,18 +12,26 @@ from husky_course.robot import RobotStart
 from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world import default_worlds
 
-from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, GroundConfig, SimulationConfig
+from husky_sim.config import (
+    BodyConfig,
+    CONTROL_PERIOD_SEC,
+    FLOORS,
+    GroundConfig,
+    LOAD_Y_M,
+    SimulationConfig,
+)
 
 SPEEDS = (0.0, 0.25, 0.5, 0.75, 1.0)
 YAW_RATES = (0.2, 0.5, 1.0, 1.5)
 
 
-def on(slip: str, *, x: float = 0.0) -> tuple[Simulation, SimulatedRobot]:
+def on(floor: str, *, x: float = 0.0, load_y_m: float = 0.0) -> tuple[Simulation, SimulatedRobot]:
     """Put one robot on level ground."""
     config = SimulationConfig(
         world=str(default_worlds() / 'empty.xml'),
         robots=(RobotStart(x=x),),
-        ground=GroundConfig(slip=slip),
+        ground=GroundConfig(floor=floor),
+        body=BodyConfig(center_of_mass_y_m=load_y_m),
     )
     simulation = Simulation(config)
     return simulation, simulation.robots[0]
@@ -41,9 +49,9 @@ def plan(robot: SimulatedRobot) -> tuple[float, float]:
     return robot.state.position[0], robot.state.position[1]
 
 
-def effective_track_m(slip: str, speed: float, yaw_rate: float) -> float:
+def effective_track_m(floor: str, speed: float, yaw_rate: float) -> float:
     """Return the track with which the wheel speeds give the true yaw rate."""
-    simulation, robot = on(slip)
+    simulation, robot = on(floor)
     drive(simulation, speed, yaw_rate, 1.0)
     turned, periods = 0.0, 150
     for _ in range(periods):
@@ -54,21 +62,21 @@ def effective_track_m(slip: str, speed: float, yaw_rate: float) -> float:
     return robot.controller.config.wheel_separation_m * yaw_rate / measured
 
 
-def three_turns_mm(slip: str, yaw_rate: float) -> float:
+def three_turns_m(floor: str, yaw_rate: float, load_y_m: float) -> float:
     """Return how far three turns on the spot move the centre."""
-    simulation, robot = on(slip)
+    simulation, robot = on(floor, load_y_m=load_y_m)
     furthest = 0.0
     for _ in range(math.ceil(3.0 * math.tau / yaw_rate)):
         drive(simulation, 0.0, yaw_rate, 1.0)
         furthest = max(furthest, math.hypot(*plan(robot)))
-    return 1000.0 * furthest
+    return furthest
 
 
-def least_load(slip: str) -> float:
+def least_load(floor: str) -> float:
     """Return the least part of the weight that any wheel bears in turns: a quarter at rest."""
     least = 1.0
     for speed, yaw_rate in ((0.0, 1.0), (0.0, 2.0), (0.5, 1.5)):
-        simulation, robot = on(slip)
+        simulation, robot = on(floor)
         drive(simulation, 0.0, 0.0, 1.0)
         weight = sum(robot.husky.wheel_loads_n())
         drive(simulation, speed, yaw_rate, 1.0)
@@ -78,9 +86,9 @@ def least_load(slip: str) -> float:
     return least
 
 
-def stop(slip: str) -> tuple[float, float]:
+def stop(floor: str) -> tuple[float, float]:
     """Return the time and the way from 1 m/s to a stop."""
-    simulation, robot = on(slip, x=-10.0)
+    simulation, robot = on(floor, x=-10.0)
     drive(simulation, 1.0, 0.0, 3.0)
     start, begin_sec = plan(robot), simulation.time_sec
     while robot.state.velocity[0] > 0.01:
@@ -90,9 +98,9 @@ def stop(slip: str) -> tuple[float, float]:
     return taken_sec, math.dist(plan(robot), start)
 
 
-def drift_m(slip: str) -> tuple[float, float, float]:
+def drift_m(floor: str) -> tuple[float, float, float]:
     """Return a minute's way, and the errors of wheel and of filtered odometry at its end."""
-    simulation, robot = on(slip)
+    simulation, robot = on(floor)
     way, last = 0.0, plan(robot)
     for leg in range(60):
         for _ in range(50):
@@ -117,17 +125,19 @@ def main() -> None:
         row = [f'{effective_track_m("asphalt", speed, rate):.3f}' for rate in YAW_RATES]
         print(f'| {speed:g} | ' + ' | '.join(row) + ' |')
     print(
-        '\n| slip | friction | track on the spot, m | three turns move it by, mm '
+        '\n| floor | friction along, across | track on the spot, m | three turns move it by, m '
         '| least load of a wheel in turns '
         '| stop from 1 m/s | a minute, m | wheel odometry off by, m | filtered off by, m |'
     )
     print('|---|---|---|---|---|---|---|---|---|')
-    for slip, grip in GRIP.items():
-        track = effective_track_m(slip, 0.0, 0.5)
-        (taken_sec, braked_m), (way, wheels, fused) = stop(slip), drift_m(slip)
+    for floor, grip in FLOORS.items():
+        track = effective_track_m(floor, 0.0, 0.5)
+        (taken_sec, braked_m), (way, wheels, fused) = stop(floor), drift_m(floor)
+        turns = [three_turns_m(floor, 0.5, load) for load in (0.0, LOAD_Y_M)]
         print(
-            f'| `{slip}` | {grip:g} | {track:.3f} | {three_turns_mm(slip, 0.5):.1f} | '
-            f'{100.0 * least_load(slip):.0f} % | '
+            f'| `{floor}` | {grip.along:g}, {grip.across:g} | {track:.3f} | '
+            f'{turns[0]:.3f}; {turns[1]:.2f} with unequal loads | '
+            f'{100.0 * least_load(floor):.0f} % | '
             f'{taken_sec:.2f} s, {braked_m:.3f} m | {way:.1f} | {wheels:.2f} | {fused:.2f} |'
         )
 

@@ -8,6 +8,7 @@ Values of the velocity controller are those of husky_control for ROS Noetic
 """
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from husky_course.robot import RobotStart
 from husky_runtime.settings import setting
@@ -35,15 +36,50 @@ class DriveConfig:
     )
 
 
-GRIP = {'ideal': 1.5, 'asphalt': 1.0, 'gravel': 0.3}
-"""What the friction of the tyres, which husky.xml has for asphalt, is multiplied with."""
+class Floor(NamedTuple):
+    """Friction coefficients of the tyres: along, where a wheel rolls to, and across."""
+
+    along: float
+    across: float
+
+
+FLOORS = {
+    'ideal': Floor(1.5, 1.5),
+    'asphalt': Floor(1.0, 1.0),
+    'concrete_indoor': Floor(0.75, 0.585),
+    'wet': Floor(0.5, 0.45),
+    'gravel': Floor(0.5, 0.525),
+    'grass': Floor(0.35, 0.385),
+}
 
 
 @dataclass(frozen=True, kw_only=True)
 class GroundConfig:
     """What the robots drive on."""
 
-    slip: str = setting('asphalt', 'How the tyres grip: ideal, asphalt or gravel.', choices=GRIP)
+    floor: str = setting('asphalt', f'How the tyres grip: {", ".join(FLOORS)}.', choices=FLOORS)
+
+
+LOAD_Y_M = -0.085
+"""The centre of mass in the original's file, which puts 62 % of the weight on the right wheels."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyConfig:
+    """How a robot differs from one that is built as it is drawn."""
+
+    realistic: bool = setting(False, "The original's noise and its unequal loads, together.")
+    center_of_mass_y_m: float = setting(
+        0.0,
+        "Where the weight is, to the left of the middle; the original's file: -0.085.",
+        -0.2,
+        0.2,
+    )
+
+    @property
+    def load_y_m(self) -> float:
+        """Where the weight is, to the left of the middle, all settings considered."""
+        return self.center_of_mass_y_m or (LOAD_Y_M if self.realistic else 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,3 +139,9 @@ class SimulationConfig:
     drive: DriveConfig = field(default_factory=DriveConfig)
     ground: GroundConfig = field(default_factory=GroundConfig)
     sensors: SensorConfig = field(default_factory=SensorConfig)
+    body: BodyConfig = field(default_factory=BodyConfig)
+
+    @property
+    def has_noise(self) -> bool:
+        """Whether sensors err."""
+        return self.sensors.noise or self.body.realistic

@@ -12,11 +12,12 @@ import math
 from husky_course.robot import RobotStart
 import mujoco
 
-from husky_sim.config import CONTROL_PERIOD_SEC, GRIP, SimulationConfig
+from husky_sim.config import CONTROL_PERIOD_SEC, FLOORS, SimulationConfig
 from husky_sim.robot.broadphase import BroadPhase
 from husky_sim.robot.contacts import Collision, TouchDetector
 from husky_sim.robot.diff_drive import VelocityController, WheelOdometry
-from husky_sim.robot.husky import Husky, set_grip
+from husky_sim.robot.husky import Husky
+from husky_sim.robot.tyres import Tyres
 from husky_sim.sensors.imu import Imu, new_noise
 from husky_sim.sensors.localization import PlanarFilter
 from husky_sim.sensors.sensors import Sensors
@@ -44,8 +45,10 @@ class SimulatedRobot:
         self.controller = VelocityController(config.drive)
         self.odometry = WheelOdometry(config.drive)
         self.filtered = PlanarFilter(CONTROL_PERIOD_SEC)
-        self._imu = Imu(self.husky, new_noise([*seed, 0]) if config.sensors.noise else None)
-        self.sensors = Sensors(start.name, world.model, data, config.sensors, seed=seed)
+        self._imu = Imu(self.husky, new_noise([*seed, 0]) if config.has_noise else None)
+        self.sensors = Sensors(
+            start.name, world.model, data, config.sensors, noise=config.has_noise, seed=seed
+        )
         self.reset()
 
     def reset(self) -> None:
@@ -96,11 +99,12 @@ class Simulation:
         :raises SimulatorError: if the world or a start pose cannot be used.
         """
         self.config = config
-        self.world = load_world(config.world, config.robots, visual=visual)
+        self.world = load_world(
+            config.world, config.robots, visual=visual, load_y_m=config.body.load_y_m
+        )
         self.model = self.world.model
-        for start in config.robots:
-            set_grip(self.model, start.name, GRIP[config.ground.slip])
         self.data = mujoco.MjData(self.model)
+        self._tyres = Tyres(self.world, self.data, FLOORS[config.ground.floor])
         self.touches: list[Collision] = []
         self.periods = 0
         self.broadphase = BroadPhase(self.world, self.data)
@@ -142,6 +146,7 @@ class Simulation:
         begin_sec = self.time_sec
         for robot in self.robots:
             robot.act(begin_sec)
+        self._tyres.update()
         self.broadphase.update()
         if self.broadphase.alone:
             mujoco.mj_step(self.model, self.data, self.world.steps_per_period)
@@ -168,6 +173,7 @@ class Simulation:
         """Put everything back as it was at the start, bit for bit."""
         self.broadphase.reset()  # first: what touches, sleeps together, and is woken together
         mujoco.mj_resetData(self.model, self.data)
+        self._tyres.reset()
         self._detector.reset()
         self.touches = []
         self.periods = 0

@@ -37,7 +37,8 @@ ARGUMENTS = (
     ('real_time_factor', '1.0', float, 'Simulated seconds a second; 0.0: as fast as possible'),
     ('lockstep', 'false', bool, 'true: advance one control period for each command'),
     ('interface', 'lab', str, "lab, or clearpath: a real A200's topics beside the lab's"),
-    ('slip', 'asphalt', str, 'How the tyres grip: ideal, asphalt or gravel'),
+    ('floor', 'asphalt', str, 'ideal, asphalt, concrete_indoor, wet, gravel or grass'),
+    ('realistic', 'false', bool, "true: the original's noise and unequal loads"),
     ('limit_sec', '0.0', float, 'End after so much simulated time, s; 0.0: never'),
     ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )

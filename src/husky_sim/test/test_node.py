@@ -462,7 +462,11 @@ def test_each_of_many_robots_has_its_own_topics(domain_id: int) -> None:
         ({'speed_limit_m_s': -1.0}, SettingError, 'speed_limit_m_s'),
         ({'real_time_factor': 'fast'}, SettingError, 'real_time_factor'),
         ({'lidar_rate': 20.0}, SettingError, 'did you mean lidar_rate_hz'),
-        ({'slip': 'ice'}, SettingError, 'one of ideal, asphalt, gravel is allowed'),
+        (
+            {'floor': 'ice'},
+            SettingError,
+            'one of ideal, asphalt, concrete_indoor, wet, gravel, grass',
+        ),
         ({'lockstep': True, 'localization': False}, SettingError, 'set localization to true'),
         ({'seed': 1.5}, SettingError, 'seed=1.5: a whole number is allowed'),
         ({'robots': ['a/b 0 0 0']}, SettingError, "a robot is 'NAME X Y YAW'"),

@@ -67,7 +67,7 @@ class Husky:
         self._actuators = [model.actuator(f'{name}/{wheel}_wheel').id for wheel in WHEELS]
         self._model = model
         self._data = data
-        self._tyres = [model.geom(f'{name}/{wheel}_wheel').id for wheel in WHEELS]
+        self._tyres = [_shapes_of_tyre(model, f'{name}/{wheel}') for wheel in WHEELS]
         self._gravity_m_s2 = -float(model.opt.gravity[2])
         # The joints and the actuators of one robot lie side by side, so that slices do.
         self._wheel_angles = _block(data.qpos, self._angles)
@@ -120,7 +120,7 @@ class Husky:
         for index, pair in enumerate(self._data.contact.geom.tolist()):
             mujoco.mj_contactForce(self._model, self._data, index, force)
             for wheel, tyre in enumerate(self._tyres):
-                if tyre in pair:
+                if not tyre.isdisjoint(pair):
                     loads[wheel] += float(force[0])
         return tuple(loads)
 
@@ -146,10 +146,11 @@ class Husky:
         )
 
 
-def set_grip(model: mujoco.MjModel, name: str, factor: float) -> None:
-    """Multiply the sliding friction of a robot's tyres."""
-    for wheel in WHEELS:
-        model.geom(f'{name}/{wheel}_wheel').friction[0] *= factor
+def _shapes_of_tyre(model: mujoco.MjModel, wheel: str) -> set[int]:
+    """Return the geoms; MuJoCo leaves out a tread where no ground is flat."""
+    names = (f'{wheel}_wheel', f'{wheel}_tread')
+    found = {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name) for name in names}
+    return found - {-1}
 
 
 def _block(values: np.ndarray, indices: list[int]) -> np.ndarray:

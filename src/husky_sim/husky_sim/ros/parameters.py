@@ -12,6 +12,7 @@ from rcl_interfaces.msg import ParameterDescriptor, ParameterType
 from rclpy.node import Node
 
 from husky_sim.config import (
+    BodyConfig,
     DriveConfig,
     GroundConfig,
     RunConfig,
@@ -30,7 +31,10 @@ _ROBOTS = (
     'Empty: one robot named husky, at x, y, yaw, in the namespace of the node.'
 )
 
-_NAMES = ('robots', *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig, GroundConfig))
+_NAMES = (
+    'robots',
+    *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig, GroundConfig, BodyConfig),
+)
 
 
 def read_run(node: Node) -> RunConfig:
@@ -59,6 +63,7 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
     drive = declare_settings(node, DriveConfig, _refuse)
     sensors = declare_settings(node, SensorConfig, _refuse)
     ground = declare_settings(node, GroundConfig, _refuse)
+    body = declare_settings(node, BodyConfig, _refuse)
     if run.lockstep and not sensors.localization:
         raise SettingError('lockstep=True needs odometry/filtered; set localization to true')
     robots = _read_robots(node)
@@ -68,6 +73,7 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
         drive=drive,
         ground=ground,
         sensors=sensors,
+        body=body,
     )
 
 

@@ -42,10 +42,11 @@ class Sensors:
         data: mujoco.MjData,
         config: SensorConfig,
         *,
+        noise: bool,
         seed: list[int],
     ) -> None:
-        of_lidar = lidar.new_noise([*seed, 1]) if config.noise else None
-        of_navsat = navsat.new_noise([*seed, 2]) if config.noise else None
+        of_lidar = lidar.new_noise([*seed, 1]) if noise else None
+        of_navsat = navsat.new_noise([*seed, 2]) if noise else None
         self._noises = [noise for noise in (of_lidar, of_navsat) if noise is not None]
         self._lidar: lidar.Lidar | None = None
         if config.lidar_rate_hz > 0.0:

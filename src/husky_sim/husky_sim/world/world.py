@@ -23,6 +23,12 @@ import mujoco
 import numpy as np
 
 from husky_sim.errors import StartPoseError, WorldError
+from husky_sim.world.flat_ground import (
+    add_contacts,
+    add_planes,
+    find_flat_ground,
+    FlatGround,
+)
 from husky_sim.world.silhouette import outline_of
 from husky_sim.world.world_file import check_settings, line_of, refused, steps_per_period
 
@@ -43,6 +49,7 @@ class World:
     husky: str  # the robot's file
     model: mujoco.MjModel
     robots: tuple[RobotStart, ...]
+    flat_ground: tuple[FlatGround, ...]
     obstacles: tuple[Outline, ...]
     names: tuple[str, ...]  # of owners: first the robots, then the obstacles
     owners: Indices  # of every geom: its place in names, or negative
@@ -62,13 +69,19 @@ class World:
 
 
 def load_world(
-    path: str, robots: Sequence[RobotStart], *, husky: str = '', visual: bool = True
+    path: str,
+    robots: Sequence[RobotStart],
+    *,
+    husky: str = '',
+    visual: bool = True,
+    load_y_m: float = 0.0,
 ) -> World:
     """
     Load a world file and put the robots into it.
 
     :param husky: the robot's file; by default husky.xml beside the world, else the installed one.
     :param visual: keep what is only seen; without it steps are faster, and the motion the same.
+    :param load_y_m: how far the centre of mass of a robot's body is to the left of the middle.
     :raises WorldError: if the file cannot be a world.
     :raises StartPoseError: if a robot cannot start where it should.
     """
@@ -81,12 +94,18 @@ def load_world(
         )
     empty = _compiled(path, _parsed(path))
     steps = steps_per_period(path, empty.opt.timestep)
-    heights = [_height_under(path, empty, robot) for robot in robots]
+    data = mujoco.MjData(empty)
+    mujoco.mj_forward(empty, data)
+    ground = {geom for geom in range(empty.ngeom) if _is_ground(empty, geom)}
+    heights = [_height_under(path, empty, data, ground, robot) for robot in robots]
+    faces = find_flat_ground(empty, data, ground)
     spec = _parsed(path)
     check_settings(path, spec)
     husky = husky or _husky_beside(path)
+    add_planes(spec, faces)
     for robot, height in zip(robots, heights, strict=True):
-        _attach(spec, husky, robot, height)
+        _attach(spec, husky, robot, height, load_y_m)
+        add_contacts(spec, husky, robot.name, faces)
     spec.compiler.discardvisual = not visual
     model = _compiled(path, spec)
     data = mujoco.MjData(model)
@@ -98,6 +117,7 @@ def load_world(
         husky=husky,
         model=model,
         robots=tuple(robots),
+        flat_ground=faces,
         obstacles=_outlines(model, data, names, owners, len(robots)),
         names=tuple(names),
         owners=owners,
@@ -146,13 +166,16 @@ def default_worlds() -> Path:
     return Path(get_package_share_directory('husky_sim')) / 'worlds'
 
 
-def _attach(spec: mujoco.MjSpec, husky: str, robot: RobotStart, height: float) -> None:
+def _attach(
+    spec: mujoco.MjSpec, husky: str, robot: RobotStart, height: float, load_y_m: float
+) -> None:
     child = _parsed(husky)
     base = child.body('base_link')
     if base is None:
         raise WorldError(
             f'{husky!r}: no body named base_link; take the husky.xml that came with us'
         )
+    base.ipos[1] = load_y_m
     # The wheels need the solver of their own file. The timestep, gravity and sleep stay the
     # world's.
     spec.option.integrator = child.option.integrator
@@ -167,11 +190,10 @@ def _attach(spec: mujoco.MjSpec, husky: str, robot: RobotStart, height: float) -
     frame.attach_body(base, f'{robot.name}/', '')
 
 
-def _height_under(path: str, model: mujoco.MjModel, robot: RobotStart) -> float:
+def _height_under(
+    path: str, model: mujoco.MjModel, data: mujoco.MjData, ground: set[int], robot: RobotStart
+) -> float:
     """Return the height of the highest ground under a robot's wheels."""
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    ground = {geom for geom in range(model.ngeom) if _is_ground(model, geom)}
     if not ground:
         raise refused(
             path,

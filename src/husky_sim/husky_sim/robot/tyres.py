@@ -1,0 +1,116 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+How the tyres meet the ground.
+
+A tyre has two shapes. On flat ground its tread counts, a capsule that grips along and across
+differently (see `world.flat_ground`); everywhere else, at edges and on hills, the wheel, a
+cylinder that grips as much in every direction. What is no ground meets the cylinder, always. Both
+have the same radius and stand on the same two points, and so change places unnoticed.
+"""
+
+from husky_course.frames import Indices
+import mujoco
+import numpy as np
+
+from husky_sim.config import Floor
+from husky_sim.robot.husky import WHEELS
+from husky_sim.world.flat_ground import FlatGround, NEVER_M, pair_name
+from husky_sim.world.world import World
+
+REACH_M = 0.6
+"""From base_link to the outermost place of a tyre, and what a robot goes in a control period."""
+UPRIGHT = 0.99
+"""Cosine of a lean, above which the ends of a tread are within 2 mm of those of the cylinder."""
+BELOW_M, ABOVE_M = 0.1, 0.75
+
+_SOLID, _EVERYWHERE = 1 << 30, (1 << 30) | 1
+
+
+class Tyres:
+    """Chooses, before every control period, the shapes of tyres that count."""
+
+    def __init__(self, world: World, data: mujoco.MjData, floor: Floor) -> None:
+        model = world.model
+        self._model, self._faces = model, world.flat_ground
+        names = [robot.name for robot in world.robots]
+        joints = [model.joint(f'{name}/base_joint') for name in names]
+        self._poses = [data.qpos[int(joint.qposadr[0]) :][:7] for joint in joints]
+        self._wheels = [
+            [model.geom(f'{name}/{wheel}_wheel').id for wheel in WHEELS] for name in names
+        ]
+        wheels = np.array(self._wheels).ravel()
+        # What is no ground meets wheels by a bit of its own: theirs of ground comes and goes.
+        solid = (world.owners >= 0) & ~np.isin(np.arange(model.ngeom), wheels)
+        model.geom_conaffinity[solid] |= _SOLID
+        model.body_conaffinity[model.geom_bodyid[solid]] |= _SOLID
+        model.body_contype[model.geom_bodyid[wheels]] |= _SOLID
+        model.body_conaffinity[model.geom_bodyid[wheels]] |= _SOLID
+        self._pairs = [self._pairs_of(name) for name in names]
+        self._grip(wheels, floor)
+        self.reset()
+
+    def _pairs_of(self, name: str) -> Indices:
+        """Return the contacts of a robot's treads: a row for each face."""
+        model = self._model
+        pairs = [
+            [model.pair(pair_name(number, name, wheel)).id for wheel in WHEELS]
+            for number, _ in enumerate(self._faces)
+        ]
+        return np.array(pairs, dtype=np.int64).reshape(-1, len(WHEELS))
+
+    def _grip(self, wheels: Indices, floor: Floor) -> None:
+        """Make the friction of the robot's file that of a floor."""
+        self._model.geom_friction[wheels, 0] *= floor.along
+        for pairs in self._pairs:
+            self._model.pair_friction[pairs, 0] *= floor.across
+            self._model.pair_friction[pairs, 1] *= floor.along
+
+    def reset(self) -> None:
+        """Look again where every robot is; to be called when they were put somewhere else."""
+        self._under: list[tuple[int, ...] | None] = [(-1,)] * len(self._poses)
+        self.update()
+
+    def update(self) -> None:
+        """Choose for the coming control period."""
+        for robot, pose in enumerate(self._poses):
+            under = self._faces_under(*pose.tolist())
+            if under != self._under[robot]:
+                self._under[robot] = under
+                self._choose(robot, under)
+
+    def _choose(self, robot: int, under: tuple[int, ...] | None) -> None:
+        bits = _EVERYWHERE if under is None else _SOLID
+        self._model.geom_contype[self._wheels[robot]] = bits
+        self._model.geom_conaffinity[self._wheels[robot]] = bits
+        self._model.pair_margin[self._pairs[robot]] = NEVER_M
+        if under:
+            self._model.pair_margin[self._pairs[robot][list(under)]] = 0.0
+
+    def _faces_under(
+        self, x: float, y: float, z: float, qw: float, qx: float, qy: float, qz: float
+    ) -> tuple[int, ...] | None:
+        """Return the faces that a robot is above with all wheels; None beside an edge."""
+        up = (2 * (qx * qz + qw * qy), 2 * (qy * qz - qw * qx), 1 - 2 * (qx * qx + qy * qy))
+        under = []
+        for number, face in enumerate(self._faces):
+            away = (x - face.middle[0], y - face.middle[1], z - face.middle[2])
+            if not -BELOW_M < _dot(away, face.axes[2]) < ABOVE_M:
+                continue
+            inside_m = _inside_m(face, away)
+            if inside_m < -REACH_M:
+                continue
+            if inside_m < REACH_M or _dot(up, face.axes[2]) < UPRIGHT:
+                return None
+            under.append(number)
+        return tuple(under) or None
+
+
+def _inside_m(face: FlatGround, away: tuple[float, ...]) -> float:
+    """Return how far inside its nearest edge a place is; negative outside."""
+    x, y = abs(_dot(away, face.axes[0])), abs(_dot(away, face.axes[1]))
+    return min(face.half_m[0] - x, face.half_m[1] - y)
+
+
+def _dot(one: tuple[float, ...], other: tuple[float, ...]) -> float:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
