@@ -78,7 +78,7 @@ def _drive_of(file: str, settings: Settings, warn: Callable[[str], object]) -> D
     route = plan_route(load_course(file))
     if settings.check != 'off':
         _check(route, settings, warn)
-    return Drive(route, slip=settings.slip_model)
+    return Drive(route, slip=settings.has_slip)
 
 
 def _check(route: Route, settings: Settings, warn: Callable[[str], object]) -> None:

@@ -10,14 +10,13 @@ from typing import Any
 from husky_course.route import plan_route
 from husky_course.waypoints import Course, load_course, parse_course
 from husky_driver.drive.drive import DistanceDrive, Drive
-from husky_driver.drive.slip import NO_SLIP
-from husky_driver.motion import Command, Odometry
+from husky_driver.motion import Command, ImuReading, Odometry
 import pytest
 
 
 def drive_of(course: Course) -> Drive:
     """Return a drive for the plant of these tests, which does not slide."""
-    return Drive(plan_route(course), slip=NO_SLIP)
+    return Drive(plan_route(course), slip=False)
 
 
 HUSKIES = [
@@ -237,7 +236,7 @@ def test_implausible_odometry_ends_the_drive_at_once(
     while (command := drive.step(plant.now._replace(**changes))) is not None:
         commands.append(command)
         plant.advance(command)
-        drive.add_acceleration(plant.now.time_sec, math.nan)
+        drive.add_imu(ImuReading(plant.now.time_sec, 0.0, math.nan, 0.0))
         assert len(commands) < 100
     assert said in drive.failure == drive.implausible
     assert set(commands) == {(0.0, 0.0)}

@@ -4,7 +4,8 @@ import math
 
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
-from husky_driver.checks import Bump, forward_acceleration
+from husky_driver.checks import Bump
+from husky_driver.motion import read_imu
 from husky_grader.run.in_process import drive_route
 import pytest
 
@@ -55,8 +56,12 @@ def test_gravity_that_an_inclined_imu_feels_does_not_count() -> None:
     pitch = -0.3  # nose up, after REP-103
     felt = 9.81 * math.sin(-pitch)
     q = (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2))
-    assert forward_acceleration(felt, *q) == pytest.approx(0.0, abs=1e-9)
-    assert forward_acceleration(felt + 0.5, *q) == pytest.approx(0.5)
+    assert read_imu(0.0, (felt, 0.0), *q)[2:] == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert read_imu(0.0, (felt + 0.5, 0.2), *q)[2:] == pytest.approx((0.5, 0.2))
+    roll = 0.2  # the left side up
+    felt = 9.81 * math.sin(roll)
+    q = (math.sin(roll / 2), 0.0, 0.0, math.cos(roll / 2))
+    assert read_imu(0.0, (0.5, felt + 0.2), *q)[2:] == pytest.approx((0.5, 0.2))
 
 
 @pytest.mark.parametrize(('speed_m_s', 'reverse'), [(0.2, False), (0.8, True)])

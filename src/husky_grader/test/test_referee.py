@@ -11,7 +11,7 @@ from typing import Any
 
 from husky_course.route import plan_route
 from husky_course.waypoints import Course, load_course, parse_course
-from husky_driver.drive import Drive, NO_SLIP
+from husky_driver.drive import Drive
 from husky_driver.motion import Odometry
 from husky_grader.run.referee import Referee
 import pytest
@@ -55,7 +55,7 @@ def test_a_right_drive_ends_at_the_end_of_the_course(
     courses: Path, drive_to_end: Callable[..., Any], name: str
 ) -> None:
     course = load_course(courses / f'{name}.yaml')
-    track = drive_to_end(Drive(plan_route(course), slip=NO_SLIP)).track
+    track = drive_to_end(Drive(plan_route(course), slip=False)).track
     end = track[-1]
     after = standing(end.time_sec, end.x_m, end.y_m, 5.0)
     assert (
@@ -77,7 +77,7 @@ def test_a_right_drive_ends_at_the_end_of_the_course(
 def test_a_long_way_back_to_where_it_was_is_progress(
     drive_to_end: Callable[..., Any], course: Course
 ) -> None:
-    track = drive_to_end(Drive(plan_route(course), slip=NO_SLIP), limit_sec=1000.0).track
+    track = drive_to_end(Drive(plan_route(course), slip=False), limit_sec=1000.0).track
     end = track[-1]
     after = standing(end.time_sec, end.x_m, end.y_m, 5.0)
     over, when = ending(Referee(plan_route(course)), track + after)

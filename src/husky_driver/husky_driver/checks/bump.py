@@ -14,7 +14,6 @@ from collections import deque
 import math
 from typing import NamedTuple
 
-GRAVITY_M_S2 = 9.81
 LAG_SEC = 0.1  # samples are used at this age, so that late delivery does not change a run
 WINDOW_SEC = 2.0
 GAP_SEC = 0.03  # a longer gap between samples means that one was lost: begin again
@@ -28,15 +27,6 @@ class _Sample(NamedTuple):
     time_sec: float
     speed_m_s: float  # of the wheels
     gained_nm_s: int  # by the IMU; sums of whole numbers do not depend on where they begin
-
-
-def forward_acceleration(force_x_m_s2: float, x: float, y: float, z: float, w: float) -> float:
-    """
-    Return the forward acceleration, without the part of gravity that an inclined IMU measures.
-
-    :param force_x_m_s2: of the accelerometer; the others are its orientation.
-    """
-    return force_x_m_s2 - GRAVITY_M_S2 * 2.0 * (x * z - w * y)
 
 
 class Bump:

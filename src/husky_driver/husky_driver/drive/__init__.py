@@ -3,7 +3,6 @@
 """From odometry to velocity commands along a route; without ROS."""
 
 from husky_driver.drive.drive import Drive
-from husky_driver.drive.slip import NO_SLIP
 from husky_driver.drive.time_limit import NEARER_M, TimeLimit
 
-__all__ = ['NEARER_M', 'NO_SLIP', 'Drive', 'TimeLimit']
+__all__ = ['NEARER_M', 'Drive', 'TimeLimit']

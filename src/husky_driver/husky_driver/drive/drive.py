@@ -15,11 +15,11 @@ from husky_course.waypoints import Course, Waypoint
 
 from husky_driver.checks.plausibility import OdometryCheck
 from husky_driver.checks.watchdog import Watchdog
+from husky_driver.drive.motion_estimate import MotionEstimate
 from husky_driver.drive.route_follower import RouteFollower, SETTLE_SEC
-from husky_driver.drive.slip import SlipCorrection, SlipModel
 from husky_driver.drive.time_limit import NEARER_M, TimeLimit
 from husky_driver.drive.tracker import Tracker
-from husky_driver.motion import AT_ORIGIN, Command, Odometry, STOP
+from husky_driver.motion import AT_ORIGIN, Command, ImuReading, Odometry, STOP
 
 UNTRUSTED_STOPS = 50  # commands to stop a robot whose odometry cannot be true
 MAX_PERIOD_SEC = 0.1
@@ -28,17 +28,18 @@ MAX_PERIOD_SEC = 0.1
 class Drive:
     """Follows a course; give it every odometry message once, in order."""
 
-    def __init__(self, route: Route, *, slip: SlipModel | None = None) -> None:
+    def __init__(self, route: Route, *, slip: bool = True) -> None:
         """
         Prepare; the course begins at the first odometry.
 
-        :param slip: what this odometry misses; by default that of the simulated Husky's wheels.
+        :param slip: count with what odometry misses; false where it misses nothing.
         """
         self._planned = route
-        self._slip = SlipCorrection(slip or SlipModel())
+        self._estimate = MotionEstimate() if slip else None
         self.finished = False
         self.failure = ''  # why it gave up, if it did
         self.implausible = ''  # why a message cannot be true, if one could not
+        self._command = STOP
         self.held = False  # true: stands where it is, and goes on when false again
         # The last odometry that was plausible, corrected for slip; None before the first.
         self.odometry: Odometry | None = None
@@ -106,9 +107,7 @@ class Drive:
             return self._stop_untrusted()
         before = self.odometry
         was_reset = before is not None and odometry.time_sec < before.time_sec
-        if was_reset:
-            self._slip.restart()
-        odometry = self.odometry = self._slip.corrected(odometry)
+        odometry = self.odometry = self._corrected(odometry, was_reset=was_reset)
         if (before is None or was_reset) and not self.failure:
             self.finished = False
             self._begin(self._route_from(odometry), odometry)
@@ -116,17 +115,30 @@ class Drive:
             return None
         if self.failure:
             return self._come_to_rest(odometry)
+        if self._estimate is not None:
+            self._follower.outward_sec2 = self._estimate.slip.outward_sec2
         wish = self._follower.command(odometry, held=self.held)
         if wish is None:
             self.finished = True
             return None
         period = 0.0 if before is None else odometry.time_sec - before.time_sec
         period = min(max(period, 0.0), MAX_PERIOD_SEC)
-        self._command = self._within_limits(wish, period)
+        self._command = self._within_limits(self._slipping(wish), period)
         if complaint := self._complaint(odometry):
             self.give_up(complaint)
             return STOP
         return self._command
+
+    def _corrected(self, odometry: Odometry, *, was_reset: bool) -> Odometry:
+        if self._estimate is None:
+            return odometry
+        if was_reset:
+            self._estimate.restart()
+        return self._estimate.corrected(odometry, self._command)
+
+    def _slipping(self, wish: Command) -> Command:
+        """Return the command by which a robot that slips does what is wished."""
+        return wish if self._estimate is None else self._estimate.slip.command(wish)
 
     def _route_from(self, start: Odometry) -> Route:
         """Return the route from where the robot starts."""
@@ -148,10 +160,12 @@ class Drive:
         place = f'({odometry.x_m:.2f}, {odometry.y_m:.2f})'
         return f'{complaint}; it is at {place}, {remaining_m:.2f} m of path are left'
 
-    def add_acceleration(self, time_sec: float, acceleration_m_s2: float) -> None:
-        """Add a forward acceleration of the IMU; without any, a wall ahead is not detected."""
+    def add_imu(self, reading: ImuReading) -> None:
+        """Add a sample of the IMU; without any, slip is not learned and a wall not detected."""
         if self.odometry is not None and not self.failure:
-            self._watchdog.bump.add_acceleration(time_sec, acceleration_m_s2)
+            self._watchdog.bump.add_acceleration(reading.time_sec, reading.forward_m_s2)
+            if self._estimate is not None:
+                self._estimate.add_reading(reading)
 
     def refuse_odometry(self, what: str) -> None:
         """Give up because a message cannot be true; no odometry is used after it."""

@@ -28,6 +28,7 @@ class RouteFollower:
         self.reached = 0  # waypoints, counted in order
         self.tracker: Tracker | None = None  # of the leg it is on; None before the first
         self.is_dwelling = False
+        self.outward_sec2 = 0.0  # how the robot slides in bends, see `drive.slip.Slip`
         self._now = start
         self._leg_index = 0
         self._next = 0  # the waypoint that is driven to
@@ -77,7 +78,7 @@ class RouteFollower:
     def _follow(self, tracker: Tracker) -> Generator[Command, None, None]:
         while True:
             now = self._now
-            wish = tracker.command(*now[1:])
+            wish = tracker.command(*now[1:], outward_sec2=self.outward_sec2)
             if tracker.remaining_m <= ARRIVED_M:
                 return
             if abs(tracker.heading_error_rad) > LOST_HEADING_RAD:

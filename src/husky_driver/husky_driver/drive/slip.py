@@ -1,58 +1,51 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The slip of a skid-steer robot in bends, which wheel odometry does not measure.
+The slip of a skid-steer robot, which wheel odometry does not measure.
 
-A Husky that turns slides outwards, and moves a little further than its wheels roll. Both grow
-with speed times yaw rate; the factors depend on tyres and ground, and are measured (Mandow,
-Martinez, Morales, Blanco, Garcia-Cerezo, Gonzalez: "Experimental kinematics for wheeled
-skid-steer mobile robots", IROS 2007).
+A Husky in a bend slides outwards, moves a little further than its wheels roll, and turns about a
+point beside its middle where one side bears more weight. How much depends on tyres and ground
+(Mandow, Martinez, Morales, Blanco, Garcia-Cerezo, Gonzalez: "Experimental kinematics for wheeled
+skid-steer mobile robots", IROS 2007), so `drive.motion_estimate` learns it on the way.
 """
 
-from dataclasses import dataclass
-import math
+from typing import NamedTuple
 
-from husky_driver.motion import Odometry
+from husky_course.route import LIMITS
 
-MAX_PERIOD_SEC = 0.1
+from husky_driver.motion import Command, Odometry
 
 
-@dataclass(frozen=True)
-class SlipModel:
+class Slip(NamedTuple):
     """
-    Velocities that odometry misses, in seconds: times speed times yaw rate they are m/s.
+    What the wheels do not tell; the defaults are those of the simulated Husky on asphalt.
 
-    The defaults are fitted to the true paths of the simulated Husky on the lab's courses.
+    With u the speed of the wheels and w the yaw rate, the robot moves forwards with
+    v = u + pivot_m * w + onward_sec * u * abs(w), and to the left with
+    -outward_sec2 * v * w * abs(w).
     """
 
-    outward_sec: float = 0.035
-    onward_sec: float = 0.030
+    pivot_m: float = 0.0  # the robot turns on the spot about a point so far to its right
+    onward_sec: float = 0.025
+    outward_sec2: float = 0.1
+    yaw_gain: float = 1.0  # yaw rate over that commanded
 
+    @property
+    def ground(self) -> tuple[float, float, float]:
+        """All but the gain."""
+        return self.pivot_m, self.onward_sec, self.outward_sec2
 
-NO_SLIP = SlipModel(0.0, 0.0)
+    def velocity(self, odometry: Odometry) -> tuple[float, float]:
+        """Return the speeds forwards and to the left, m/s, of a robot in steady motion."""
+        wheels, rate = odometry.speed_m_s, odometry.yaw_rate_rad_s
+        ahead = wheels + self.pivot_m * rate + self.onward_sec * wheels * abs(rate)
+        return ahead, -self.outward_sec2 * ahead * rate * abs(rate)
 
-
-class SlipCorrection:
-    """Integrates the slip; give it every odometry once, in order."""
-
-    def __init__(self, model: SlipModel) -> None:
-        self._model = model
-        self.restart()
-
-    def restart(self) -> None:
-        self._x = self._y = 0.0
-        self._before: Odometry | None = None
-
-    def corrected(self, odometry: Odometry) -> Odometry:
-        before, self._before = self._before, odometry
-        if before is None:
-            return odometry
-        period = min(max(odometry.time_sec - before.time_sec, 0.0), MAX_PERIOD_SEC)
-        speed = (odometry.speed_m_s + before.speed_m_s) / 2
-        rate = (odometry.yaw_rate_rad_s + before.yaw_rate_rad_s) / 2
-        left = -self._model.outward_sec * abs(speed) * rate * period
-        ahead = self._model.onward_sec * speed * abs(rate) * period
-        yaw = odometry.yaw_rad - rate * period / 2
-        self._x += math.cos(yaw) * ahead - math.sin(yaw) * left
-        self._y += math.sin(yaw) * ahead + math.cos(yaw) * left
-        return odometry._replace(x_m=odometry.x_m + self._x, y_m=odometry.y_m + self._y)
+    def command(self, wish: Command) -> Command:
+        """Return what to command, so that the robot moves as wished."""
+        speed, rate = wish
+        wheels = (speed - self.pivot_m * rate) / (1.0 + self.onward_sec * abs(rate))
+        limit, turn = LIMITS.speed_m_s, LIMITS.yaw_rate_rad_s
+        return Command(
+            min(max(wheels, -limit), limit), min(max(rate / self.yaw_gain, -turn), turn)
+        )

@@ -21,6 +21,7 @@ _TWO_PI = 2 * math.pi
 OFFSET_PER_M2 = 9.0  # natural frequency squared, 3 per metre
 HEADING_PER_M = 6.0  # twice the natural frequency: no overshoot
 MAX_OFFSET_M = 0.3  # a greater offset steers no harder
+MAX_INWARD_RAD = 0.3
 DELAY_SEC = 0.04  # from odometry to the wheels turning at the new speed
 PREVIEW_SEC = 0.08  # the curve's yaw rate is commanded this much ahead
 END_RATE_PER_S = 8.0  # speed over distance left, close to the end
@@ -49,9 +50,20 @@ class Tracker:
         self.heading_error_rad = math.remainder(yaw - heading, _TWO_PI)
 
     def command(
-        self, x: float, y: float, yaw: float, speed_m_s: float, yaw_rate_rad_s: float
+        self,
+        x: float,
+        y: float,
+        yaw: float,
+        speed_m_s: float,
+        yaw_rate_rad_s: float,
+        *,
+        outward_sec2: float = 0.0,
     ) -> tuple[float, float]:
-        """Return the speed (negative backwards) and yaw rate for the robot's pose and twist."""
+        """
+        Return the speed (negative backwards) and yaw rate for the robot's pose and twist.
+
+        :param outward_sec2: how it slides in bends, see `drive.slip.Slip`.
+        """
         middle = yaw + yaw_rate_rad_s * DELAY_SEC / 2
         self.locate(
             x + speed_m_s * DELAY_SEC * math.cos(middle),
@@ -59,9 +71,9 @@ class Tracker:
             yaw + yaw_rate_rad_s * DELAY_SEC,
         )
         speed = self._speed()
-        error = self.heading_error_rad
-        offset = min(max(self.offset_m, -MAX_OFFSET_M), MAX_OFFSET_M)
         bend = self._bend(speed)
+        error = self.heading_error_rad - _inward_rad(speed * bend, outward_sec2)
+        offset = min(max(self.offset_m, -MAX_OFFSET_M), MAX_OFFSET_M)
         ahead = math.cos(error) / max(1.0 - bend * self.offset_m, 0.3)
         sinc = math.sin(error) / error if abs(error) > 1e-6 else 1.0
         feedback = OFFSET_PER_M2 * offset * sinc + HEADING_PER_M * error
@@ -87,3 +99,13 @@ class Tracker:
         end = min(start + preview, self.curve.length_m)
         start = min(start, end - 0.01)
         return (self.curve.heading_at(end) - self.curve.heading_at(start)) / (end - start)
+
+
+def _inward_rad(yaw_rate_rad_s: float, outward_sec2: float) -> float:
+    """
+    Return how far to the left of a bend a robot must face, that slides outwards.
+
+    That of the planned motion: the measured one would drive itself on.
+    """
+    inward = outward_sec2 * yaw_rate_rad_s * abs(yaw_rate_rad_s)
+    return min(max(inward, -MAX_INWARD_RAD), MAX_INWARD_RAD)

@@ -4,7 +4,6 @@
 
 from collections.abc import Callable
 from functools import partial
-import os
 import time
 from typing import Any
 
@@ -30,10 +29,12 @@ from husky_driver.motion import Odometry, relative_odometry
 from husky_driver.obstacle_stop import ObstacleStop
 from husky_driver.ros.commands import Commands, NO_STAMP
 from husky_driver.ros.display import DriveDisplay
+from husky_driver.ros.imu_wait import ImuWait
+from husky_driver.ros.missing import what_is_missing
 from husky_driver.ros.progress import make_progress
 from husky_driver.ros.readings import (
     has_orientation,
-    read_acceleration,
+    read_imu_message,
     read_odometry,
     read_scan,
     time_of,
@@ -50,6 +51,7 @@ STOP_WITHIN_SEC = 1.0
 
 DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
 SENSOR = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
+RELIABLE = QoSProfile(depth=50)
 
 ChooseDrive = Callable[[Settings, Callable[[str], object]], Drive]
 
@@ -85,6 +87,8 @@ class FollowPath(Node):
         scan = self.settings.topics.scan
         self._obstacles = ObstacleStop(scan) if self.settings.scan else None
         self._begun_sec = self._received_sec = time.monotonic()
+        self._imu: Subscription | None = None
+        self._imu_wait = ImuWait()
         self._commands = Commands(self, self.settings.topics)
         self._odometry = self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -101,7 +105,8 @@ class FollowPath(Node):
                 OdometryMsg, topics.odometry['filtered'], lambda _: None, 10, raw=True
             )
         if self.settings.imu:
-            self.create_subscription(Imu, topics.imu, self._on_imu, SENSOR)
+            qos = RELIABLE if topics.has_reliable_imu else SENSOR
+            self._imu = self.create_subscription(Imu, topics.imu, self._on_imu, qos)
         if self._obstacles is not None:
             watch = partial(self._on_scan, self._obstacles)
             self.create_subscription(LaserScan, topics.scan, watch, SENSOR)
@@ -128,6 +133,9 @@ class FollowPath(Node):
                 self._pending = msg
                 return
         first = self._last_stamp == NO_STAMP
+        if self._waits_for_imu(time_of(msg), first=first):
+            self._pending = msg
+            return
         self._pending = None
         self._last_stamp = stamp
         self._received_sec = time.monotonic()
@@ -163,7 +171,7 @@ class FollowPath(Node):
                     route = plan_route(load_course(str(parameter.value)))
                 except ValueError as error:
                     return SetParametersResult(successful=False, reason=str(error))
-                self._drive = Drive(route, slip=self.settings.slip_model)
+                self._drive = Drive(route, slip=self.settings.has_slip)
                 self._display.show(self._drive)
                 self._hold()
                 self._say(f'going over to {parameter.value}')
@@ -175,7 +183,19 @@ class FollowPath(Node):
         if what := wrong_imu(msg):
             self._refuse(self.settings.topics.imu, what)
         else:
-            self._drive.add_acceleration(time_of(msg), read_acceleration(msg))
+            self._drive.add_imu(read_imu_message(msg, self.settings.imu_ahead_m))
+            self._imu_wait.saw(time_of(msg))
+            if self._pending is not None:
+                self._on_odometry(self._pending)
+
+    def _waits_for_imu(self, time_sec: float, *, first: bool) -> bool:
+        if self._imu is None:
+            return False
+        publishers = self._imu.get_publisher_count() if first else 0
+        waits = self._imu_wait.has_to_wait(time_sec, first=first, publishers=publishers)
+        if first and self._imu_wait.is_missing:
+            self._say(f'{self._imu.topic_name} is silent: how the robot slips is not learned')
+        return waits
 
     def _refuse(self, topic: str, what: str) -> None:
         """Break the drive off, because a message of this topic cannot be true."""
@@ -255,6 +275,8 @@ class FollowPath(Node):
         now = time.monotonic()
         if self.finished.done():
             return
+        if self._pending is not None and self._exit_code is None:
+            self._on_odometry(self._pending)
         if self._exit_code is not None:
             gone = self._commands.publisher.get_subscription_count() == 0
             if gone or now > self._stop_deadline_sec:
@@ -273,9 +295,9 @@ class FollowPath(Node):
 
     def _wait(self, waited_sec: float) -> None:
         """Before the first answer: say what is missing, and give up in the end."""
-        if self._pending is not None:
-            self._on_odometry(self._pending)
-        elif waited_sec > self.settings.startup_timeout_sec:
+        if self._pending is not None and self._has_listener:
+            return  # for the IMU, not for long
+        if waited_sec > self.settings.startup_timeout_sec:
             self.stop(GAVE_UP, f'gave up: {self._silence(waited_sec)}')
         elif waited_sec > HINT_AFTER_SEC and (missing := self._missing()) != self._hint:
             self._hint = missing
@@ -285,10 +307,4 @@ class FollowPath(Node):
         return f'no odometry for {waited_sec:.0f} s; {self._missing()}'
 
     def _missing(self) -> str:
-        domain = os.environ.get('ROS_DOMAIN_ID', '0')
-        where = f'is the simulator running, with ROS_DOMAIN_ID={domain} as here?'
-        if self._odometry.get_publisher_count() == 0:
-            return f'nobody publishes {self._odometry.topic_name}; {where}'
-        if self._commands.publisher.get_subscription_count() == 0:
-            return f'nobody listens to {self._commands.publisher.topic_name}; {where}'
-        return f'{self._odometry.topic_name} is silent; is the simulation paused?'
+        return what_is_missing(self._odometry, self._commands.publisher)

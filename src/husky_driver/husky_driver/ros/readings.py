@@ -8,10 +8,9 @@ from typing import Any
 from nav_msgs.msg import Odometry as OdometryMsg
 from sensor_msgs.msg import Imu, LaserScan
 
-from husky_driver.checks.bump import forward_acceleration
 from husky_driver.checks.path_scan import Scan
 from husky_driver.checks.plausibility import no_numbers, no_rotation
-from husky_driver.motion import Odometry, yaw_of
+from husky_driver.motion import ImuReading, Odometry, read_imu, yaw_of
 
 NOT_GIVEN = -1.0  # sensor_msgs/Imu: first covariance of a quantity that is not measured
 
@@ -41,10 +40,16 @@ def has_orientation(msg: Imu) -> bool:
     return bool(msg.orientation_covariance[0] != NOT_GIVEN)
 
 
-def read_acceleration(msg: Imu) -> float:
-    """Return the forward acceleration that the IMU measured."""
-    q = msg.orientation
-    return forward_acceleration(msg.linear_acceleration.x, q.x, q.y, q.z, q.w)
+def read_imu_message(msg: Imu, ahead_m: float) -> ImuReading:
+    """
+    Return what an IMU at base_link would have measured.
+
+    :param ahead_m: where it is. Turning draws it outwards; what it feels of a change of the turn
+        is left in, because samples of a gyroscope tell that badly.
+    """
+    force, q = msg.linear_acceleration, msg.orientation
+    forward = force.x + ahead_m * msg.angular_velocity.z**2
+    return read_imu(time_of(msg), (forward, force.y), q.x, q.y, q.z, q.w)
 
 
 def read_scan(msg: LaserScan) -> Scan:
@@ -53,7 +58,12 @@ def read_scan(msg: LaserScan) -> Scan:
 
 def wrong_imu(msg: Imu) -> str:
     """Return why a message of the IMU cannot be true, or nothing."""
-    measured = {'linear_acceleration.x': msg.linear_acceleration.x}
+    force = msg.linear_acceleration
+    measured = {
+        'linear_acceleration.x': force.x,
+        'linear_acceleration.y': force.y,
+        'angular_velocity.z': msg.angular_velocity.z,
+    }
     return no_rotation(msg.orientation) or no_numbers(measured)
 
 

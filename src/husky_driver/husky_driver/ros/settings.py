@@ -8,8 +8,6 @@ from typing import Any
 
 from husky_runtime.settings import Setting, setting, settings_of
 
-from husky_driver.drive.slip import NO_SLIP, SlipModel
-
 
 @dataclass(frozen=True)
 class Interface:
@@ -19,6 +17,7 @@ class Interface:
     stamped: bool  # commands are TwistStamped
     odometry: Mapping[str, str]  # topics by what they tell
     imu: str
+    has_reliable_imu: bool
     scan: str
 
 
@@ -31,6 +30,7 @@ LAB = Interface(
         'ground_truth': 'ground_truth/odom',
     },
     imu='imu/data',
+    has_reliable_imu=True,
     scan='front/scan',
 )
 # Of a real A200 on ROS 2 Jazzy: Clearpath's Platform API and Sensors API. Only the simulator can
@@ -44,6 +44,7 @@ CLEARPATH = Interface(
         'ground_truth': 'ground_truth/odom',
     },
     imu='sensors/imu_0/data',
+    has_reliable_imu=False,
     scan='sensors/lidar2d_0/scan',
 )
 INTERFACES = {'lab': LAB, 'clearpath': CLEARPATH}
@@ -82,8 +83,13 @@ class Settings:
     start: tuple[float, ...] = setting(
         (0.0, 0.0, 0.0), 'where the robot starts in that world: x m, y m, yaw rad'
     )
-    slip: bool = setting(True, 'count with the sliding in bends that odometry cannot see')
-    imu: bool = setting(True, 'give up when the IMU shows that something holds the robot')
+    slip: bool = setting(True, 'count with the slip that odometry cannot see')
+    imu: bool = setting(
+        True, 'learn from the IMU how the robot slips, and whether something holds it'
+    )
+    imu_ahead_m: float = setting(
+        0.0, 'where the IMU is in the robot: so far ahead of base_link', low=-2.0, high=2.0
+    )
     scan: bool = setting(False, 'stop before what the laser sees on the path')
     progress: str = setting(
         'auto', 'how progress is shown: auto, bar, lines or off', choices=PROGRESS
@@ -104,9 +110,9 @@ class Settings:
         return INTERFACES[self.interface]
 
     @property
-    def slip_model(self) -> SlipModel:
-        """The slip that the odometry which is followed does not show."""
-        return SlipModel() if self.slip and self.odometry != 'ground_truth' else NO_SLIP
+    def has_slip(self) -> bool:
+        """Whether the odometry which is followed misses something."""
+        return self.slip and self.odometry != 'ground_truth'
 
 
 def refuse(setting: Setting, given: Any) -> ValueError:

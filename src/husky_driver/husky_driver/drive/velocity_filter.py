@@ -1,0 +1,88 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The velocity of a robot that slides, and how it slides: wheels against accelerometer.
+
+Accelerations are summed up to a velocity, which is right for a second or two, also while the
+robot sways into a turn. In the long run it has to agree with the wheels and a `Slip`, whose values
+are learned by that. So do Yi, Wang, Zhang, Song, Jayasuriya and Liu: "Kinematic modeling and
+analysis of skid-steered mobile robots with applications to low-cost inertial-measurement-unit-
+based motion estimation", IEEE Transactions on Robotics 25, 2009.
+"""
+
+import numpy as np
+
+from husky_driver.drive.kalman import Kalman
+from husky_driver.drive.slip import Slip
+from husky_driver.motion import ImuReading, Odometry
+
+AHEAD, LEFT, ADDED_AHEAD, ADDED_LEFT, PIVOT, ONWARD, OUTWARD = range(7)
+
+# Standard deviations, in the order of the states: m/s, m/s2 by the IMU, and as in Slip.
+_AT_START = (0.02, 0.02, 0.01, 0.01, 0.1, 0.02, 0.07)
+_IN_A_SECOND = np.array((0.003, 0.003, 0.0003, 0.0003, 0.003, 0.001, 0.003))
+_STEADY_M_S = 0.01  # how far the truth is from wheels and `Slip`
+_SWAY_SEC = 0.2  # and how much more for each m/s2 and rad/s2 of the last moments
+_MOMENT_SEC = 0.1
+
+
+class VelocityFilter:
+    """Estimates the speeds forwards and to the left, m/s."""
+
+    def __init__(self, slip: Slip) -> None:
+        self._kalman = Kalman((0.0, 0.0, 0.0, 0.0, *slip.ground), _AT_START)
+        self._transition = np.eye(7)
+        self._smooth = 0.0, 0.0  # the speed of the wheels and the yaw rate of a moment ago
+        self._sway = 0.0  # how fast they change, m/s2 and rad/s2
+
+    @property
+    def velocity(self) -> tuple[float, float]:
+        ahead, left = self._kalman.values[:2].tolist()
+        return ahead, left
+
+    @property
+    def ground(self) -> tuple[float, float, float]:
+        """The values of a `Slip` that were learned."""
+        pivot, onward, outward = self._kalman.values[PIVOT:].tolist()
+        return pivot, onward, outward
+
+    def restart(self, velocity: tuple[float, float]) -> None:
+        """Go on from a velocity that is known otherwise; what was learned stays."""
+        covariance = self._kalman.covariance
+        self._kalman.values[:2] = velocity
+        covariance[:2] = covariance[:, :2] = 0.0
+        covariance[AHEAD, AHEAD] = covariance[LEFT, LEFT] = _AT_START[AHEAD] ** 2
+
+    def update(self, before: Odometry, reading: ImuReading, odometry: Odometry) -> None:
+        """Take a reading, the mean of what was felt since the odometry before."""
+        period_sec = odometry.time_sec - before.time_sec
+        mean_rad_s = (before.yaw_rate_rad_s + odometry.yaw_rate_rad_s) / 2
+        self._predict(period_sec, mean_rad_s, reading)
+        kalman, wheels, rate = self._kalman, odometry.speed_m_s, odometry.yaw_rate_rad_s
+        terms = np.array((1.0, 0.0, 0.0, 0.0, -rate, -wheels * abs(rate), 0.0))
+        deviation = self._deviation_m_s(odometry, period_sec)
+        kalman.correct(terms, wheels, deviation)
+        ahead, bend = float(kalman.values[AHEAD]), rate * abs(rate)
+        # left + outward * ahead * bend = 0, near the values of now
+        outward = float(kalman.values[OUTWARD])
+        terms = np.array((outward * bend, 1.0, 0.0, 0.0, 0.0, 0.0, ahead * bend))
+        kalman.correct(terms, outward * ahead * bend, deviation)
+
+    def _deviation_m_s(self, odometry: Odometry, period_sec: float) -> float:
+        """Return how far the truth may be from the wheels: more while speed and turn change."""
+        speed, rate = self._smooth
+        change = odometry.speed_m_s - speed, odometry.yaw_rate_rad_s - rate
+        share = min(period_sec / _MOMENT_SEC, 1.0)
+        self._smooth = speed + share * change[0], rate + share * change[1]
+        kept = self._sway * (1.0 - share / 2.0)
+        self._sway = max((abs(change[0]) + abs(change[1])) / _MOMENT_SEC, kept)
+        return _STEADY_M_S + _SWAY_SEC * self._sway
+
+    def _predict(self, period_sec: float, rate: float, reading: ImuReading) -> None:
+        values, turn = self._kalman.values, self._transition
+        ahead, left, added_ahead, added_left = values[:4].tolist()
+        values[AHEAD] += (reading.forward_m_s2 - added_ahead + left * rate) * period_sec
+        values[LEFT] += (reading.left_m_s2 - added_left - ahead * rate) * period_sec
+        turn[AHEAD, LEFT], turn[LEFT, AHEAD] = rate * period_sec, -rate * period_sec
+        turn[AHEAD, ADDED_AHEAD] = turn[LEFT, ADDED_LEFT] = -period_sec
+        self._kalman.grow(_IN_A_SECOND, period_sec, turn)

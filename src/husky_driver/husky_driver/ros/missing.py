@@ -1,0 +1,19 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Why no odometry comes that could be answered."""
+
+import os
+
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
+
+
+def what_is_missing(odometry: Subscription, commands: Publisher) -> str:
+    """Return who is not there, and what to look at."""
+    domain = os.environ.get('ROS_DOMAIN_ID', '0')
+    where = f'is the simulator running, with ROS_DOMAIN_ID={domain} as here?'
+    if odometry.get_publisher_count() == 0:
+        return f'nobody publishes {odometry.topic_name}; {where}'
+    if commands.get_subscription_count() == 0:
+        return f'nobody listens to {commands.topic_name}; {where}'
+    return f'{odometry.topic_name} is silent; is the simulation paused?'
