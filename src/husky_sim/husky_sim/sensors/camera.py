@@ -6,6 +6,7 @@ The camera on the top plate, drawn off the screen with EGL or OSMesa.
 All calls of OpenGL must come from the thread that draws first.
 """
 
+from functools import partial
 import math
 from typing import Any
 
@@ -23,10 +24,19 @@ _SEEN_GROUPS = (0, 1, 2)  # group 3 holds the collision shapes of the robots
 class Camera:
     """Draws the view from one robot."""
 
-    def __init__(self, name: str, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def __init__(
+        self,
+        name: str,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        *,
+        setting: str = 'camera_rate_hz',
+        off: str = '0',
+    ) -> None:
         """
         Make sure that drawing is possible.
 
+        :param setting: what asks for pictures, and with which value it does not.
         :raises SettingError: if there is neither EGL nor OSMesa.
         """
         self._model = model
@@ -37,7 +47,8 @@ class Camera:
         self._viewport = mujoco.MjrRect(0, 0, WIDTH, HEIGHT)
         self._pixels = np.zeros((HEIGHT, WIDTH, 3), dtype=np.uint8)
         self._drawing: tuple[Any, ...] | None = None
-        _new_context().free()
+        self._new_context = partial(_new_context, setting, off)
+        self._new_context().free()
 
     @property
     def focal_length_px(self) -> float:
@@ -65,7 +76,7 @@ class Camera:
         return self._pixels[::-1]
 
     def _begin(self) -> tuple[Any, ...]:
-        context = _new_context()
+        context = self._new_context()
         context.make_current()
         scene = mujoco.MjvScene(self._model, maxgeom=5000)
         options = mujoco.MjvOption()
@@ -82,7 +93,7 @@ class Camera:
             self._drawing = None
 
 
-def _new_context() -> Any:
+def _new_context(setting: str, off: str) -> Any:
     problems = []
     for platform in ('mujoco.egl', 'mujoco.osmesa'):
         try:  # to import one of these loads its library, and fails where there is none
@@ -94,6 +105,6 @@ def _new_context() -> Any:
         except Exception as error:  # drivers, or their absence, raise many types
             problems.append(f'{platform}: {" ".join(str(error).split())}')
     raise SettingError(
-        f'camera_rate_hz: no picture can be drawn here ({"; ".join(problems)}); install EGL '
-        '(libegl1 and libgl1-mesa-dri) or set camera_rate_hz to 0'
+        f'{setting}: no picture can be drawn here ({"; ".join(problems)}); install EGL '
+        f'(libegl1 and libgl1-mesa-dri) or set {setting} to {off}'
     )

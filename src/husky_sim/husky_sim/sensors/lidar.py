@@ -43,17 +43,29 @@ class Lidar:
     """Scans what stands around one robot."""
 
     def __init__(
-        self, name: str, model: mujoco.MjModel, data: mujoco.MjData, noise: Noise | None
+        self,
+        name: str,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        noise: Noise | None,
+        *,
+        beams: int = BEAMS,
     ) -> None:
+        """
+        Prepare.
+
+        :param beams: fewer than the scanner's are as evenly over the same angle, and cost less.
+        """
         # A copy, for its groups of geoms: they say here what beams can reach.
         self._model = copy.copy(model)
         self._data = data
         self._without_box = np.isin(model.geom_type, _WITHOUT_BOX)
         self._base = model.body(f'{name}/base_link').id
-        angles = -HALF_ANGLE_RAD + ANGLE_INCREMENT_RAD * np.arange(BEAMS)
-        self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(BEAMS)], axis=1)
-        self._hits = np.zeros(BEAMS, dtype=np.int32)
-        self._distances = np.zeros(BEAMS)
+        apart_rad = 2.0 * HALF_ANGLE_RAD / max(beams - 1, 1)
+        angles = -HALF_ANGLE_RAD + apart_rad * np.arange(beams)
+        self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(beams)], axis=1)
+        self._hits = np.zeros(beams, dtype=np.int32)
+        self._distances = np.zeros(beams)
         self._noise = noise
 
     def scan(self, state: RobotState, period_sec: float) -> npt.NDArray[np.float32]:
@@ -78,7 +90,7 @@ class Lidar:
             self._hits,
             self._distances,
             None,
-            BEAMS,
+            len(self._beams),
             RANGE_MAX_M,
         )
         ranges = self._distances
@@ -95,13 +107,15 @@ class Lidar:
         In the playpen that is nine geoms of ten, and four tenths of the time of all beams.
         """
         data, boxes = self._data, self._model.geom_aabb
-        axes = normal @ data.geom_xmat.reshape(-1, 3, 3)
-        middle_m = (data.geom_xpos - origin) @ normal + (axes * boxes[:, :3]).sum(axis=1)
-        half_m = (np.abs(axes) * boxes[:, 3:]).sum(axis=1) + _SLACK_M
+        # einsum: of so few numbers a product of matrices, or a sum, takes twice as long.
+        axes = np.einsum('i,nij->nj', normal, data.geom_xmat.reshape(-1, 3, 3))
+        middle_m = (data.geom_xpos - origin) @ normal
+        middle_m += np.einsum('nj,nj->n', axes, boxes[:, :3])
+        half_m = np.einsum('nj,nj->n', np.abs(axes), boxes[:, 3:]) + _SLACK_M
         out: npt.NDArray[np.bool_] = (np.abs(middle_m) > half_m) & ~self._without_box
         return out
 
 
-def new_noise(seed: list[int]) -> Noise:
+def new_noise(seed: list[int], beams: int = BEAMS) -> Noise:
     """Make the noise of a scanner."""
-    return Noise(BEAMS, deviation=DEVIATION_M, drift=0.0, seed=seed)
+    return Noise(beams, deviation=DEVIATION_M, drift=0.0, seed=seed)
