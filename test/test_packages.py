@@ -36,6 +36,7 @@ LAYERS = (
     ('husky_runtime',),
     ('husky_driver', 'husky_sim'),
     ('husky_view', 'husky_grader'),
+    ('husky_gym',),
 )
 # What rosdep (github.com/ros/rosdistro, rosdep/python.yaml) and pip call otherwise than Python.
 MODULES = {'python3-yaml': 'yaml', 'PyYAML': 'yaml', 'resvg-py': 'resvg_py'}

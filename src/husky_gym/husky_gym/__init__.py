@@ -1,0 +1,11 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulated Husky as an environment of Gymnasium; to import this registers it.
+
+Gymnasium calls modules by themselves, too: `gymnasium.make('husky_gym:HuskyPlaypen-v0')`.
+"""
+
+import gymnasium
+
+gymnasium.register(id='HuskyPlaypen-v0', entry_point='husky_gym.environment:HuskyPlaypen')

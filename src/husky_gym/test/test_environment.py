@@ -1,0 +1,187 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The environment keeps Gymnasium's rules, and its rewards are the grader's score."""
+
+from collections.abc import Callable
+import math
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+from gymnasium.utils.env_checker import check_env
+from husky_course.record import read_run
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+from husky_grader.run.in_process import drive_route
+from husky_grader.scoring import judge
+import numpy as np
+import pytest
+
+Env = gymnasium.Env[Any, Any]
+Make = Callable[..., Env]
+DriveEpisode = Callable[[Env], tuple[float, bool, bool, dict[str, Any]]]
+
+
+def go(env: Env, *action: float) -> tuple[float, bool, bool, dict[str, Any]]:
+    """Give one action until the episode is over; return the sum of rewards, and how it ended."""
+    worth, ended, cut, info = 0.0, False, False, dict[str, Any]()
+    while not ended and not cut:
+        seen, reward, ended, cut, info = env.step(np.array(action))
+        assert seen in env.observation_space
+        worth += float(reward)
+    return worth, ended, cut, info
+
+
+@pytest.mark.parametrize('settings', [{}, {'laser_beams': 0, 'frame_skip': 5, 'noise': True}])
+def test_gymnasium_finds_nothing_wrong(make: Make, settings: dict[str, Any]) -> None:
+    check_env(make(**settings).unwrapped, skip_render_check=True)
+
+
+def test_the_lab_s_driver_drives_as_without_gymnasium(
+    make: Make, courses: Path, drive_episode: DriveEpisode
+) -> None:
+    route = plan_route(load_course(courses / 'straight.yaml'))
+    record, _ = drive_route(route)
+    env = make(course=str(courses / 'straight.yaml'))
+    worth, ended, cut, info = drive_episode(env)
+    assert (ended, cut, info['passed'], info['reasons']) == (True, False, True, ())
+    assert worth == pytest.approx(info['score'])
+    assert info['score'] == judge(read_run(record), route).score
+    # Bit for bit, until the episode is over; the driver's own ends when it is content.
+    rows = np.array(env.unwrapped._rows).reshape(-1, 11)  # type: ignore[attr-defined]
+    assert len(rows) > 100
+    assert rows.tobytes() == record.rows[: len(rows), 0].tobytes()
+
+
+def test_backwards_and_round_corners_the_path_is_followed(
+    make: Make, tmp_path: Path, drive_episode: DriveEpisode
+) -> None:
+    course = tmp_path / 'back.yaml'
+    course.write_text(
+        'corners: sharp\nspeed: 0.8\n'
+        'waypoints: [[0, 0], [1, 0], [1, -1], {x: 1, y: -0.3, reverse: true, speed: 0.3}]\n'
+    )
+    env = make(course=str(course), laser_beams=0)
+    seen, _ = env.reset()
+    assert seen['asked_speed'] == pytest.approx(0.8)
+    assert seen['path_left'] == pytest.approx(2.7, abs=0.01)
+    # Around the corner of the first metre: the fourth place is at 0.8 m, the tenth at 2 m.
+    assert seen['path'][[3, 9]].tolist() == [
+        pytest.approx([0.8, 0.0], abs=0.01),
+        pytest.approx([1.0, -1.0], abs=0.01),
+    ]
+    worth, ended, _, info = drive_episode(env)
+    seen = env.unwrapped._observation()  # type: ignore[attr-defined]
+    assert (ended, info['passed']) == (True, True)
+    assert worth == pytest.approx(info['score'])
+    assert worth > 90.0
+    assert seen['asked_speed'] == pytest.approx(-0.3)
+    assert seen['path_left'] < 0.25
+
+
+def test_a_touch_ends_an_episode_and_costs_what_it_costs(make: Make, tmp_path: Path) -> None:
+    course = tmp_path / 'through.yaml'  # the barrier
+    course.write_text('waypoints: [[0, 0], [1, 0], [4.5, 0]]\n')
+    env = make(course=str(course), laser_beams=0)
+    env.reset()
+    worth, ended, cut, info = go(env, 0.8, 0.0)
+    assert (ended, cut, info['passed']) == (True, False, False)
+    assert info['parts']['collisions'] == 0.65
+    assert 0.0 < info['score'] < 50.0
+    assert worth == pytest.approx(info['score'])
+    assert any('touched' in reason for reason in info['reasons'])
+
+
+def test_who_is_lost_or_out_of_time_is_told_so(make: Make) -> None:
+    env = make(laser_beams=0, lost_m=0.5)
+    env.reset()
+    worth, ended, cut, info = go(env, -0.5, 0.0)
+    assert (ended, cut) == (True, False)
+    assert worth == pytest.approx(info['score'], abs=1e-9)
+    env = make(laser_beams=0, time_limit_sec=1.0, frame_skip=3)
+    env.reset()
+    worth, ended, cut, info = go(env, 0.0, 0.0)
+    assert (ended, cut, worth) == (False, True, 0.0)
+    assert info['time_sec'] == pytest.approx(1.0, abs=0.06)
+    with pytest.raises(RuntimeError, match=r'the episode is over.*call reset\(\)'):
+        env.step(np.zeros(2))
+
+
+def test_progress_is_rewarded_at_once(make: Make) -> None:
+    env = make(laser_beams=0)
+    env.reset()
+    env.unwrapped.step(np.array([0.0, -0.4]))
+    turned = [float(env.step(np.array([0.0, -0.4]))[1]) for _ in range(60)]
+    driven = [float(env.step(np.array([0.6, 0.0]))[1]) for _ in range(60)]
+    assert sum(driven) > 1.0 > abs(sum(turned))
+    assert sum(reward > 0.0 for reward in driven) > 40
+
+
+BAD_ACTIONS = [
+    [math.nan, 0.0],
+    [0.0, math.inf],
+    [0.5],
+    [[0.5, 0.5]],
+    [0.1, 0.2, 0.3],
+    'ahead',
+    None,
+]
+
+
+@pytest.mark.parametrize('action', BAD_ACTIONS, ids=repr)
+def test_a_bad_action_is_refused_in_one_line(make: Make, action: Any) -> None:
+    env = make(laser_beams=0)
+    env.reset()
+    with pytest.raises(ValueError, match='allowed are two finite numbers') as refused:
+        env.step(np.array(action) if isinstance(action, list) else action)
+    assert '\n' not in str(refused.value)
+    assert env.step(np.zeros(2))[0] in env.observation_space
+
+
+@pytest.mark.parametrize(
+    ('settings', 'message'),
+    [
+        ({'slip': 'ice'}, "slip='ice': allowed is one of ideal, asphalt, gravel"),
+        ({'frame_skip': 0}, 'frame_skip=0: allowed is a whole number from 1 to 50'),
+        ({'laser_beams': 721}, 'laser_beams=721: allowed is a whole number from 0 to 720'),
+        ({'laser_beams': 1}, 'laser_beams=1: allowed is 0, none, or from 2 to 720'),
+        ({'laser_rate_hz': 0}, 'laser_rate_hz=0: allowed is a number from 0.1 to 50'),
+        ({'noise': 'much'}, "noise='much': allowed is true or false"),
+        ({'course': 'none.yaml'}, 'none.yaml: no such file'),
+        ({'world': 'none.xml'}, "world='none.xml': no such file"),
+        ({'start_x': -8.0, 'start_y': -10.0}, 'would start inside jersey_barrier'),
+        ({'render_mode': 'human'}, "render_mode='human': allowed is rgb_array or None"),
+    ],
+)
+def test_a_bad_setting_is_refused(settings: dict[str, Any], message: str) -> None:
+    from husky_gym.environment import HuskyPlaypen
+
+    with pytest.raises(ValueError, match=r'\S') as refused:
+        HuskyPlaypen(**settings)
+    assert message in str(refused.value)
+    assert '\n' not in str(refused.value)
+
+
+def test_reset_knows_no_options(make: Make) -> None:
+    with pytest.raises(ValueError, match='reset knows none; give settings to make'):
+        make(laser_beams=0).reset(options={'course': 'other.yaml'})
+
+
+def test_the_camera_draws_or_says_what_is_missing(make: Make) -> None:
+    env = make(render_mode='rgb_array', laser_beams=0, frame_skip=5)
+    assert env.metadata['render_fps'] == 10
+    env.reset()
+    try:
+        before = env.render()
+    except RuntimeError as error:
+        assert 'install EGL' in str(error)
+        assert 'set render_mode to None' in str(error)
+        return
+    assert isinstance(before, np.ndarray)
+    assert before.shape == (480, 640, 3)
+    assert before.dtype == np.uint8
+    for _ in range(10):
+        env.step(np.array([0.0, 1.0]))
+    after = env.render()
+    assert isinstance(after, np.ndarray)
+    assert np.abs(after.astype(int) - before).mean() > 1.0
