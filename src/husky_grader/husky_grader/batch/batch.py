@@ -11,9 +11,10 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import as_completed, Future
 from contextlib import contextmanager
 from dataclasses import dataclass
-import os
 from pathlib import Path
 import shutil
+
+from husky_runtime.processors import usable_processors
 
 from husky_grader.batch.dask_cluster import (
     ADDRESS,
@@ -116,7 +117,7 @@ class Batch:
                     outcome_from_cluster,
                 )
         else:
-            count = how.jobs or len(os.sched_getaffinity(0))
+            count = how.jobs or usable_processors()
             with workers(min(count, most)) as pool:
                 yield (
                     lambda job, folder, _key: start(pool, job, folder, how.stalled_cpu_sec),
