@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import math
+import os
 from typing import Any
 
 from husky_runtime.settings import Setting, setting, settings_of
@@ -42,7 +43,9 @@ class EnvironmentSettings:
 
     def __post_init__(self) -> None:
         for each in settings_of(type(self)):
-            value = each.checked(getattr(self, each.name), _refused)
+            given = getattr(self, each.name)
+            given = os.fspath(given) if isinstance(given, os.PathLike) else given
+            value = each.checked(given, _refused)
             if each.has_range and not each.low <= value <= each.high:
                 raise _refused(each, value)
             object.__setattr__(self, each.name, value)

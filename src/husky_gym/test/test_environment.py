@@ -5,6 +5,8 @@
 from collections.abc import Callable
 import math
 from pathlib import Path
+import subprocess
+import sys
 from typing import Any
 
 import gymnasium
@@ -61,7 +63,7 @@ def test_backwards_and_round_corners_the_path_is_followed(
         'corners: sharp\nspeed: 0.8\n'
         'waypoints: [[0, 0], [1, 0], [1, -1], {x: 1, y: -0.3, reverse: true, speed: 0.3}]\n'
     )
-    env = make(course=str(course), laser_beams=0)
+    env = make(course=course, laser_beams=0)
     seen, _ = env.reset()
     assert seen['asked_speed'] == pytest.approx(0.8)
     assert seen['path_left'] == pytest.approx(2.7, abs=0.01)
@@ -160,6 +162,12 @@ def test_a_bad_setting_is_refused(settings: dict[str, Any], message: str) -> Non
         HuskyPlaypen(**settings)
     assert message in str(refused.value)
     assert '\n' not in str(refused.value)
+
+
+def test_without_gymnasium_it_says_how_to_get_it() -> None:
+    program = 'import sys\nsys.modules["gymnasium"] = None\nimport husky_gym'
+    done = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+    assert '-r requirements/gym.in` installs it' in done.stderr.splitlines()[-1]
 
 
 def test_reset_knows_no_options(make: Make) -> None:
