@@ -58,7 +58,7 @@ def test_a_drive_is_the_same_and_all_of_it_ends(
     elsewhere: dict[str, str], short_course: Path, tmp_path: Path
 ) -> None:
     report = tmp_path / 'report'
-    words = ('drive', short_course, '--fast', '--no-view', '--report', report)
+    words = ('drive', short_course, '--fast', '--no-open', '--report', report)
     done = run(elsewhere, ROOT / 'lab', *words)
     assert done.returncode == 0, done.stdout + done.stderr
     assert 'Traceback' not in done.stderr
@@ -66,7 +66,7 @@ def test_a_drive_is_the_same_and_all_of_it_ends(
     same = read_run(drive_route(plan_route(load_course(short_course)))[0])
     assert told['trajectory_sha256'] == same.trajectory_sha256
     seen = {int(file.name): file.read_text() for file in (tmp_path / 'seen').iterdir()}
-    for program in ('drive', 'husky_sim', 'follow_path'):
+    for program in ('drive', 'husky_sim', 'view', 'follow_path'):
         assert any(f'/{program}' in command for command in seen.values()), (program, seen)
     assert [number for number in seen if Path(f'/proc/{number}').exists()] == []
 
