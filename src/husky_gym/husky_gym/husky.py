@@ -34,7 +34,7 @@ class Husky:
         self._config = SimulationConfig(
             world=settings.world or str(default_worlds() / 'playpen.xml'),
             robots=(self.start,),
-            ground=GroundConfig(slip=settings.slip),
+            ground=GroundConfig(floor=settings.floor),
             sensors=SensorConfig(noise=settings.noise, navsat_rate_hz=0.0),
         )
         try:

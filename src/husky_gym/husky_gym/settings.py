@@ -11,7 +11,7 @@ from typing import Any
 
 from husky_runtime.settings import Setting, setting, settings_of
 
-from husky_sim.config import GRIP
+from husky_sim.config import FLOORS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +29,7 @@ class EnvironmentSettings:
     random_start_rad: float = setting(
         0.0, 'And turned to either side by up to so much.', 0.0, math.pi
     )
-    slip: str = setting('asphalt', 'How the tyres grip.', choices=GRIP)
+    floor: str = setting('asphalt', 'How the tyres grip.', choices=FLOORS)
     noise: bool = setting(False, 'Noise of IMU and laser, another one in each episode.')
     frame_skip: int = setting(1, 'Control periods of 20 ms a step.', 1, 50)
     laser_beams: int = setting(90, "Of the robot's 720, evenly over 270 degrees; 0: none.", 0, 720)

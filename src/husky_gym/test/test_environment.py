@@ -143,7 +143,7 @@ def test_a_bad_action_is_refused_in_one_line(make: Make, action: Any) -> None:
 @pytest.mark.parametrize(
     ('settings', 'message'),
     [
-        ({'slip': 'ice'}, "slip='ice': allowed is one of ideal, asphalt, gravel"),
+        ({'floor': 'ice'}, "floor='ice': allowed is one of ideal, asphalt, concrete_indoor"),
         ({'frame_skip': 0}, 'frame_skip=0: allowed is a whole number from 1 to 50'),
         ({'laser_beams': 721}, 'laser_beams=721: allowed is a whole number from 0 to 720'),
         ({'laser_beams': 1}, 'laser_beams=1: allowed is 0, none, or from 2 to 720'),

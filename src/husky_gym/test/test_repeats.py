@@ -102,7 +102,7 @@ def test_where_no_start_is_free_that_is_said(make: Make, monkeypatch: pytest.Mon
 def test_the_ground_and_the_noise_are_those_asked_for(make: Make) -> None:
     digests = [
         episode_digest(make(laser_beams=0, **more), 1)
-        for more in ({}, {'slip': 'gravel'}, {'noise': True}, {})
+        for more in ({}, {'floor': 'gravel'}, {'noise': True}, {})
     ]
     assert len(set(digests)) == 3
     assert digests[0] == digests[3]
