@@ -223,3 +223,22 @@ def test_many_threads_at_once_neither_hang_nor_mix_up() -> None:
     assert done.returncode == 0, done.stderr
     counts = json.loads(done.stdout)
     assert all(counts.get(what) for what in ('heard', 'called', 'acted', 'feedback')), counts
+
+
+def test_a_message_loads_no_generator_and_the_generator_is_there() -> None:
+    program = (
+        'import sys\n'
+        'from rclpy.serialization import serialize_message\n'
+        'from std_msgs.msg import String\n'
+        'serialize_message(String())\n'
+        'print([name for name in ("em", "lark", "rosidl_pycommon") if name in sys.modules])\n'
+        'import rosidl_generator_py\n'
+        'print(hasattr(rosidl_generator_py, "generate_cpp"))\n'
+        'print(rosidl_generator_py.generate_py.__module__)\n'
+    )
+    done = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+    assert done.stdout.split('\n')[:3] == [
+        '[]',
+        'False',
+        'rosidl_generator_py.generate_py_impl',
+    ], done.stderr
