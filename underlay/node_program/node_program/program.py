@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import gc
 import signal
 import sys
 import threading
@@ -62,6 +63,7 @@ def run_node(
     except Exception as error:  # rcl raises many types for wrong arguments
         rclpy.try_shutdown()
         return refuse(' '.join(str(error).split()))
+    gc.freeze()  # no collection, nor the last one, looks at what is there now
     try:
         return use(node, stop)
     finally:

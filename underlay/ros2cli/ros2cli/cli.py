@@ -9,6 +9,7 @@ import argparse
 from collections.abc import Callable, Iterator, Sequence
 import contextlib
 import functools
+import gc
 import os
 import signal
 import sys
@@ -22,6 +23,8 @@ from ros2cli.errors import CommandError
 
 _Build = Callable[[Sequence[str]], argparse.ArgumentParser]
 _BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
+# Between two collections of garbage: more than any verb loads, and 700 is Python's own.
+_OBJECTS = 100_000
 
 
 def main(
@@ -38,10 +41,13 @@ def main(
     build = functools.partial(
         build_parser, script_name=script_name, description=description, extension=extension
     )
+    gc.set_threshold(_OBJECTS)
     try:
         return _run(build, list(sys.argv[1:] if argv is None else argv))
     except KeyboardInterrupt:
         return int(signal.SIGINT)
+    finally:
+        gc.freeze()  # the last collection, of a process that ends, would look at all there is
 
 
 @contextlib.contextmanager
