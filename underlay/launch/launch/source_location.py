@@ -9,11 +9,11 @@ import sys
 from types import FrameType, TracebackType
 
 _OWN_FOLDERS = tuple(
-    f'{Path(__file__).resolve().parent.parent / name}/'
+    f'{Path(__file__).parent.parent / name}/'
     for name in ('launch', 'launch_ros', 'launch_xml', 'launch_yaml')
 )
 # What a command line tool builds around a launch file has no place worth naming.
-_TOOLS_FOLDER = f'{Path(__file__).resolve().parent.parent / "ros2cli"}/'
+_TOOLS_FOLDER = f'{Path(__file__).parent.parent / "ros2cli"}/'
 _launch_files: set[str] = set()
 
 
