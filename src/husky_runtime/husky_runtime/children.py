@@ -102,7 +102,7 @@ class ChildProcess:
         if self._end is not None:
             end = select.poll()  # one for each thread that waits
             end.register(self._end, select.POLLIN)
-            end.poll(timeout_sec * 1000)
+            end.poll(max(timeout_sec, 0.0) * 1000)  # below 0 it would wait for ever
             return self.exit_code is not None
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._child.wait(timeout_sec)
