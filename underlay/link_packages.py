@@ -14,10 +14,10 @@ import sysconfig
 
 
 def main() -> None:
-    underlay, site = Path(__file__).absolute().parent, Path(sysconfig.get_path('purelib'))
+    underlay, site = Path(__file__).resolve().parent, Path(sysconfig.get_path('purelib'))
     for path in sorted(site.glob('*.pth')):
         project = Path(path.read_text(encoding='utf-8').strip())
-        if project.parent != underlay:
+        if project.resolve().parent != underlay:
             continue
         for package in (file.parent for file in project.glob('*/__init__.py')):
             link = site / package.name
