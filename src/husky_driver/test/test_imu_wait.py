@@ -11,7 +11,7 @@ import pytest
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Make the wall's time a number that a test sets."""
     now = [100.0]
-    monkeypatch.setattr(imu_wait.time, 'monotonic', lambda: now[0])
+    monkeypatch.setattr('husky_driver.ros.imu_wait.monotonic', lambda: now[0])
     return now
 
 

@@ -8,7 +8,7 @@ however late a reading is delivered, an odometry is answered when the readings h
 for it. Where a robot has no IMU, or has lost a reading, nobody waits for long.
 """
 
-import time
+from time import monotonic
 
 from husky_driver.drive.motion_estimate import LAG_SEC, SAME_SEC
 
@@ -42,7 +42,7 @@ class ImuWait:
         if come or self._given_up:
             self._since_sec = None
             return False
-        now = time.monotonic()
+        now = monotonic()
         self._since_sec = now if self._since_sec is None else self._since_sec
         limit_sec = (START_SEC if publishers else NOBODY_SEC) if first else LOST_SEC
         self._given_up = now - self._since_sec > limit_sec
