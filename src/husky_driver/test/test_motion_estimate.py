@@ -138,6 +138,14 @@ def test_lost_and_broken_readings_are_passed_over() -> None:
     assert estimate.slip.pivot_m == pytest.approx(GRASS.pivot_m, abs=0.05)
 
 
+def test_a_gap_in_odometry_costs_nothing_of_the_way() -> None:
+    moments = list(drive(Slip(), 12.0))
+    kept = moments[:150] + moments[190:]  # 0.8 s at 0.6 m/s
+    _, found = follow(kept)
+    assert math.dist(*((each.x_m, each.y_m) for each in (moments[150], moments[190]))) > 0.4
+    assert max(map(off_m, kept, found)) < 0.03
+
+
 def test_after_a_reset_the_ground_is_known_and_the_place_is_new() -> None:
     moments = list(drive(GRASS, 20.0))
     estimate, _ = follow(moments)

@@ -143,12 +143,20 @@ class MotionEstimate:
     def _moved(
         self, place: _Place, before: Odometry, odometry: Odometry, velocity: tuple[float, float]
     ) -> _Place:
-        period = min(max(odometry.time_sec - before.time_sec, 0.0), MAX_PERIOD_SEC)
-        ahead, left = velocity[0] * period, velocity[1] * period
-        begin = self._yaw_rad(before)
-        yaw = begin + math.remainder(self._yaw_rad(odometry) - begin, math.tau) / 2
+        """Go on as odometry does, in the right direction, and as the robot slides beside that."""
+        period_sec = min(max(odometry.time_sec - before.time_sec, 0.0), MAX_PERIOD_SEC)
+        rate = (before.yaw_rate_rad_s + odometry.yaw_rate_rad_s) / 2
+        turn = self._heading.error_rad(rate)
+        dx, dy = odometry.x_m - before.x_m, odometry.y_m - before.y_m
+        ahead = (velocity[0] - (before.speed_m_s + odometry.speed_m_s) / 2) * period_sec
+        left = velocity[1] * period_sec
+        turned = math.remainder(odometry.yaw_rad - before.yaw_rad, math.tau)
+        yaw = before.yaw_rad + turned / 2 + turn
         cos, sin = math.cos(yaw), math.sin(yaw)
-        return _Place(place.x_m + cos * ahead - sin * left, place.y_m + sin * ahead + cos * left)
+        return _Place(
+            place.x_m + math.cos(turn) * dx - math.sin(turn) * dy + cos * ahead - sin * left,
+            place.y_m + math.sin(turn) * dx + math.cos(turn) * dy + sin * ahead + cos * left,
+        )
 
     def _learn_gain(self, motion: _Motion, period_sec: float) -> None:
         """Learn from the last three tenths of a second, if the command has hardly changed."""
