@@ -98,7 +98,7 @@ class RouteFollower:
 
     def _turn_rate(self, error_rad: float) -> float:
         braking = math.sqrt(2 * LIMITS.turn_braking_rad_s2 * abs(error_rad))
-        rate = min(LIMITS.turn_yaw_rate_rad_s, braking, 5.0 * abs(error_rad) + 0.01)
+        rate = min(LIMITS.turn_yaw_rate_rad_s, braking, 6.0 * abs(error_rad) + 0.01)
         return math.copysign(rate, error_rad)
 
     def _stand(self) -> Generator[Command, None, None]:

@@ -123,13 +123,18 @@ def _light(server: viser.ViserServer) -> None:
 
 
 def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
-    """Give planes the colour of ground: mjviser draws them white with a grid."""
+    """
+    Give planes the colour of ground: mjviser draws them white with a grid.
+
+    It also draws those that no picture of MuJoCo shows, such as what treads stand on.
+    """
     for geom in range(model.ngeom):
         if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE:
             continue
         body = model.body(model.geom_bodyid[geom]).name
         grid = server.scene.get_handle_by_name(f'{FIXED}{body}/{model.geom(geom).name}')
         if isinstance(grid, viser.GridHandle):
+            grid.visible = bool(model.geom_rgba[geom, 3])
             grid.plane_color = GROUND
             grid.plane_opacity = 1.0
             grid.cell_color = grid.section_color = GROUND_LINES
