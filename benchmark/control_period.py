@@ -25,11 +25,12 @@ from husky_driver.drive import Drive
 from husky_driver.motion import Odometry
 from husky_sim.recording import RunRecorder
 from husky_sim.robot.broadphase import BroadPhase
+from husky_sim.robot.tyres import Tyres
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds, load_world
 import mujoco
 
-from husky_sim.config import CONTROL_PERIOD_SEC, SimulationConfig
+from husky_sim.config import CONTROL_PERIOD_SEC, FLOORS, SimulationConfig
 
 WORLD = str(default_worlds() / 'playpen.xml')
 COURSE = Path(__file__).parents[1] / 'config' / 'waypoints' / 'central_barrier.yaml'
@@ -49,6 +50,7 @@ class Bare:
     def __init__(self) -> None:
         self._world = load_world(WORLD, [RobotStart()])
         self._data = mujoco.MjData(self._world.model)
+        Tyres(self._world, self._data, FLOORS['asphalt'])  # the contacts of the simulator
         self._data.ctrl[:] = 2.0, 4.0, 2.0, 4.0
         self.period_us: list[float] = []
 

@@ -25,10 +25,13 @@ from husky_course.waypoints import load_course
 from husky_driver.drive import Drive
 from husky_driver.motion import Odometry
 from husky_grader.playpen import default_course
+from husky_sim.robot.tyres import Tyres
 from husky_sim.world import load_world
 import mujoco
 import numpy as np
 import numpy.typing as npt
+
+from husky_sim.config import FLOORS
 
 Array = npt.NDArray[np.float64]
 KINDS: dict[str, dict[str, Any]] = {
@@ -63,6 +66,8 @@ class Kind:
             is_over = ended or cut
         self.score = info['score']
         self._world = load_world(simulation.config.world, [RobotStart()], visual=False)
+        # The contacts of the simulator.
+        Tyres(self._world, mujoco.MjData(self._world.model), FLOORS['asphalt'])
 
     def episode_us(self) -> float:
         """Return the CPU time of a control period in the environment."""

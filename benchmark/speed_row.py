@@ -22,6 +22,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist
 from husky_course.robot import RobotStart
+from husky_sim.robot.tyres import Tyres
 from husky_sim.ros import node as husky_sim_node
 from husky_sim.ros.node import SimulatorNode
 from husky_sim.world import default_worlds, load_world
@@ -32,6 +33,8 @@ from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
+
+from husky_sim.config import FLOORS
 
 SPEED_M_S, YAW_RATE_RAD_S = 0.5, -0.5
 CONTROL = 'husky_velocity_controller/cmd_vel'
@@ -87,6 +90,7 @@ def bare(count: int, seconds: float) -> float:
     """Step the model and nothing else."""
     world = load_world(str(default_worlds() / 'playpen.xml'), robots_named(count))
     model, data = world.model, mujoco.MjData(world.model)
+    Tyres(world, data, FLOORS['asphalt'])  # the contacts of the simulator
     track_m, radius_m = 0.5708 * 1.875, 0.1651
     left = (SPEED_M_S - YAW_RATE_RAD_S * track_m / 2.0) / radius_m
     right = (SPEED_M_S + YAW_RATE_RAD_S * track_m / 2.0) / radius_m

@@ -156,6 +156,20 @@ def test_after_a_reset_the_ground_is_known_and_the_place_is_new() -> None:
     assert estimate.slip == learned
 
 
+@pytest.mark.parametrize(
+    ('speed', 'rate', 'outward'), [(0.5, 0.2, -1), (0.5, -0.2, 1), (-0.5, 0.2, 1)]
+)
+def test_in_a_bend_the_slip_is_onward_and_outward(speed: float, rate: float, outward: int) -> None:
+    ahead, left = Slip(0.0, 0.04, 0.1).velocity(Odometry(0.0, 0.0, 0.0, 0.0, speed, rate))
+    assert ahead == pytest.approx(speed * 1.008)
+    assert left == pytest.approx(outward * 0.1 * 0.504 * 0.04)
+
+
+@pytest.mark.parametrize(('speed', 'rate'), [(0.8, 0.0), (0.0, 1.5)])
+def test_straight_on_or_on_the_spot_nothing_is_added(speed: float, rate: float) -> None:
+    assert Slip().velocity(Odometry(0.0, 0.0, 0.0, 0.0, speed, rate)) == (speed, 0.0)
+
+
 @pytest.mark.parametrize('wish', [Command(0.5, 0.0), Command(0.0, 1.0), Command(-0.4, -0.6)])
 def test_a_command_is_what_makes_the_robot_do_as_wished(wish: Command) -> None:
     speed, rate = GRASS.command(wish)

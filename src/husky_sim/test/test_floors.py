@@ -90,6 +90,17 @@ def test_unequal_loads_carry_it_away_in_turns_and_let_it_rest(
     assert math.dist(place(robot), rest) < 0.0001
 
 
+def test_wheel_odometry_drifts_where_the_track_is_another(worlds: Path, drive: Drive) -> None:
+    def drift_m(floor: str) -> float:
+        simulation = on(worlds / 'empty.xml', floor)
+        robot = simulation.robots[0]
+        for leg in range(30):
+            drive(simulation, 0.8 * abs(math.sin(leg / 7)), math.sin(leg / 5), seconds=1.0)
+        return math.dist((robot.odometry.x, robot.odometry.y), place(robot))
+
+    assert drift_m('concrete_indoor') > 2.0 * drift_m('asphalt') > drift_m('ideal')
+
+
 def test_what_is_slippery_brakes_badly(worlds: Path, drive: Drive) -> None:
     ways_m = []
     for floor in ('asphalt', 'grass'):

@@ -167,6 +167,7 @@ def test_draw_square_resets_and_goes_to_its_corners(
     square.wait_for_text('New goal [7.544445 5.544445, 0.000000]')
     turtlesim.wait_for_text('Resetting turtlesim.')
     square.wait_for_text('Reached goal')
+    square.wait_for_text(', 1.570796]')
     goals = [re.findall(r'[-\d.]+', line.partition('New goal')[2]) for line in square.lines]
     x, _, theta = next(map(float, goal) for goal in reversed(goals) if goal)
     assert x == pytest.approx(7.5, abs=0.2)

@@ -22,7 +22,7 @@ from husky_driver.drive.velocity_filter import VelocityFilter
 from husky_driver.motion import Command, ImuReading, mean_reading, Odometry
 
 LAG_SEC = 0.1
-MAX_PERIOD_SEC = 0.1
+MAX_PERIOD_SEC = 0.15  # of odometry; it slides on for no longer than that in a gap
 SAME_SEC = 0.005  # a reading that is no later than so is of the moment of an odometry
 HELD_SEC = 0.1  # where readings are lost, the last counts for so long
 STEADY_RAD_S = 0.1  # least commanded turn that tells the gain, and the greatest change of it
@@ -81,10 +81,8 @@ class MotionEstimate:
         self._recent.append(_Motion(odometry, told.yaw_rate_rad_s))
         while self._recent[0].odometry.time_sec <= odometry.time_sec - LAG_SEC:
             self._settle(self._recent.popleft())
-        place, before = self._place, self._settled
-        for each, _ in self._recent:
-            place = self._moved(place, before, each, self._steady(before, each))
-            before = each
+        steady = self._steady(self._settled, odometry)
+        place = self._moved(self._place, self._settled, odometry, steady)
         return odometry._replace(
             x_m=place.x_m,
             y_m=place.y_m,

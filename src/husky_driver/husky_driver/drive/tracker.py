@@ -22,8 +22,8 @@ OFFSET_PER_M2 = 9.0  # natural frequency squared, 3 per metre
 HEADING_PER_M = 6.0  # twice the natural frequency: no overshoot
 MAX_OFFSET_M = 0.3  # a greater offset steers no harder
 MAX_INWARD_RAD = 0.3
-DELAY_SEC = 0.04  # from odometry to the wheels turning at the new speed
-PREVIEW_SEC = 0.08  # the curve's yaw rate is commanded this much ahead
+DELAY_SEC = 0.05  # from odometry to the wheels turning at the new speed
+PREVIEW_SEC = 0.1  # the curve's yaw rate is commanded this much ahead
 END_RATE_PER_S = 8.0  # speed over distance left, close to the end
 
 

@@ -10,6 +10,8 @@ analysis of skid-steered mobile robots with applications to low-cost inertial-me
 based motion estimation", IEEE Transactions on Robotics 25, 2009.
 """
 
+import math
+
 import numpy as np
 
 from husky_driver.drive.kalman import Kalman
@@ -81,8 +83,13 @@ class VelocityFilter:
     def _predict(self, period_sec: float, rate: float, reading: ImuReading) -> None:
         values, turn = self._kalman.values, self._transition
         ahead, left, added_ahead, added_left = values[:4].tolist()
-        values[AHEAD] += (reading.forward_m_s2 - added_ahead + left * rate) * period_sec
-        values[LEFT] += (reading.left_m_s2 - added_left - ahead * rate) * period_sec
-        turn[AHEAD, LEFT], turn[LEFT, AHEAD] = rate * period_sec, -rate * period_sec
+        # Into the axes of now, in which the reading is; in those of before, a bend would brake.
+        cos, sin = math.cos(rate * period_sec), math.sin(rate * period_sec)
+        gained_ahead = (reading.forward_m_s2 - added_ahead) * period_sec
+        gained_left = (reading.left_m_s2 - added_left) * period_sec
+        values[AHEAD] = cos * ahead + sin * left + gained_ahead
+        values[LEFT] = cos * left - sin * ahead + gained_left
+        turn[AHEAD, LEFT], turn[LEFT, AHEAD] = sin, -sin
+        turn[AHEAD, AHEAD] = turn[LEFT, LEFT] = cos
         turn[AHEAD, ADDED_AHEAD] = turn[LEFT, ADDED_LEFT] = -period_sec
         self._kalman.grow(_IN_A_SECOND, period_sec, turn)
