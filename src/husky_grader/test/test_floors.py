@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The driver learns a floor on the way: nothing tells it which one, or where the robot is."""
 
+import math
 from pathlib import Path
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_grader.run.in_process import Conditions, drive_route
+from husky_driver.drive import Drive
+from husky_driver.motion import Command, Odometry
+from husky_grader.run.in_process import Conditions, drive_route, drive_with
 from husky_grader.scoring.report import judge
 import pytest
 
@@ -37,3 +40,22 @@ def test_the_same_seed_gives_the_same_run_and_another_one_another() -> None:
     ]
     assert hashes[0] == hashes[1]
     assert len(set(hashes)) == 3
+
+
+def test_a_drive_that_goes_over_to_another_file_knows_its_place() -> None:
+    first = Drive(plan_route(load_course(COURSES / 'central_barrier.yaml')))
+    then = Drive(plan_route(load_course(COURSES / 'slalom.yaml')), before=first)
+    places = []
+
+    def controller(odometry: Odometry) -> Command | None:
+        drive = first if odometry.time_sec < 12.0 else then
+        command = drive.step(odometry)
+        assert drive.odometry is not None
+        places.append((drive.odometry[1:3], odometry[1:3]))
+        return command if drive is first else None
+
+    conditions = Conditions(floor='grass', realistic=True, seed=3)
+    drive_with(controller, on_imu=first.add_imu, conditions=conditions)
+    (before, _), (now, by_odometry) = places[-2:]
+    assert math.dist(before, now) < 0.03  # in 0.02 s
+    assert math.dist(before, by_odometry) > 0.06

@@ -7,7 +7,7 @@ from pathlib import Path
 import time
 from typing import Any
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from husky_course.record import Disturbance, read_record
 from husky_sim.ros.interference import GONE
 from husky_sim.ros.node import SimulatorNode
@@ -26,13 +26,17 @@ COMMANDS = '/husky_velocity_controller/cmd_vel'
 class Run:
     """A simulator that keeps a record, and other nodes, each a participant of its own."""
 
-    def __init__(self, domain_id: int, record: Path) -> None:
+    def __init__(self, domain_id: int, record: Path, **settings: str) -> None:
         self._domain_id = domain_id
         self._record = record
         self._contexts: list[Context] = []
         self._others: list[Node] = []
         self._simulator = SimulatorNode(
-            context=self._context(), parameter_overrides=[Parameter('record', value=str(record))]
+            context=self._context(),
+            parameter_overrides=[
+                Parameter(name, value=value)
+                for name, value in {'record': str(record), **settings}.items()
+            ],
         )
         self._executor = SingleThreadedExecutor(context=self._contexts[0])
         self._executor.add_node(self._simulator)
@@ -136,6 +140,21 @@ def test_whoever_speaks_for_the_simulator_is_named(run: Run, kind: Any, topic: s
     run.spin(seconds=0.3)
     (found,) = run.disturbances()
     assert (found.topic, found.nodes) == (topic, ('/liar',))
+
+
+def test_a_driver_on_each_topic_of_commands_is_named(domain_id: int, tmp_path: Path) -> None:
+    run = Run(domain_id, tmp_path / 'run.record', interface='clearpath')
+    try:
+        run.publisher(TwistStamped, '/cmd_vel', 'driver')
+        run.spin(seconds=0.5)
+        run.publisher(Twist, COMMANDS, 'stranger')
+        run.spin(seconds=0.3)
+        (found,) = run.disturbances()
+        assert found.nodes == ('/driver', '/stranger')
+        assert set(found.topic.split(' and ')) == {'/cmd_vel', COMMANDS}
+        assert found.time_sec > 0.5
+    finally:
+        run.close()
 
 
 def test_two_nodes_of_one_name_are_two(run: Run) -> None:

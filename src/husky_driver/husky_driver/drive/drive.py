@@ -28,14 +28,16 @@ MAX_PERIOD_SEC = 0.1
 class Drive:
     """Follows a course; give it every odometry message once, in order."""
 
-    def __init__(self, route: Route, *, slip: bool = True) -> None:
+    def __init__(self, route: Route, *, slip: bool = True, before: 'Drive | None' = None) -> None:
         """
         Prepare; the course begins at the first odometry.
 
         :param slip: count with what odometry misses; false where it misses nothing.
+        :param before: the drive that this one goes on from, on the same ground.
         """
         self._planned = route
-        self._estimate = MotionEstimate() if slip else None
+        known = before._estimate if before else None
+        self._estimate: MotionEstimate | None = (known or MotionEstimate()) if slip else None
         self.finished = False
         self.failure = ''  # why it gave up, if it did
         self.implausible = ''  # why a message cannot be true, if one could not

@@ -27,20 +27,24 @@ _PARTICIPANT = 12
 
 @dataclass(frozen=True)
 class Interference:
-    """More nodes than one publish a topic."""
+    """More nodes than one publish a topic, or topics that command one robot."""
 
-    topic: str
+    topics: tuple[str, ...]
     nodes: tuple[str, ...]  # full names; of two with one name, that name twice
     ours: bool  # whether the simulator alone should publish it
+
+    @property
+    def where(self) -> str:
+        return ' and '.join(self.topics)
 
     def __str__(self) -> str:
         names = ' and '.join(self.nodes)
         many = len(self.nodes) > 1
         if self.ours:
-            what = f'{names} also publish{"" if many else "es"} {self.topic}, which the simulator'
+            what = f'{names} also publish{"" if many else "es"} {self.where}, which the simulator'
             return f'{what} publishes: end what is not of this run, or use another ROS_DOMAIN_ID'
         return (
-            f'{names} all publish {self.topic}: the robot gets a mixture of their commands; '
+            f'{names} all publish {self.where}: the robot gets a mixture of their commands; '
             'end all but one, or use another ROS_DOMAIN_ID'
         )
 
@@ -50,7 +54,7 @@ class InterferenceWatch:
     Finds other publishers.
 
     :param ours: topics that this node alone should publish.
-    :param commands: topics that one node should publish.
+    :param commands: for each robot, the topics that one node should publish.
     :param on_found: called once for each topic and set of nodes.
     """
 
@@ -59,13 +63,13 @@ class InterferenceWatch:
         node: Node,
         *,
         ours: Sequence[str],
-        commands: Sequence[str],
+        commands: Sequence[Sequence[str]],
         on_found: Callable[[Interference], None],
     ) -> None:
         self._node = node
         self._topics = [
-            *((topic, True) for topic in ours),
-            *((topic, False) for topic in commands),
+            *(((topic,), True) for topic in ours),
+            *((tuple(topics), False) for topics in commands),
         ]
         self._on_found = on_found
         self._found: set[Interference] = set()
@@ -79,10 +83,11 @@ class InterferenceWatch:
 
         :param at_the_end: do not wait for names.
         """
-        for topic, ours in self._topics:
-            if self._node.count_publishers(topic) < 2:
+        for topics, ours in self._topics:
+            spoken = tuple(topic for topic in topics if self._node.count_publishers(topic))
+            if sum(map(self._node.count_publishers, spoken)) < 2:
                 continue
-            others = _publishers(self._node, topic)
+            others = _publishers(self._node, spoken)
             nameless = any(_UNKNOWN in name for name in others)
             if nameless and self._nameless_checks < NAME_CHECKS and not at_the_end:
                 self._nameless_checks += 1
@@ -91,14 +96,15 @@ class InterferenceWatch:
             if ours and me in others:
                 others.remove(me)
             if len(others) > (not ours):
-                self._report(Interference(topic, tuple(others), ours))
+                self._report(Interference(spoken, tuple(others), ours))
 
     def check_commands(self, topic: str, publishers: int) -> None:
         """Check a topic of commands when DDS reports so many publishers at once."""
         self.check()
-        known = any(found.topic == topic for found in self._found)
+        known = any(topic in found.topics for found in self._found)
         if publishers > 1 and not known and self._node.count_publishers(topic) < publishers:
-            self._report(Interference(topic, (*_publishers(self._node, topic), GONE), ours=False))
+            there = _publishers(self._node, (topic,))
+            self._report(Interference((topic,), (*there, GONE), ours=False))
 
     def _report(self, found: Interference) -> None:
         if found not in self._found:
@@ -106,10 +112,11 @@ class InterferenceWatch:
             self._on_found(found)
 
 
-def _publishers(node: Node, topic: str) -> list[str]:
-    """Return the full name of every node that publishes a topic, once for each."""
+def _publishers(node: Node, topics: Sequence[str]) -> list[str]:
+    """Return the full name of every node that publishes one of the topics, once for each."""
     seen: dict[tuple[bytes, str], str] = {}
-    for info in node.get_publishers_info_by_topic(topic):
-        name = f'{info.node_namespace.rstrip("/")}/{info.node_name}'
-        seen[bytes(info.endpoint_gid[:_PARTICIPANT]), name] = name
+    for topic in topics:
+        for info in node.get_publishers_info_by_topic(topic):
+            name = f'{info.node_namespace.rstrip("/")}/{info.node_name}'
+            seen[bytes(info.endpoint_gid[:_PARTICIPANT]), name] = name
     return sorted(seen.values())

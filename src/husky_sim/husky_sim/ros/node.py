@@ -191,7 +191,7 @@ class SimulatorNode(Node):
     def _on_interference(self, found: Interference) -> None:
         self.get_logger().error(str(found))
         if self._record is not None:
-            self._record.disturb(self.simulation.time_sec, found.topic, found.nodes)
+            self._record.disturb(self.simulation.time_sec, found.where, found.nodes)
 
     def _on_diagnose(self) -> None:
         waits = self.paused or self._run.lockstep

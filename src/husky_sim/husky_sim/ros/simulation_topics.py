@@ -64,9 +64,9 @@ class SimulationTopics:
         return [self._clock.topic_name, *odometry]
 
     @property
-    def command_topics(self) -> list[str]:
-        """Return the topics that one driver a robot should publish."""
-        return [topic for topics in self._robots for topic in topics.commands.topics]
+    def command_topics(self) -> list[list[str]]:
+        """Return, for each robot, the topics that one driver should publish."""
+        return [topics.commands.topics for topics in self._robots]
 
     @property
     def has_drivers(self) -> bool:
