@@ -21,6 +21,8 @@ from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
 
+from husky_grader import drive_command
+
 ROOT = Path(__file__).resolve().parent.parent
 LAB = str(ROOT / 'lab')
 FAST_DDS = 'rmw_fastrtps_cpp'  # the only one that puts messages into shared memory
@@ -105,12 +107,33 @@ def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_pa
     course = tmp_path / 'waypoints.yaml'  # which is where the report keeps the one driven
     through = 'speed: 0.6\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n'
     course.write_text(through)
-    run = drive(processes, tmp_path, '--fast', 'waypoints.yaml')
+    run = drive(processes, tmp_path, '--fast', 'waypoints.yaml', 'floor:=grass')
     assert run.wait(timeout_sec=60.0) == 1, run.output
     assert course.read_text() == through
     report = json.loads((tmp_path / 'report.json').read_text())
     assert not report['completed']
     assert report['collisions'][0]['obstacle'] == 'jersey_barrier_15'
+    assert report['conditions'] == ['floor:=grass']
+
+
+@pytest.mark.parametrize(
+    ('words', 'said'),
+    [
+        (['floor:=gras'], 'floor:=gras is not allowed; allowed: one of ideal, asphalt'),
+        (['flor:=grass'], 'flor does not exist; did you mean floor? allowed: floor, interface'),
+        (['seed:=-1'], 'allowed: a whole number from 0'),
+        (['realistic:=[1'], 'realistic:=[1 is not allowed; allowed: true or false'),
+        (['a.yaml', 'floor:=grass', 'b.yaml'], 'a.yaml and b.yaml: give one waypoint file'),
+    ],
+)
+def test_drive_refuses_what_it_does_not_know(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        drive_command.main(words)
+    assert ended.value.code == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
 
 
 def test_drive_refuses_a_bad_file_before_anything_starts(

@@ -3,7 +3,7 @@
 """Drive a path through the playpen with real nodes, in a domain of their own; then a report."""
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 import os
 from pathlib import Path
@@ -17,22 +17,36 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
 from husky_runtime.domains import DomainError, OwnDomain
+from husky_runtime.settings import refuse_unknown, Setting, settings_of
 from husky_runtime.supervise import run_to_end
 from husky_runtime.web_address import AddressError
+import yaml
 
 from husky_grader import check, grade
 from husky_grader.drive_page import drive_page, DrivePage, is_at_a_terminal
 from husky_grader.grade_class import NOT_PASSED, PASSED
 from husky_grader.playpen import default_course
 from husky_grader.report.files import keep_course
+from husky_sim.config import BodyConfig, GroundConfig, RunConfig, SensorConfig
 
 START_SEC = 90.0  # simulated time in which the driver must have begun
+CONDITIONS = {
+    each.name: each
+    for kind in (GroundConfig, BodyConfig, SensorConfig, RunConfig)
+    for each in settings_of(kind)
+    if each.name in ('floor', 'interface', 'realistic', 'seed')
+}
+"""Settings of the simulator that a drive may be given."""
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(prog='lab drive', description=__doc__, allow_abbrev=False)
     parser.add_argument(
-        'file', metavar='FILE', nargs='?', help='waypoint file to drive (central_barrier.yaml)'
+        'words',
+        metavar='FILE | NAME:=VALUE',
+        nargs='*',
+        help='waypoint file to drive (central_barrier.yaml), and settings of the simulator: '
+        + '; '.join(f'{name}, {each.allowed}' for name, each in CONDITIONS.items()),
     )
     parser.add_argument('--waypoints', metavar='FILE', help='the same, by its name')
     parser.add_argument(
@@ -52,9 +66,15 @@ def _parser() -> argparse.ArgumentParser:
 def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(args)
-    if options.file and options.waypoints:
-        parser.error(f'{options.file} and {options.waypoints}: give one waypoint file')
-    options.waypoints = options.file or options.waypoints or str(default_course())
+    files = [word for word in options.words if ':=' not in word]
+    files += [options.waypoints] if options.waypoints else []
+    if len(files) > 1:
+        parser.error(f'{" and ".join(files)}: give one waypoint file')
+    options.waypoints = files[0] if files else str(default_course())
+    try:
+        conditions = _conditions(word for word in options.words if ':=' in word)
+    except ValueError as error:
+        parser.error(str(error))
     # A course through a barrier may be driven: what happens is in the report.
     if status := check.main(['--warn', options.waypoints]):
         return status
@@ -67,7 +87,7 @@ def main(args: Sequence[str] | None = None) -> int:
             if page is not None:
                 page.open()
             begun = time.monotonic()
-            run_to_end(_launch(options, folder, page), environment)
+            run_to_end(_launch(options, folder, page, conditions), environment)
         wall_time_sec = time.monotonic() - begun
     except (OSError, DomainError, AddressError) as error:
         print(f'lab drive: {error}', file=sys.stderr)
@@ -80,6 +100,27 @@ def main(args: Sequence[str] | None = None) -> int:
     if status in (PASSED, NOT_PASSED):
         _show_again(folder, page)
     return status
+
+
+def _conditions(words: Iterable[str]) -> dict[str, str]:
+    """
+    Read NAME:=VALUE as `ros2 launch` does.
+
+    :raises ValueError: naming what is allowed.
+    """
+    given = dict(word.split(':=', 1) for word in words)
+    refuse_unknown(given, CONDITIONS)
+    for name, text in given.items():
+        try:
+            value = yaml.safe_load(text)
+        except yaml.YAMLError:
+            value = text
+        CONDITIONS[name].checked(value, _refusal)
+    return given
+
+
+def _refusal(setting: Setting, given: object) -> ValueError:
+    return ValueError(f'{setting.name}:={given} is not allowed; allowed: {setting.allowed}')
 
 
 def _show_again(folder: Path, page: DrivePage | None) -> None:
@@ -111,9 +152,15 @@ def _environment(stack: ExitStack, page: DrivePage | None) -> Mapping[str, str]:
     return {**environment, 'ROS_DOMAIN_ID': str(number)}
 
 
-def _launch(options: argparse.Namespace, folder: Path, page: DrivePage | None) -> list[str]:
+def _launch(
+    options: argparse.Namespace,
+    folder: Path,
+    page: DrivePage | None,
+    conditions: Mapping[str, str],
+) -> list[str]:
     course = load_course(options.waypoints)
     arguments = {
+        **conditions,
         # The driver keeps a limit of its own; this one ends a run whose driver hangs.
         'waypoints': str(Path(options.waypoints).resolve()),
         'limit_sec': f'{plan_route(course).limit_sec + START_SEC:.1f}',

@@ -10,6 +10,7 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
+from husky_grader.report.files import summary
 from husky_grader.run.in_process import Conditions, drive_route, drive_with
 from husky_grader.scoring.report import judge
 import pytest
@@ -24,6 +25,8 @@ def test_the_barrier_is_rounded_with_noise_and_unequal_loads(floor: str) -> None
     report = judge(read_run(record), route)
     assert (drive.failure, report.collisions) == ('', ())
     assert report.completed
+    assert report.conditions == (f'floor:={floor}', 'seed:=7', 'realistic:=true')
+    assert f'  driven with floor:={floor} seed:=7 realistic:=true\n' in summary(report)
     assert report.cross_track_rms_m < 0.05
 
 

@@ -158,13 +158,7 @@ class HuskyPlaypen(gymnasium.Env[Observation, Action]):
     def _report(self) -> Report:
         simulation = self.husky.simulation
         self._touches += simulation.unreported_touches()
-        return report_on(
-            self._rows,
-            self._touches,
-            self.planned,
-            world=simulation.config.world,
-            start=self.husky.start,
-        )
+        return report_on(self._rows, self._touches, self.planned, simulation.config)
 
     def _observation(self) -> Observation:
         return self._sight.observe(self.husky.estimate, self.husky.ranges)

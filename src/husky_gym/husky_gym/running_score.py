@@ -11,7 +11,6 @@ from collections.abc import Sequence
 import math
 
 from husky_course.record import Collision, COLUMNS, read_run, Record
-from husky_course.robot import RobotStart
 from husky_course.route import Route
 from husky_grader.scoring import (
     COLLISION_FACTOR,
@@ -27,6 +26,7 @@ from husky_grader.scoring import (
 import numpy as np
 
 from husky_gym.progress import Progress
+from husky_sim.config import SimulationConfig
 
 
 class RunningScore:
@@ -64,9 +64,7 @@ def report_on(
     rows: Sequence[float],
     collisions: Sequence[Collision],
     route: Route,
-    *,
-    world: str,
-    start: RobotStart,
+    config: SimulationConfig,
 ) -> Report:
     """
     Return what the grader says of an episode.
@@ -75,8 +73,9 @@ def report_on(
     """
     record = Record(
         file='',
-        world=world,
-        robots=(start,),
+        world=config.world,
+        conditions=config.conditions,
+        robots=config.robots,
         obstacles=(),  # the clearance, which is no part of the score, is left out
         rows=np.array(rows).reshape(-1, 1, len(COLUMNS)),
         collisions=tuple(collisions),

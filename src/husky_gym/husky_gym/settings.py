@@ -45,16 +45,10 @@ class EnvironmentSettings:
         for each in settings_of(type(self)):
             given = getattr(self, each.name)
             given = os.fspath(given) if isinstance(given, os.PathLike) else given
-            value = each.checked(given, _refused)
-            if each.has_range and not each.low <= value <= each.high:
-                raise _refused(each, value)
-            object.__setattr__(self, each.name, value)
+            object.__setattr__(self, each.name, each.checked(given, _refused))
         if self.laser_beams == 1:
             raise ValueError('laser_beams=1: allowed is 0, none, or from 2 to 720')
 
 
 def _refused(which: Setting, given: Any) -> ValueError:
-    allowed = which.allowed
-    if isinstance(which.default, int) and which.has_range:
-        allowed = f'a whole number from {which.low:g} to {which.high:g}'
-    return ValueError(f'{which.name}={given!r}: allowed is {allowed}')
+    return ValueError(f'{which.name}={given!r}: allowed is {which.allowed}')

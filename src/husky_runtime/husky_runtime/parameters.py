@@ -4,7 +4,7 @@
 
 from typing import Any, TypeVar
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
 from husky_runtime.settings import Refuse, Setting, settings_of
@@ -32,13 +32,23 @@ def _declare(node: Node, setting: Setting, refuse: Refuse) -> Any:
         setting.name, value, ParameterDescriptor(dynamic_typing=True)
     ).value
     checked = setting.checked(given, refuse)
-    limits = FloatingPointRange(from_value=setting.low, to_value=setting.high)
     descriptor = ParameterDescriptor(
         description=setting.description,
         read_only=not setting.changeable,
         dynamic_typing=True,
-        floating_point_range=[limits] if setting.has_range else [],
+        **_range(setting),
     )
     # Only now: rclpy would refuse a value out of range in its own words.
     node.set_descriptor(setting.name, descriptor)
     return checked
+
+
+def _range(setting: Setting) -> dict[str, Any]:
+    """Return the part of a descriptor that says which numbers are allowed."""
+    if not setting.has_range:
+        return {}
+    if isinstance(setting.default, int):
+        limits = IntegerRange(from_value=int(setting.low), to_value=int(setting.high))
+        return {'integer_range': [limits]}
+    limits = FloatingPointRange(from_value=setting.low, to_value=setting.high)
+    return {'floating_point_range': [limits]}

@@ -41,7 +41,8 @@ class Setting:
         if self.choices:
             return f'one of {", ".join(self.choices)}'
         if self.has_range:
-            return f'a number from {self.low:g} to {self.high:g}'
+            whole = 'whole ' if isinstance(self.default, int) else ''
+            return f'a {whole}number from {self.low:.10g} to {self.high:.10g}'
         return _KINDS.get(type(self.default), 'numbers')
 
     def checked(self, given: Any, refuse: Refuse) -> Any:
@@ -56,8 +57,10 @@ class Setting:
             if not isinstance(given, Iterable) or not all(map(_is_number, given)):
                 raise refuse(self, given)
             return tuple(map(float, given))
+        if self.has_range and not (_is_number(given) and self.low <= given <= self.high):
+            raise refuse(self, given)
         if isinstance(self.default, float):
-            if not _is_number(given) or (self.has_range and not self.low <= given <= self.high):
+            if not _is_number(given):
                 raise refuse(self, given)
             return float(given)
         if type(given) is not type(self.default) or (self.choices and given not in self.choices):

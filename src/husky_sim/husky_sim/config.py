@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from husky_course.robot import RobotStart
-from husky_runtime.settings import setting
+from husky_runtime.settings import setting, settings_of
 
 CONTROL_PERIOD_SEC = 0.02
 """The velocity controller, the odometry and the IMU all run at 50 Hz."""
@@ -87,7 +87,7 @@ class SensorConfig:
     """Which sensors measure, how often, and how well."""
 
     noise: bool = setting(False, "Noise and drift of the original's sensors.")
-    seed: int = setting(0, 'Seed of the noise; the same seed gives the same run.')
+    seed: int = setting(0, 'Seed of the noise; the same seed gives the same run.', 0, 2**32 - 1)
     localization: bool = setting(
         True, 'Publish odometry/filtered; false where robot_localization does.'
     )
@@ -140,6 +140,27 @@ class SimulationConfig:
     ground: GroundConfig = field(default_factory=GroundConfig)
     sensors: SensorConfig = field(default_factory=SensorConfig)
     body: BodyConfig = field(default_factory=BodyConfig)
+
+    @property
+    def conditions(self) -> tuple[str, ...]:
+        """Return what a run depends on and is not the default, as launch arguments say it."""
+        parts = (self.drive, self.ground, self.sensors, self.body)
+        given = [
+            (each.name, getattr(part, each.name))
+            for part in parts
+            for each in settings_of(part)
+            if each.name not in self._unfelt and getattr(part, each.name) != each.default
+        ]
+        return tuple(
+            f'{name}:={str(value).lower() if isinstance(value, bool) else value}'
+            for name, value in given
+        )
+
+    @property
+    def _unfelt(self) -> tuple[str, ...]:
+        """Return the settings that move no robot."""
+        seed = () if self.has_noise else ('seed',)
+        return 'localization', 'navsat_rate_hz', 'lidar_rate_hz', 'camera_rate_hz', *seed
 
     @property
     def has_noise(self) -> bool:

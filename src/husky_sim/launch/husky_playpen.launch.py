@@ -39,6 +39,7 @@ ARGUMENTS = (
     ('interface', 'lab', str, "lab, or clearpath: a real A200's topics beside the lab's"),
     ('floor', 'asphalt', str, 'ideal, asphalt, concrete_indoor, wet, gravel or grass'),
     ('realistic', 'false', bool, "true: the original's noise and unequal loads"),
+    ('seed', '0', int, 'Seed of the noise; the same seed gives the same run'),
     ('limit_sec', '0.0', float, 'End after so much simulated time, s; 0.0: never'),
     ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )

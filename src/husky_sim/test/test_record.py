@@ -195,8 +195,8 @@ def test_what_no_husky_can_have_done_is_refused(
     assert '\n' not in str(refused.value)
 
 
-HEADER = {'format': 'husky_playpen_record', 'version': 2, 'columns': COLUMNS, 'world': 'w'}
-HEADER |= {'control_period_sec': 0.02, 'obstacles': [], 'robots': []}
+HEADER = {'format': 'husky_playpen_record', 'version': 3, 'columns': COLUMNS, 'world': 'w'}
+HEADER |= {'control_period_sec': 0.02, 'obstacles': [], 'robots': [], 'conditions': []}
 ROBOT = {'name': 'husky', 'start': [0.0, 0.0, 0.0]}
 
 
@@ -207,7 +207,7 @@ ROBOT = {'name': 'husky', 'start': [0.0, 0.0, 0.0]}
         (b'waypoints: [[0, 0], [1, 0]]\n' * 9, 'no block of a record at byte 0'),
         (block_of([]), 'not the record of a run'),
         (block_of({'format': 'another'}), 'not the record of a run'),
-        (block_of({**HEADER, 'version': 1}), 'version 1, but only 2'),
+        (block_of({**HEADER, 'version': 1}), 'version 1, but only 3'),
         (block_of(HEADER), 'no robots'),
         (block_of({**HEADER, 'columns': ['x']}), 'other columns'),
         (block_of({**HEADER, 'robots': [ROBOT]}), 'no entries'),
@@ -242,6 +242,8 @@ OBSTACLE = {'name': 'cone', 'x': 0.0, 'y': 0.0, 'yaw': 0.0, 'size': [0.2]}
         ({'robots': [{'name': 'husky', 'start': [0.0, 0.0, 1e300]}]}, r'yaw 1e\+300'),
         ({'robots': [{'name': '\ud800', 'start': [0.0, 0.0, 0.0]}]}, 'surrogates not allowed'),
         ({'world': '\udcff'}, 'surrogates not allowed'),
+        ({'conditions': [7]}, '7 instead of a text'),
+        ({'conditions': ['x:=' + 9999 * 'y']}, 'conditions longer than 1000'),
         ({'obstacles': [{**OBSTACLE, 'y': -1e7}]}, 'a place at'),
         ({'obstacles': [{**OBSTACLE, 'size': [0.0]}]}, 'an obstacle of the size'),
         ({'obstacles': [{**OBSTACLE, 'size': [1.0, -1.0]}]}, 'an obstacle of the size'),

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The record of a run, read and checked; its format is described where it is written."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
@@ -22,6 +22,8 @@ MAX_SPEED_M_S = 3.0
 MAX_POSITION_M = 1e6
 MAX_YAW_RAD = 1e6
 MAX_OBSTACLES = 10_000
+MAX_CONDITIONS = 1000
+"""Characters of all of them."""
 
 _BOUNDS = {
     **dict.fromkeys(('x', 'y', 'odom_x', 'odom_y'), MAX_POSITION_M),
@@ -44,6 +46,7 @@ class Record:
     robots: tuple[RobotStart, ...]
     obstacles: tuple[Outline, ...]
     rows: Array  # (periods + 1, robots, len(COLUMNS))
+    conditions: tuple[str, ...] = ()  # settings that are not the default, as NAME:=VALUE
     collisions: tuple[Collision, ...] = ()
     pushed: Mapping[str, Push] = field(default_factory=dict)  # by the name of the body
     disturbances: tuple[Disturbance, ...] = ()
@@ -184,6 +187,7 @@ def _read(file: str, blocks: Iterator[Any], size: int) -> Record:
     return Record(
         file=file,
         world=_text(header['world']),
+        conditions=_conditions(header['conditions']),
         robots=robots,
         obstacles=_outlines(header['obstacles']),
         rows=rows,
@@ -319,6 +323,13 @@ def _number(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError(f'{value!r:.40} instead of a number')
     return float(value)
+
+
+def _conditions(given: Iterable[Any]) -> tuple[str, ...]:
+    conditions = tuple(map(_text, given))
+    if sum(map(len, conditions)) > MAX_CONDITIONS:
+        raise ValueError(f'conditions longer than {MAX_CONDITIONS} characters')
+    return conditions
 
 
 def _text(value: Any) -> str:

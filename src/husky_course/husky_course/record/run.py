@@ -29,6 +29,7 @@ class Run(Columns[Array]):
 
     begin: int  # the entry at which the drive began
     start: Pose  # in the frame world
+    conditions: tuple[str, ...]  # settings that are not the default, as NAME:=VALUE
     collisions: tuple[Collision, ...]
     disturbances: tuple[Disturbance, ...]
     obstacles: tuple[Outline, ...]
@@ -76,6 +77,7 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         **table,
         begin=begin,
         start=start.pose,
+        conditions=record.conditions,
         collisions=tuple(touch for touch in collisions if touch.robot == start.name),
         disturbances=disturbances,
         obstacles=record.obstacles,

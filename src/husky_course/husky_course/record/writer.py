@@ -27,7 +27,7 @@ from husky_course.record.contents import Collision, COLUMNS, Disturbance, Row
 from husky_course.robot import RobotStart
 
 FORMAT = 'husky_playpen_record'
-VERSION = 2
+VERSION = 3
 FILE_NAME = 'run.record'
 BLOCK_PERIODS = 100  # two seconds of simulated time
 
@@ -42,6 +42,7 @@ class RecordWriter:
         path: str | Path,
         *,
         world: str,
+        conditions: Sequence[str],
         control_period_sec: float,
         robots: Sequence[RobotStart],
         obstacles: Sequence[Outline],
@@ -50,6 +51,7 @@ class RecordWriter:
         """
         Make the file, and its folder where there is none.
 
+        :param conditions: the settings that are not the default, as NAME:=VALUE.
         :param on_full: called with one line when nothing more can be written (a full disk), and
             the run goes on without; None: OSError is raised.
         :raises OSError: if the file cannot be made.
@@ -60,6 +62,7 @@ class RecordWriter:
             'format': FORMAT,
             'version': VERSION,
             'world': world,
+            'conditions': tuple(conditions),
             'control_period_sec': control_period_sec,
             'columns': COLUMNS,
             'robots': [

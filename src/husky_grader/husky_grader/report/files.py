@@ -27,7 +27,7 @@ JSON_KEYS = (
     *('collisions', 'disturbances'),
     *('cross_track_rms_m', 'cross_track_max_m', 'min_clearance_m', 'path_length_m', 'driven_m'),
     *('sim_time_sec', 'wall_time_sec', 'acceleration_rms_m_s2', 'yaw_acceleration_rms_rad_s2'),
-    *('trajectory_sha256', 'score', 'parts', 'reasons', 'ending', 'pace', 'printed'),
+    *('conditions', 'trajectory_sha256', 'score', 'parts', 'reasons', 'ending', 'pace', 'printed'),
 )
 
 
@@ -45,7 +45,7 @@ def is_report(content: object) -> bool:
     """Tell whether what was read has the shape of report.json."""
     if not isinstance(content, dict) or set(content) != set(JSON_KEYS):
         return False
-    lists = ('collisions', 'disturbances', 'parts', 'reasons')
+    lists = ('collisions', 'disturbances', 'parts', 'reasons', 'conditions')
     return (
         all(isinstance(content[key], list) for key in lists)
         and all(isinstance(reason, str) for reason in content['reasons'])
@@ -90,6 +90,8 @@ def summary(report: Report) -> str:
         f'  off the path {report.cross_track_rms_m:.3f} m RMS, '
         f'{report.cross_track_max_m:.3f} m at most{near}',
     ]
+    if report.conditions:
+        lines.append(f'  driven with {" ".join(report.conditions)}')
     lines += [
         f'  {part.name:<11} x {part.factor:.3f}  costs {part.cost_points:4.1f}: {part.why}'
         for part in report.parts

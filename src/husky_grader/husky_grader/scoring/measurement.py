@@ -46,6 +46,7 @@ class Measurement:
     wrong_way: float  # share of the way driven in the direction that was not asked for
     backwards_m: float  # driven backwards where forwards was asked for
     forwards_m: float  # driven forwards where backwards was asked for
+    conditions: tuple[str, ...]  # of the run: settings that are not the default
     trajectory_sha256: str
     begin: int  # first and last entry of the drive
     end: int
@@ -95,6 +96,7 @@ def measure(run: Run, route: Route, aligned: Alignment) -> Measurement:
         wrong_way=wrong_way,
         backwards_m=backwards_m,
         forwards_m=forwards_m,
+        conditions=run.conditions,
         trajectory_sha256=run.trajectory_sha256,
         begin=run.begin,
         end=end,

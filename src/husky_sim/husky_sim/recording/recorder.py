@@ -93,6 +93,7 @@ class RunRecorder:
         self._writer = RecordWriter(
             path,
             world=simulation.config.world,
+            conditions=simulation.config.conditions,
             control_period_sec=CONTROL_PERIOD_SEC,
             robots=simulation.world.robots,
             obstacles=simulation.world.obstacles,

@@ -86,7 +86,7 @@ class StampedCommands:
         stamp = message.header.stamp
         stamp_sec = stamp.sec + stamp.nanosec / 1e9
         age_sec = self._now_sec() - stamp_sec
-        if stamp_sec == 0.0:
+        if stamp_sec == 0.0 and age_sec > STAMP_TIMEOUT_SEC:
             self._logger.warning(
                 f'{self._name}: {COMMANDS} has no stamp: it counts as one of now', once=True
             )
