@@ -68,8 +68,8 @@ def mean_reading(readings: Sequence[ImuReading]) -> ImuReading:
     """Return the last reading, with the mean of all accelerations."""
     count = len(readings)
     return readings[-1]._replace(
-        forward_m_s2=sum(each.forward_m_s2 for each in readings) / count,
-        left_m_s2=sum(each.left_m_s2 for each in readings) / count,
+        forward_m_s2=math.fsum(each.forward_m_s2 for each in readings) / count,
+        left_m_s2=math.fsum(each.left_m_s2 for each in readings) / count,
     )
 
 

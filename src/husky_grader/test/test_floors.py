@@ -3,7 +3,10 @@
 """The driver learns a floor on the way: nothing tells it which one, or where the robot is."""
 
 import math
+import os
 from pathlib import Path
+import subprocess
+import sys
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
@@ -43,6 +46,25 @@ def test_the_same_seed_gives_the_same_run_and_another_one_another() -> None:
     ]
     assert hashes[0] == hashes[1]
     assert len(set(hashes)) == 3
+
+
+def test_the_cpu_that_numpy_computes_for_does_not_matter() -> None:
+    route = plan_route(load_course(COURSES / 'central_barrier.yaml'))
+    conditions = Conditions(floor='grass', realistic=True, seed=0)
+    here = judge(read_run(drive_route(route, conditions=conditions)[0]), route)
+    program = (
+        'from husky_course.record import read_run; from husky_course.route import plan_route; '
+        'from husky_course.waypoints import load_course; '
+        'from husky_grader.run.in_process import Conditions, drive_route; '
+        f'route = plan_route(load_course({str(COURSES / "central_barrier.yaml")!r})); '
+        f'print(read_run(drive_route(route, conditions={conditions})[0]).trajectory_sha256)'
+    )
+    # As on an old one: products of numpy's matrices have other last digits there.
+    old = {**os.environ, 'OPENBLAS_CORETYPE': 'Nehalem', 'PYTHONPATH': ':'.join(sys.path)}
+    there = subprocess.run(
+        [sys.executable, '-c', program], env=old, capture_output=True, text=True, timeout=60.0
+    )
+    assert there.stdout.split() == [here.trajectory_sha256], there.stderr
 
 
 def test_a_drive_that_goes_over_to_another_file_knows_its_place() -> None:

@@ -96,7 +96,7 @@ def smooth_curve(points: Sequence[Point], *, closed: bool = False) -> Curve:
     if len(points) < 2:
         raise ValueError(f'{len(points)} points: a curve needs at least 2')
     cubics = _cubics(points, closed)
-    chords = sum(math.hypot(sum(x) - x[0], sum(y) - y[0]) for x, y in cubics)
+    chords = math.fsum(map(_chord_m, cubics))
     step = max(STEP_M, chords / MAX_SAMPLES)
     curve = Curve([], [], [], [], [], [])
     for cubic in cubics:
@@ -145,11 +145,14 @@ def _cubic(p0: Point, p1: Point, p2: Point, p3: Point) -> Cubic:
     return axes[0], axes[1]
 
 
+def _chord_m(cubic: Cubic) -> float:
+    ax, ay = cubic
+    return math.hypot(ax[1] + ax[2] + ax[3], ay[1] + ay[2] + ay[3])
+
+
 def _extend(curve: Curve, cubic: Cubic, step: float) -> None:
     """Add the samples of the next piece."""
-    ax, ay = cubic
-    chord = math.hypot(ax[1] + ax[2] + ax[3], ay[1] + ay[2] + ay[3])
-    count = max(4, math.ceil(chord / step))
+    count = max(4, math.ceil(_chord_m(cubic) / step))
     if not curve.x:
         _append(curve, cubic, 0.0, 0.0)
         curve.knot_s.append(0.0)

@@ -33,7 +33,7 @@ class Route:
     @cached_property
     def length_m(self) -> float:
         """Length of the path."""
-        return sum(leg.curve.length_m for leg in self.legs)
+        return math.fsum(leg.curve.length_m for leg in self.legs)
 
     @cached_property
     def par_time_sec(self) -> float:
@@ -51,7 +51,7 @@ class Route:
     @cached_property
     def limit_sec(self) -> float:
         """How long it may take: three times what it needs, bends included, and 20 s."""
-        slowed = sum(_slowed_sec(leg) for leg in self.legs)
+        slowed = math.fsum(_slowed_sec(leg) for leg in self.legs)
         return LIMIT_FACTOR * (self.par_time_sec + slowed) + LIMIT_EXTRA_SEC
 
     def begun_at(self, place: Point) -> Route:
@@ -71,12 +71,14 @@ def _turn_sec(begin_rad: float, end_rad: float) -> float:
 
 def _asked_sec(leg: Leg) -> float:
     knots = leg.curve.knot_s
-    return sum((knots[i + 1] - knots[i]) / speed for i, speed in enumerate(leg.speeds_m_s))
+    return math.fsum((knots[i + 1] - knots[i]) / speed for i, speed in enumerate(leg.speeds_m_s))
 
 
 def _slowed_sec(leg: Leg) -> float:
     """Return how much longer a leg takes than at the asked speed, for its bends and its end."""
     s = leg.curve.s
     speeds = plan_speeds(leg.curve, leg.speeds_m_s)
-    planned = sum(2.0 * (s[i + 1] - s[i]) / (speeds[i] + speeds[i + 1]) for i in range(len(s) - 1))
+    planned = math.fsum(
+        2.0 * (s[i + 1] - s[i]) / (speeds[i] + speeds[i + 1]) for i in range(len(s) - 1)
+    )
     return max(planned - _asked_sec(leg), 0.0)

@@ -9,15 +9,13 @@ robot turns by what odometry is late, which its filter makes it.
 
 import math
 
-import numpy as np
-
 from husky_driver.drive.kalman import Kalman
 from husky_driver.motion import Odometry
 
 BETWEEN, DRIFTED, DRIFT, LATE = range(4)
 _LATE_SEC = 0.0125  # of `odometry/filtered`
 _AT_START = (10.0, 0.0, 0.005, 0.01)  # rad, rad, rad/s, s
-_IN_A_SECOND = np.array((0.0, 0.0003, 0.0001, 0.0))
+_IN_A_SECOND = (0.0, 0.0003, 0.0001, 0.0)
 _IMU_RAD = 0.008  # a sample of the IMU, of which a part is the same for some time
 
 
@@ -26,20 +24,20 @@ class HeadingFilter:
 
     def __init__(self) -> None:
         self._kalman = Kalman((0.0, 0.0, 0.0, _LATE_SEC), _AT_START)
-        self._transition = np.eye(4)
 
     def error_rad(self, rate_rad_s: float) -> float:
         """Return the error at a yaw rate."""
-        _, drifted, _, late_sec = self._kalman.values.tolist()
-        return float(drifted + late_sec * rate_rad_s)
+        values = self._kalman.values
+        return values[DRIFTED] + values[LATE] * rate_rad_s
 
     def update(self, period_sec: float, odometry: Odometry, imu_rad: float) -> None:
         """Take both headings at a moment, a period after those before."""
         values = self._kalman.values
         values[DRIFTED] += values[DRIFT] * period_sec
-        self._transition[DRIFTED, DRIFT] = period_sec
-        self._kalman.grow(_IN_A_SECOND, period_sec, self._transition)
+        passing = {DRIFTED: ((DRIFTED, 1.0), (DRIFT, period_sec))}
+        self._kalman.grow(_IN_A_SECOND, period_sec, passing)
         rate = odometry.yaw_rate_rad_s
-        known = float(values[BETWEEN]) + self.error_rad(rate)
+        known = values[BETWEEN] + self.error_rad(rate)
         news = math.remainder(imu_rad - odometry.yaw_rad - known, math.tau)
-        self._kalman.correct(np.array((1.0, 1.0, 0.0, rate)), known + news, _IMU_RAD)
+        terms = ((BETWEEN, 1.0), (DRIFTED, 1.0), (LATE, rate))
+        self._kalman.correct(terms, known + news, _IMU_RAD)

@@ -13,8 +13,6 @@ from collections import deque
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from husky_driver.drive.heading_filter import HeadingFilter
 from husky_driver.drive.kalman import Kalman
 from husky_driver.drive.slip import Slip
@@ -28,7 +26,7 @@ HELD_SEC = 0.1  # where readings are lost, the last counts for so long
 STEADY_RAD_S = 0.1  # least commanded turn that tells the gain, and the greatest change of it
 
 # Standard deviations of the gain, and of a yaw rate.
-_GAIN_AT_START, _GAIN_IN_A_SECOND = (0.2,), np.array((0.01,))
+_GAIN_AT_START, _GAIN_IN_A_SECOND = (0.2,), (0.01,)
 _RATE_RAD_S = 0.1
 _LONG = 15  # commands, in which the robot has come to turn steadily
 
@@ -168,5 +166,5 @@ class MotionEstimate:
         ):
             self._gain.grow(_GAIN_IN_A_SECOND, period_sec)
             of_late = (told[-1] + told[-2] + told[-3]) / 3
-            self._gain.correct(np.array([of_late]), rate, _RATE_RAD_S)
-            self.slip = self.slip._replace(yaw_gain=float(self._gain.values[0].clip(0.5, 1.5)))
+            self._gain.correct([(0, of_late)], rate, _RATE_RAD_S)
+            self.slip = self.slip._replace(yaw_gain=min(max(self._gain.values[0], 0.5), 1.5))

@@ -39,7 +39,7 @@ class RouteFollower:
         """Length of the path that is left, along the curve."""
         if self.tracker is None:
             return self.route.length_m
-        later = sum(leg.curve.length_m for leg in self.route.legs[self._leg_index + 1 :])
+        later = math.fsum(leg.curve.length_m for leg in self.route.legs[self._leg_index + 1 :])
         return self.tracker.remaining_m + later
 
     def command(self, odometry: Odometry, *, held: bool) -> Command | None:

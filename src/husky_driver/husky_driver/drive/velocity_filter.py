@@ -12,8 +12,6 @@ based motion estimation", IEEE Transactions on Robotics 25, 2009.
 
 import math
 
-import numpy as np
-
 from husky_driver.drive.kalman import Kalman
 from husky_driver.drive.slip import Slip
 from husky_driver.motion import ImuReading, Odometry
@@ -22,7 +20,7 @@ AHEAD, LEFT, ADDED_AHEAD, ADDED_LEFT, PIVOT, ONWARD, OUTWARD = range(7)
 
 # Standard deviations, in the order of the states: m/s, m/s2 by the IMU, and as in Slip.
 _AT_START = (0.02, 0.02, 0.01, 0.01, 0.1, 0.02, 0.07)
-_IN_A_SECOND = np.array((0.003, 0.003, 0.0003, 0.0003, 0.003, 0.001, 0.003))
+_IN_A_SECOND = (0.003, 0.003, 0.0003, 0.0003, 0.003, 0.001, 0.003)
 _STEADY_M_S = 0.01  # how far the truth is from wheels and `Slip`
 _SWAY_SEC = 0.2  # and how much more for each m/s2 and rad/s2 of the last moments
 _MOMENT_SEC = 0.1
@@ -33,27 +31,28 @@ class VelocityFilter:
 
     def __init__(self, slip: Slip) -> None:
         self._kalman = Kalman((0.0, 0.0, 0.0, 0.0, *slip.ground), _AT_START)
-        self._transition = np.eye(7)
         self._smooth = 0.0, 0.0  # the speed of the wheels and the yaw rate of a moment ago
         self._sway = 0.0  # how fast they change, m/s2 and rad/s2
 
     @property
     def velocity(self) -> tuple[float, float]:
-        ahead, left = self._kalman.values[:2].tolist()
-        return ahead, left
+        return self._kalman.values[AHEAD], self._kalman.values[LEFT]
 
     @property
     def ground(self) -> tuple[float, float, float]:
         """The values of a `Slip` that were learned."""
-        pivot, onward, outward = self._kalman.values[PIVOT:].tolist()
+        pivot, onward, outward = self._kalman.values[PIVOT:]
         return pivot, onward, outward
 
     def restart(self, velocity: tuple[float, float]) -> None:
         """Go on from a velocity that is known otherwise; what was learned stays."""
         covariance = self._kalman.covariance
         self._kalman.values[:2] = velocity
-        covariance[:2] = covariance[:, :2] = 0.0
-        covariance[AHEAD, AHEAD] = covariance[LEFT, LEFT] = _AT_START[AHEAD] ** 2
+        for i in (AHEAD, LEFT):
+            covariance[i] = [0.0] * len(covariance)
+            for row in covariance:
+                row[i] = 0.0
+        covariance[AHEAD][AHEAD] = covariance[LEFT][LEFT] = _AT_START[AHEAD] ** 2
 
     def update(self, before: Odometry, reading: ImuReading, odometry: Odometry) -> None:
         """Take a reading, the mean of what was felt since the odometry before."""
@@ -61,13 +60,13 @@ class VelocityFilter:
         mean_rad_s = (before.yaw_rate_rad_s + odometry.yaw_rate_rad_s) / 2
         self._predict(period_sec, mean_rad_s, reading)
         kalman, wheels, rate = self._kalman, odometry.speed_m_s, odometry.yaw_rate_rad_s
-        terms = np.array((1.0, 0.0, 0.0, 0.0, -rate, -wheels * abs(rate), 0.0))
         deviation = self._deviation_m_s(odometry, period_sec)
+        terms = ((AHEAD, 1.0), (PIVOT, -rate), (ONWARD, -wheels * abs(rate)))
         kalman.correct(terms, wheels, deviation)
-        ahead, bend = float(kalman.values[AHEAD]), rate * abs(rate)
+        ahead, bend = kalman.values[AHEAD], rate * abs(rate)
         # left + outward * ahead * bend = 0, near the values of now
-        outward = float(kalman.values[OUTWARD])
-        terms = np.array((outward * bend, 1.0, 0.0, 0.0, 0.0, 0.0, ahead * bend))
+        outward = kalman.values[OUTWARD]
+        terms = ((AHEAD, outward * bend), (LEFT, 1.0), (OUTWARD, ahead * bend))
         kalman.correct(terms, outward * ahead * bend, deviation)
 
     def _deviation_m_s(self, odometry: Odometry, period_sec: float) -> float:
@@ -81,15 +80,16 @@ class VelocityFilter:
         return _STEADY_M_S + _SWAY_SEC * self._sway
 
     def _predict(self, period_sec: float, rate: float, reading: ImuReading) -> None:
-        values, turn = self._kalman.values, self._transition
-        ahead, left, added_ahead, added_left = values[:4].tolist()
+        values = self._kalman.values
+        ahead, left, added_ahead, added_left = values[:4]
         # Into the axes of now, in which the reading is; in those of before, a bend would brake.
         cos, sin = math.cos(rate * period_sec), math.sin(rate * period_sec)
         gained_ahead = (reading.forward_m_s2 - added_ahead) * period_sec
         gained_left = (reading.left_m_s2 - added_left) * period_sec
         values[AHEAD] = cos * ahead + sin * left + gained_ahead
         values[LEFT] = cos * left - sin * ahead + gained_left
-        turn[AHEAD, LEFT], turn[LEFT, AHEAD] = sin, -sin
-        turn[AHEAD, AHEAD] = turn[LEFT, LEFT] = cos
-        turn[AHEAD, ADDED_AHEAD] = turn[LEFT, ADDED_LEFT] = -period_sec
-        self._kalman.grow(_IN_A_SECOND, period_sec, turn)
+        passing = {
+            AHEAD: ((AHEAD, cos), (LEFT, sin), (ADDED_AHEAD, -period_sec)),
+            LEFT: ((AHEAD, -sin), (LEFT, cos), (ADDED_LEFT, -period_sec)),
+        }
+        self._kalman.grow(_IN_A_SECOND, period_sec, passing)

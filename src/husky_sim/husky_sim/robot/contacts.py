@@ -9,6 +9,7 @@ force until then. Wheels on the ground touch nothing.
 """
 
 from dataclasses import dataclass, replace
+import math
 
 from husky_course.record import Collision as Collision
 import mujoco
@@ -79,7 +80,7 @@ class TouchDetector:
             known = _Contact(self._begin(pair, contacts, time_sec), time_sec)
             self._contacts[pair] = known
         known.last_seen_sec = time_sec
-        known.force_n = max(known.force_n, sum(self._normal_force(i) for i, _ in contacts))
+        known.force_n = max(known.force_n, math.fsum(self._normal_force(i) for i, _ in contacts))
 
     def _begin(
         self, pair: tuple[int, int], contacts: list[tuple[int, int]], time_sec: float

@@ -14,6 +14,7 @@ minute) and a gyroscope that drifts (0.3 rad a minute).
 import math
 
 from husky_course.frames import Array, wrapped
+import mujoco
 import numpy as np
 
 from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
@@ -32,7 +33,8 @@ class PlanarFilter:
     """
     Estimates x, y and yaw in the frame `odom`, and the speeds in base_link.
 
-    Bit for bit the same for the same measurements.
+    Bit for bit the same for the same measurements, on every CPU of a kind: sums and products of
+    matrices are MuJoCo's, where those of numpy and LAPACK choose their code by the CPU.
     """
 
     def __init__(self, period_sec: float) -> None:
@@ -41,12 +43,13 @@ class PlanarFilter:
         # Three measurements of one rate are worth one, weighted by their variances. A difference
         # of two headings has the variance of both.
         variances = (WHEEL_RATE_VARIANCE, IMU_VARIANCE, 2.0 * IMU_VARIANCE / period_sec**2)
-        self._rate_variance = 1.0 / sum(1.0 / variance for variance in variances)
+        self._rate_variance = 1.0 / math.fsum(1.0 / variance for variance in variances)
         self._weights = [self._rate_variance / variance for variance in variances]
         self._jacobian = np.eye(8)
         for row, column in ((YAW, RATE), (VX, AX), (VY, AY)):
             self._jacobian[row, column] = period_sec
         self._inverse = np.empty((3, 3))
+        self._product, self._gains, self._change = np.empty((8, 8)), np.empty((3, 8)), np.empty(8)
         # Numbers are written through these: into a row of an array it takes five times as long.
         self._jacobian_numbers = self._jacobian.data.cast('B').cast('d')
         self._inverse_numbers = self._inverse.data.cast('B').cast('d')
@@ -70,8 +73,9 @@ class PlanarFilter:
         """Take the measurements at the end of a control period."""
         turned_rad_s = wrapped(imu_yaw - self._imu_yaw) / self._period_sec
         self._imu_yaw = imu_yaw
-        rates = (wheel_yaw_rate_rad_s, imu_yaw_rate_rad_s, turned_rad_s)
-        rate = sum(w * each for w, each in zip(self._weights, rates, strict=True))
+        of_wheels, of_imu, of_headings = self._weights
+        rate = of_wheels * wheel_yaw_rate_rad_s + of_imu * imu_yaw_rate_rad_s
+        rate += of_headings * turned_rad_s
         self._predict()
         self._correct(wheel_speed_m_s, 0.0, rate)
         self._read_out()
@@ -89,23 +93,26 @@ class PlanarFilter:
         numbers[AX], numbers[AY] = half * cos, -half * sin
         numbers[8 + YAW], numbers[8 + VX], numbers[8 + VY] = dx, t * sin, t * cos
         numbers[8 + AX], numbers[8 + AY] = half * sin, half * cos
-        self.covariance = jacobian.dot(self.covariance).dot(jacobian.T) + self._noise
+        mujoco.mju_mulMatMat(self._product, jacobian, self.covariance)
+        mujoco.mju_mulMatMatT(self.covariance, self._product, jacobian)
+        self.covariance += self._noise
 
     def _correct(self, speed_m_s: float, sideways_m_s: float, rate_rad_s: float) -> None:
         """Take measurements of VX, VY and RATE, which stand side by side, at once."""
         state, seen = self._state, self.covariance[VX : RATE + 1]
         gain = self._gain(seen)
         errors = speed_m_s - state[VX], sideways_m_s - state[VY], rate_rad_s - state[RATE]
-        change = np.dot(errors, gain).tolist()
+        mujoco.mju_mulMatTVec(self._change, gain, np.array(errors))
+        change = self._change.tolist()
         self._state = [before + by for before, by in zip(state, change, strict=True)]
-        self.covariance -= gain.T.dot(seen)
+        mujoco.mju_mulMatTMat(self._product, gain, seen)
+        self.covariance -= self._product
 
     def _gain(self, seen: Array) -> Array:
         """
         Return the inverse of the innovation's covariance, times the rows `seen`.
 
-        The symmetric 3 x 3 matrix is inverted by its cofactors: in floats of Python, which give
-        the same bits on every CPU, where LAPACK chooses its code by the CPU. With
+        The symmetric 3 x 3 matrix is inverted by its cofactors, in floats of Python. With
         numpy.linalg.solve an update takes 25 us instead of 16 us, and a control period 1.03 to
         1.11 times as long (benchmark/simulation_speed.py --filter).
         """
@@ -118,8 +125,9 @@ class PlanarFilter:
         numbers[0], numbers[1], numbers[2] = aa, ab, ac
         numbers[3], numbers[4], numbers[5] = ab, bb, bc
         numbers[6], numbers[7], numbers[8] = ac, bc, cc
-        gain: Array = self._inverse.dot(seen) / size
-        return gain
+        mujoco.mju_mulMatMat(self._gains, self._inverse, seen)
+        self._gains /= size
+        return self._gains
 
     def _read_out(self) -> None:
         self.x, self.y, yaw, self.speed_m_s, self.sideways_m_s, self.yaw_rate_rad_s, _, _ = (
