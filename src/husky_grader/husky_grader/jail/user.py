@@ -72,7 +72,8 @@ class _Cell:
             environment={**call.environment, 'TMPDIR': str(home_of(call.folder))},
         )
         last = inside(own, user=self.user, readable=[*readable, *_ALWAYS_READ])
-        words = [str(PYTHON), '-I', '-S', str(_GUARD), str(self.user), *last]
+        # From Python 3.12 on os.fork warns where there is a thread, into the command's output.
+        words = [str(PYTHON), '-I', '-S', '-W', 'ignore', str(_GUARD), str(self.user), *last]
         return Entry(words, CLEAN, first_child)
 
     def beside(self, command: Sequence[str]) -> list[str]:
