@@ -83,6 +83,18 @@ class BodyConfig:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PowerConfig:
+    """What the motors run on."""
+
+    battery: bool = setting(
+        False, 'Motors are limited by their power, and the battery sags and runs down.'
+    )
+    battery_charge: float = setting(
+        1.0, 'How full the battery is at the start, with battery; 1: full.', 0.0, 1.0
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class SensorConfig:
     """Which sensors measure, how often, and how well."""
 
@@ -140,6 +152,7 @@ class SimulationConfig:
     ground: GroundConfig = field(default_factory=GroundConfig)
     sensors: SensorConfig = field(default_factory=SensorConfig)
     body: BodyConfig = field(default_factory=BodyConfig)
+    power: PowerConfig = field(default_factory=PowerConfig)
 
     @property
     def conditions(self) -> tuple[str, ...]:

@@ -13,10 +13,12 @@ from husky_course.robot import RobotStart
 import mujoco
 
 from husky_sim.config import CONTROL_PERIOD_SEC, FLOORS, SimulationConfig
+from husky_sim.robot.battery import Battery
 from husky_sim.robot.broadphase import BroadPhase
 from husky_sim.robot.contacts import Collision, TouchDetector
 from husky_sim.robot.diff_drive import VelocityController, WheelOdometry
 from husky_sim.robot.husky import Husky
+from husky_sim.robot.motors import Motors
 from husky_sim.robot.tyres import Tyres
 from husky_sim.sensors.imu import Imu, new_noise
 from husky_sim.sensors.localization import PlanarFilter
@@ -45,9 +47,18 @@ class SimulatedRobot:
         self.controller = VelocityController(config.drive)
         self.odometry = WheelOdometry(config.drive)
         self.filtered = PlanarFilter(CONTROL_PERIOD_SEC)
+        power = config.power
+        self.battery = Battery(power.battery_charge) if power.battery else None
+        self.motors = Motors(self.husky, self.battery) if self.battery is not None else None
         self._imu = Imu(self.husky, new_noise([*seed, 0]) if config.has_noise else None)
         self.sensors = Sensors(
-            start.name, world.model, data, config.sensors, noise=config.has_noise, seed=seed
+            start.name,
+            world.model,
+            data,
+            config.sensors,
+            self.battery,
+            noise=config.has_noise,
+            seed=seed,
         )
         self.reset()
 
@@ -57,7 +68,9 @@ class SimulatedRobot:
         self.odometry.reset()
         self._imu.reset()
         self.sensors.reset()
-        self.command_timed_out = False
+        self.command_timed_out = self.battery_ran_empty = self._was_empty = False
+        if self.motors is not None:
+            self.motors.reset()
         self._measure()
         self.filtered.reset(self.imu.yaw)
 
@@ -66,11 +79,15 @@ class SimulatedRobot:
         self.command_timed_out = self.controller.update(
             time_sec=time_sec, period_sec=CONTROL_PERIOD_SEC
         )
-        self.husky.drive(*self.controller.wheel_speeds_rad_s())
+        driven = self.motors or self.husky
+        driven.drive(*self.controller.wheel_speeds_rad_s())
 
     def observe(self, periods: int) -> None:
         """Read the physics at the end of a period, and update the estimates."""
         self._measure()
+        if self.battery is not None:
+            self.battery_ran_empty = self.battery.is_empty and not self._was_empty
+            self._was_empty = self.battery.is_empty
         self.sensors.measure(self.state, periods)
         self.filtered.update(
             wheel_speed_m_s=self.odometry.speed_m_s,
@@ -115,6 +132,7 @@ class Simulation:
             )
             for number, start in enumerate(config.robots)
         ]
+        self._motors = [robot.motors for robot in self.robots if robot.motors is not None]
 
     @property
     def time_ns(self) -> int:
@@ -148,17 +166,23 @@ class Simulation:
             robot.act(begin_sec)
         self._tyres.update()
         self.broadphase.update()
-        if self.broadphase.alone:
+        if self.broadphase.alone and not self._motors:
             mujoco.mj_step(self.model, self.data, self.world.steps_per_period)
         else:
-            timestep_sec = self.model.opt.timestep
-            for step in range(1, self.world.steps_per_period + 1):
-                mujoco.mj_step(self.model, self.data)
-                self._detector.update(begin_sec + step * timestep_sec)
+            self._step_by_step(begin_sec)
         self.periods += 1
         for robot in self.robots:
             robot.observe(self.periods)
         self.touches = self._detector.reports(self.time_sec)
+
+    def _step_by_step(self, begin_sec: float) -> None:
+        timestep_sec = self.model.opt.timestep
+        for step in range(1, self.world.steps_per_period + 1):
+            mujoco.mj_step(self.model, self.data)
+            for motors in self._motors:
+                motors.step(timestep_sec)
+            if not self.broadphase.alone:
+                self._detector.update(begin_sec + step * timestep_sec)
 
     @property
     def only_robots_awake(self) -> bool:

@@ -40,6 +40,8 @@ ARGUMENTS = (
     ('floor', 'asphalt', str, 'ideal, asphalt, concrete_indoor, wet, gravel or grass'),
     ('realistic', 'false', bool, "true: the original's noise and unequal loads"),
     ('seed', '0', int, 'Seed of the noise; the same seed gives the same run'),
+    ('battery', 'false', bool, 'true: motors with a limit of power, and a battery that runs down'),
+    ('battery_charge', '1.0', float, 'How full the battery is at the start, from 0.0 to 1.0'),
     ('limit_sec', '0.0', float, 'End after so much simulated time, s; 0.0: never'),
     ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )

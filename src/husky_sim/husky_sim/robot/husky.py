@@ -8,11 +8,18 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
+from husky_sim.robot.diff_drive import limited
+
 WHEELS = ('front_left', 'front_right', 'rear_left', 'rear_right')
 JOINTS = tuple(f'{wheel}_wheel_joint' for wheel in WHEELS)
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
+TorqueRange = tuple[float, float]
+"""Least and greatest, N m."""
+
+CHAIN_N_M_RAD, CHAIN_N_M_S_RAD = 1500.0, 40.0
+"""Stiffness and damping between the wheels of a side: what physics steps of 4 ms bear."""
 
 
 class RobotState(NamedTuple):
@@ -52,6 +59,18 @@ class WheelState(NamedTuple):
         """Return the mean angle of the right wheels."""
         return (self.angles_rad[1] + self.angles_rad[3]) / 2.0
 
+    @property
+    def side_speeds_rad_s(self) -> tuple[float, float]:
+        """Return the mean speeds of the left and of the right wheels."""
+        front_left, front_right, rear_left, rear_right = self.speeds_rad_s
+        return (front_left + rear_left) / 2.0, (front_right + rear_right) / 2.0
+
+    @property
+    def side_torques_n_m(self) -> tuple[float, float]:
+        """Return the torques of the left and of the right wheels, added up."""
+        front_left, front_right, rear_left, rear_right = self.torques_n_m
+        return front_left + rear_left, front_right + rear_right
+
 
 class Husky:
     """One robot of a world: reads and drives it by the names in husky.xml."""
@@ -78,13 +97,36 @@ class Husky:
         self._targets = _block(data.act, [int(model.actuator_actadr[i]) for i in self._actuators])
         self._stiffness = float(model.actuator_gainprm[servo, 0])
         self._lag_sec = -float(model.actuator_biasprm[servo, 2]) / self._stiffness
+        self._is_limited = False  # by motors, more than the servos are
+        self._ranges = _block(model.actuator_forcerange, self._actuators)
         self._torque_limit = float(model.actuator_forcerange[servo, 1])
 
     def drive(self, left_rad_s: float, right_rad_s: float) -> None:
         """Set the speeds the servos of the wheels aim at."""
         self._control[:] = (left_rad_s, right_rad_s, left_rad_s, right_rad_s)
-        if max(map(abs, self._torques.tolist())) >= self._torque_limit:
+        if self._is_limited or max(map(abs, self._torques.tolist())) >= self._torque_limit:
             self._unwind()
+
+    def limit(self, left: TorqueRange, right: TorqueRange) -> None:
+        """
+        Let the wheels of each side together have no more torque, from the next step on.
+
+        Each has half of it, and what a chain between the two takes from the one for the other.
+        """
+        self._is_limited = True
+        pulls = CHAIN_N_M_RAD * self._wheel_angles + CHAIN_N_M_S_RAD * self._wheel_speeds
+        front_left, front_right, rear_left, rear_right = pulls.tolist()
+        chain_left, chain_right = rear_left - front_left, rear_right - front_right
+        self._ranges[:] = (
+            self._part_of(left, chain_left),
+            self._part_of(right, chain_right),
+            self._part_of(left, -chain_left),
+            self._part_of(right, -chain_right),
+        )
+
+    def _part_of(self, side: TorqueRange, chain_n_m: float) -> TorqueRange:
+        limit, (least, most) = self._torque_limit, side
+        return limited(least / 2.0 + chain_n_m, limit), limited(most / 2.0 + chain_n_m, limit)
 
     def _unwind(self) -> None:
         """
@@ -93,8 +135,8 @@ class Husky:
         Else a wheel that was held fast would go on turning, to make up for it, after a stop.
         """
         reached = self._wheel_angles + self._lag_sec * self._wheel_speeds
-        reach = self._torque_limit / self._stiffness
-        self._targets[:] = np.clip(self._targets, reached - reach, reached + reach)
+        least, most = (self._ranges / self._stiffness).T
+        self._targets[:] = np.clip(self._targets, reached + least, reached + most)
 
     def state(self) -> RobotState:
         """Read the true pose and twist."""

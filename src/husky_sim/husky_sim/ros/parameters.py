@@ -15,6 +15,7 @@ from husky_sim.config import (
     BodyConfig,
     DriveConfig,
     GroundConfig,
+    PowerConfig,
     RunConfig,
     SensorConfig,
     SimulationConfig,
@@ -33,7 +34,8 @@ _ROBOTS = (
 
 _NAMES = (
     'robots',
-    *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig, GroundConfig, BodyConfig),
+    *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig),
+    *names_of(GroundConfig, BodyConfig, PowerConfig),
 )
 
 
@@ -64,6 +66,7 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
     sensors = declare_settings(node, SensorConfig, _refuse)
     ground = declare_settings(node, GroundConfig, _refuse)
     body = declare_settings(node, BodyConfig, _refuse)
+    power = declare_settings(node, PowerConfig, _refuse)
     if run.lockstep and not sensors.localization:
         raise SettingError('lockstep=True needs odometry/filtered; set localization to true')
     robots = _read_robots(node)
@@ -74,6 +77,7 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
         ground=ground,
         sensors=sensors,
         body=body,
+        power=power,
     )
 
 

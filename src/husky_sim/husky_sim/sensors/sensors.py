@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from husky_sim.config import CONTROL_PERIOD_SEC, SensorConfig
+from husky_sim.robot.battery import Battery
 from husky_sim.robot.husky import RobotState
 from husky_sim.sensors import lidar, navsat
+from husky_sim.sensors.battery_monitor import BatteryMonitor, BatteryReading
 
 
 class Rate:
@@ -32,7 +34,7 @@ class Sensors:
     """
     The sensors of one robot.
 
-    After `measure`, `scan` and `fix` hold a new measurement, or None.
+    After `measure`, `scan`, `fix` and `battery` hold a new measurement, or None.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class Sensors:
         model: mujoco.MjModel,
         data: mujoco.MjData,
         config: SensorConfig,
+        battery: Battery | None,
         *,
         noise: bool,
         seed: list[int],
@@ -52,18 +55,22 @@ class Sensors:
         if config.lidar_rate_hz > 0.0:
             self._lidar = lidar.Lidar(name, model, data, of_lidar)
         self._navsat = navsat.NavSat(of_navsat)
+        self._monitor = BatteryMonitor(battery) if battery is not None else None
         self._scans = Rate(config.lidar_rate_hz)
         self._fixes = Rate(config.navsat_rate_hz)
         self._scan_period_sec = 1.0 / (config.lidar_rate_hz or 1.0)
         self._fix_period_sec = 1.0 / (config.navsat_rate_hz or 1.0)
         self.scan: npt.NDArray[np.float32] | None = None
         self.fix: navsat.Fix | None = None
+        self.battery: BatteryReading | None = None
 
     def reset(self) -> None:
         """Begin the same noise again."""
         for noise in self._noises:
             noise.reset()
-        self.scan = self.fix = None
+        if self._monitor is not None:
+            self._monitor.reset()
+        self.scan = self.fix = self.battery = None
 
     def measure(self, state: RobotState, periods: int) -> None:
         """Measure what is due at the end of this control period."""
@@ -72,3 +79,5 @@ class Sensors:
             self.scan = self._lidar.scan(state, self._scan_period_sec)
         if self._fixes.is_due(periods):
             self.fix = self._navsat.locate(state.position, self._fix_period_sec)
+        if self._monitor is not None:
+            self.battery = self._monitor.measure(periods)
