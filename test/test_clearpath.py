@@ -4,9 +4,11 @@
 
 from collections.abc import Callable
 from functools import partial
+import math
 from pathlib import Path
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TwistStamped
 from husky_course.record import read_record, read_run
 from husky_course.route import plan_route
@@ -20,7 +22,7 @@ from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data, ReliabilityPolicy
-from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
+from sensor_msgs.msg import BatteryState, Imu, JointState, LaserScan, NavSatFix
 from std_msgs.msg import Bool
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -32,11 +34,12 @@ PUBLISHED: dict[str, tuple[Any, str]] = {
     'platform/cmd_vel': (TwistStamped, ''),
     'platform/joint_states': (JointState, ''),
     'platform/emergency_stop': (Bool, ''),
+    'platform/bms/state': (BatteryState, ''),
     'sensors/imu_0/data': (Imu, 'imu_0_link'),
     'sensors/lidar2d_0/scan': (LaserScan, 'lidar2d_0_laser'),
     'sensors/gps_0/fix': (NavSatFix, 'gps_0_link'),
 }
-SENSOR_DATA = ('sensors/imu_0/data', 'platform/emergency_stop')
+SENSOR_DATA = ('sensors/imu_0/data', 'platform/emergency_stop', 'platform/bms/state')
 NAMESPACE = '/a200_0000/'
 
 
@@ -45,8 +48,9 @@ class Station(Node):
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__('station', namespace=NAMESPACE.strip('/'), **arguments)
-        self.heard: dict[str, list[Any]] = {topic: [] for topic in PUBLISHED}
-        for topic, (kind, _) in PUBLISHED.items():
+        topics = PUBLISHED | {'battery_state': (BatteryState, '')}  # the lab's own
+        self.heard: dict[str, list[Any]] = {topic: [] for topic in topics}
+        for topic, (kind, _) in topics.items():
             self.create_subscription(
                 kind, topic, self.heard[topic].append, qos_profile_sensor_data
             )
@@ -71,7 +75,7 @@ class Station(Node):
 @pytest.fixture
 def station(nodes: SpunNodes) -> Station:
     make = partial(SimulatorNode, namespace=NAMESPACE.strip('/'))
-    nodes.start(make, interface='clearpath', lidar_rate_hz=10.0)
+    nodes.start(make, interface='clearpath', lidar_rate_hz=10.0, battery=True)
     return nodes.start(Station)
 
 
@@ -98,6 +102,56 @@ def test_topics_have_the_names_types_qos_and_frames_of_the_robot(station: Statio
     assert station.latest('platform/joint_states').name[0] == 'front_left_wheel_joint'
     (taker,) = station.get_subscriptions_info_by_topic(f'{NAMESPACE}cmd_vel')
     assert taker.topic_type == 'geometry_msgs/msg/TwistStamped'
+
+
+def test_the_battery_is_told_as_the_robot_tells_it(station: Station) -> None:
+    def by_stamp_ns(topic: str) -> dict[int, BatteryState]:
+        stamped = [(each.header.stamp, each) for each in station.heard[topic]]
+        return {stamp.sec * 10**9 + stamp.nanosec: each for stamp, each in stamped}
+
+    def told_on_both() -> list[int]:
+        ours, of_robot = by_stamp_ns('battery_state'), by_stamp_ns('platform/bms/state')
+        return sorted(ours.keys() & of_robot.keys())
+
+    wait_until(lambda: len(told_on_both()) > 1, timeout_sec=10.0, what='two states on both topics')
+    last_ns = told_on_both()[-1]
+    assert all(stamp_ns % 240_000_000 == 0 for stamp_ns in told_on_both())
+    for topic in ('battery_state', 'platform/bms/state'):
+        state = by_stamp_ns(topic)[last_ns]
+        assert 25.0 < state.voltage < 25.4
+        assert state.current == pytest.approx(60.0 / state.voltage, rel=0.01), 'it is not negative'
+        assert 0.9 < state.percentage < 1.0
+        assert state.charge == pytest.approx(20.0 * state.percentage)
+        assert (state.capacity, state.design_capacity, state.present) == (20.0, 20.0, True)
+        assert state.power_supply_status == BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+        assert state.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_GOOD
+        assert state.power_supply_technology == BatteryState.POWER_SUPPLY_TECHNOLOGY_UNKNOWN
+        assert list(state.cell_voltage) == [state.voltage / 2.0] * 2
+        assert all(map(math.isnan, (state.temperature, *state.cell_temperature)))
+
+
+def test_an_empty_battery_is_explained_once(
+    nodes: SpunNodes, capfd: pytest.CaptureFixture[str]
+) -> None:
+    nodes.start(SimulatorNode, battery=True, battery_charge=0.00001)
+    listener = nodes.start(partial(Node, 'listener'))
+    heard: list[DiagnosticStatus] = []
+    listener.create_subscription(
+        DiagnosticArray, '/diagnostics', lambda message: heard.extend(message.status[1:]), 10
+    )
+    wait_until(
+        lambda: len(heard) > 1 and heard[-1].values[2].value == '0.0000',
+        timeout_sec=10.0,
+        what='an empty battery',
+    )
+    (line,) = [line for line in capfd.readouterr().err.splitlines() if 'battery' in line]
+    assert line.endswith(
+        'husky: the battery is empty, so that the motors are off; reset the simulation, or start '
+        'it with a greater battery_charge'
+    )
+    status = heard[-1]
+    assert (status.name, status.level) == ('husky_sim: battery of husky', DiagnosticStatus.ERROR)
+    assert status.message == '23.2 V, 0 % charged; empty: the motors are off until a reset'
 
 
 def test_the_page_on_the_robot_names_every_topic() -> None:

@@ -154,7 +154,7 @@ def test_every_topic_comes_at_50_hz_of_simulated_time(bench: Callable[..., Bench
 def test_frames_and_covariances_are_those_of_the_original(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=0.0)
     run.matched()
-    for off in ('front/scan', 'camera/image_raw'):
+    for off in ('front/scan', 'camera/image_raw', 'battery_state'):
         assert run.simulator.count_publishers(off) == 0, f'{off} should be off by default'
     filtered = run.probe.odometry[0]
     truth = run.probe.received['ground_truth/odom'][0]

@@ -13,5 +13,6 @@ def packed_messages() -> list[PackedMessage]:
         *(messages.GroundTruthMessage(), messages.ImuMessage(), messages.JointStateMessage()),
         *(messages.CommandMessage(), messages.FixMessage(), messages.ClockMessage()),
         *(messages.StampedCommandMessage(), messages.EmergencyStopMessage()),
+        messages.BatteryMessage(),
         *([] if transforms.TFMessage is None else [transforms.TransformsMessage()]),
     ]

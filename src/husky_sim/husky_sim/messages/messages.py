@@ -13,13 +13,15 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
+from sensor_msgs.msg import BatteryState, Imu, JointState, NavSatFix, NavSatStatus
 from std_msgs.msg import Bool
 
 from husky_sim.messages.packed_message import PackedMessage
+from husky_sim.robot.battery import BATTERIES, CAPACITY_AH
 from husky_sim.robot.contacts import Collision
 from husky_sim.robot.diff_drive import WheelOdometry
 from husky_sim.robot.husky import JOINTS, Quaternion, Vector
+from husky_sim.sensors.battery_monitor import BatteryReading
 from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
 from husky_sim.sensors.localization import PlanarFilter
 from husky_sim.sensors.navsat import VARIANCE_M2
@@ -209,6 +211,37 @@ class FixMessage(PackedMessage):
         """Pack latitude and longitude in degrees, altitude in metres."""
         self._stamp(*stamp)
         self._place(*fix)
+
+
+class BatteryMessage(PackedMessage):
+    """A message of the battery, with the fields that clearpath_robot fills in for an A200."""
+
+    def __init__(self) -> None:
+        message = BatteryState(
+            temperature=math.nan,
+            capacity=CAPACITY_AH,
+            design_capacity=CAPACITY_AH,
+            power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
+            power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
+            power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_UNKNOWN,
+            present=True,
+            cell_voltage=[0.0] * BATTERIES,
+            cell_temperature=[math.nan] * BATTERIES,
+        )
+        super().__init__(message)
+        self._stamp = self.packer(self.places['header']['stamp'])
+        names = ('voltage', 'current', 'charge', 'percentage')
+        self._values = [self.packer(self.places[name]) for name in names]
+        self._batteries = self.packer(self.places['cell_voltage'])
+
+    def pack(self, stamp: Stamp, reading: BatteryReading) -> None:
+        """Pack a measurement."""
+        self._stamp(*stamp)
+        charge_ah = reading.charge * CAPACITY_AH
+        values = (reading.voltage_v, reading.current_a, charge_ah, reading.charge)
+        for pack, value in zip(self._values, values, strict=True):
+            pack(value)
+        self._batteries(*[reading.voltage_v / BATTERIES] * BATTERIES)
 
 
 class ClockMessage(PackedMessage):

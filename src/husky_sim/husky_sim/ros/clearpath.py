@@ -28,6 +28,7 @@ FIX, FIX_FRAME = 'sensors/gps_0/fix', 'gps_0_link'
 IMU_FRAME = 'imu_0_link'
 IMAGE, CAMERA_INFO = 'sensors/camera_0/color/image', 'sensors/camera_0/color/camera_info'
 CAMERA_FRAME = 'camera_0_color_optical_frame'
+BATTERY = 'platform/bms/state'
 SYSTEM_DEFAULT = QoSProfile(depth=10)
 STAMP_TIMEOUT_SEC = 0.5
 """Older commands are refused: cmd_vel_timeout of platform_velocity_controller."""

@@ -1,13 +1,15 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The pace of the simulator, on /diagnostics once a second of wall time."""
+"""What is told on /diagnostics once a second of wall time: pace, and batteries."""
 
+from collections.abc import Iterable
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
+from husky_sim.robot.battery import Battery, LOW, VERY_LOW
 from husky_sim.ros.pacing import Pacer
-from husky_sim.simulation import Simulation
+from husky_sim.simulation import SimulatedRobot, Simulation
 
 PERIOD_SEC = 1.0
 _ENOUGH = 0.95  # of the requested pace
@@ -57,5 +59,38 @@ class PaceWatch:
             name='husky_sim: time',
             message=message,
             hardware_id='husky_sim',
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+            values=_values(values),
         )
+
+
+def battery_statuses(robots: Iterable[SimulatedRobot]) -> list[DiagnosticStatus]:
+    """Return how full each battery is, of those robots that have one."""
+    return [
+        _battery_status(robot.name, robot.battery) for robot in robots if robot.battery is not None
+    ]
+
+
+def _battery_status(robot: str, battery: Battery) -> DiagnosticStatus:
+    level = DiagnosticStatus.OK
+    message = f'{battery.voltage_v:.1f} V, {100.0 * battery.charge:.0f} % charged'
+    if battery.charge < LOW:
+        level = DiagnosticStatus.ERROR if battery.charge < VERY_LOW else DiagnosticStatus.WARN
+        empty = 'empty: the motors are off until a reset'
+        message = f'{message}; {empty if battery.is_empty else "low"}'
+    values = {
+        'voltage_v': f'{battery.voltage_v:.2f}',
+        'current_a': f'{battery.current_a:.2f}',
+        'charge': f'{battery.charge:.4f}',
+        'power_limit_w': f'{battery.power_limit_w:.0f}',
+    }
+    return DiagnosticStatus(
+        level=level,
+        name=f'husky_sim: battery of {robot}',
+        message=message,
+        hardware_id=robot,
+        values=_values(values),
+    )
+
+
+def _values(values: dict[str, str]) -> list[KeyValue]:
+    return [KeyValue(key=key, value=value) for key, value in values.items()]

@@ -24,7 +24,7 @@ from rclpy.timer import Timer
 from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.messages.messages import time_message
 from husky_sim.recording.recorder import open_recorder
-from husky_sim.ros.diagnostics import PaceWatch
+from husky_sim.ros.diagnostics import battery_statuses, PaceWatch
 from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pace import FreePace, Lockstep, Pace, Periods
@@ -177,6 +177,7 @@ class SimulatorNode(Node):
         if 0.0 < self._run.limit_sec <= self.simulation.time_sec:
             self.end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._topics.warn_of_timeouts()
+        self._topics.warn_of_empty_batteries()
         self._on_period()
 
     def _show(self) -> None:
@@ -196,7 +197,8 @@ class SimulatorNode(Node):
     def _on_diagnose(self) -> None:
         waits = self.paused or self._run.lockstep
         status = self._watch.status(self._pace.pacer, self._pace.factor, waits=waits)
-        message = DiagnosticArray(status=[status])
+        batteries = battery_statuses(self.simulation.robots)
+        message = DiagnosticArray(status=[status, *batteries])
         message.header.stamp = time_message(self.simulation.stamp)
         self._diagnostics.publish(message)
         self._topics.warn_of_other_types()

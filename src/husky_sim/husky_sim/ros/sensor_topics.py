@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of one robot's scanner, receiver and camera; each only where its rate is not 0."""
+"""The topics of one robot's scanner, receiver, camera and battery; each only where it is on."""
 
 from array import array
 from typing import NamedTuple
@@ -8,11 +8,11 @@ from typing import NamedTuple
 from builtin_interfaces.msg import Time
 import numpy as np
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
-from sensor_msgs.msg import CameraInfo, Image, LaserScan, NavSatFix
+from rclpy.qos import qos_profile_sensor_data, QoSProfile
+from sensor_msgs.msg import BatteryState, CameraInfo, Image, LaserScan, NavSatFix
 
 from husky_sim.config import SensorConfig
-from husky_sim.messages.messages import FixMessage, Stamp, time_message
+from husky_sim.messages.messages import BatteryMessage, FixMessage, Stamp, time_message
 from husky_sim.messages.packed_message import Form
 from husky_sim.ros import clearpath
 from husky_sim.sensors import camera, lidar
@@ -91,6 +91,15 @@ class SensorTopics:
             for names in every
             if self._camera is not None
         ]
+        self._battery_message = BatteryMessage()
+        profiles = {'battery_state': qos}
+        if interface == clearpath.NAME:
+            profiles[clearpath.BATTERY] = qos_profile_sensor_data
+        self._batteries = [
+            node.create_publisher(BatteryState, f'{namespace}{topic}', profile)
+            for topic, profile in profiles.items()
+            if robot.battery is not None
+        ]
         self._infos = [
             (
                 new_camera_info(names.camera_frame, self._camera.focal_length_px),
@@ -114,6 +123,10 @@ class SensorTopics:
                 if publisher.get_subscription_count():
                     fix.pack(stamp, sensors.fix)
                     publisher.publish(self._form(fix))
+        if sensors.battery is not None:
+            self._battery_message.pack(stamp, sensors.battery)
+            for publisher in self._batteries:
+                publisher.publish(self._form(self._battery_message))
         if self._camera is not None and self._pictures.is_due(self._simulation.periods):
             self._publish_picture(self._camera, time_message(stamp))
 

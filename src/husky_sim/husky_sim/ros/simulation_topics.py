@@ -124,6 +124,15 @@ class SimulationTopics:
                     '(command_timeout_sec); stopping'
                 )
 
+    def warn_of_empty_batteries(self) -> None:
+        """Log which batteries have just run empty."""
+        for robot in self._simulation.robots:
+            if robot.battery_ran_empty:
+                self._node.get_logger().warning(
+                    f'{robot.name}: the battery is empty, so that the motors are off; reset the '
+                    'simulation, or start it with a greater battery_charge'
+                )
+
     def warn_of_other_types(self) -> None:
         """Log which publishers of commands have another message type, each once."""
         for topics in self._robots:
