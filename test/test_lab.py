@@ -11,7 +11,10 @@ import signal
 import sys
 from typing import Any
 
-from husky_course.record import read_record
+from husky_course.record import read_record, read_run
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+from husky_grader.run.in_process import Conditions, drive_route
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from playpen_testing.page_client import PageClient
@@ -165,6 +168,23 @@ def test_the_same_file_gives_the_same_run_on_a_loaded_machine(
         for path in (tmp_path / 'report.json', report)
     )
     assert over_dds == in_one_process
+
+
+def test_a_drive_under_other_conditions_is_the_one_of_one_process(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    words = ('floor:=grass', 'realistic:=true', 'battery:=true', 'interface:=clearpath')
+    run = drive(processes, tmp_path, '--fast', *words, str(short_course))
+    assert run.wait(timeout_sec=60.0) == 0, run.output
+    over_dds = json.loads((tmp_path / 'report.json').read_text())['trajectory_sha256']
+    route = plan_route(load_course(short_course))
+    with_battery, without = (
+        read_run(
+            drive_route(route, conditions=Conditions('grass', realistic=True, battery=battery))[0]
+        ).trajectory_sha256
+        for battery in (True, False)
+    )
+    assert over_dds == with_battery != without
 
 
 def test_a_full_disk_loses_the_report_not_the_result(

@@ -27,14 +27,14 @@ from husky_grader.drive_page import drive_page, DrivePage, is_at_a_terminal
 from husky_grader.grade_class import NOT_PASSED, PASSED
 from husky_grader.playpen import default_course
 from husky_grader.report.files import keep_course
-from husky_sim.config import BodyConfig, GroundConfig, RunConfig, SensorConfig
+from husky_sim.config import BodyConfig, GroundConfig, PowerConfig, RunConfig, SensorConfig
 
 START_SEC = 90.0  # simulated time in which the driver must have begun
 CONDITIONS = {
     each.name: each
-    for kind in (GroundConfig, BodyConfig, SensorConfig, RunConfig)
+    for kind in (GroundConfig, BodyConfig, PowerConfig, SensorConfig, RunConfig)
     for each in settings_of(kind)
-    if each.name in ('floor', 'interface', 'realistic', 'seed')
+    if each.name in ('battery', 'battery_charge', 'floor', 'interface', 'realistic', 'seed')
 }
 """Settings of the simulator that a drive may be given."""
 

@@ -30,6 +30,8 @@ OF_SIMULATOR = (
     ('floor', 'asphalt', 'how the tyres grip'),
     ('realistic', 'false', "true: the original's noise and unequal loads"),
     ('seed', '0', 'of the noise'),
+    ('battery', 'false', 'true: motors with a limit of power, and a battery that runs down'),
+    ('battery_charge', '1.0', 'how full it is at the start'),
     ('lockstep', 'false', 'true: the simulator waits for each command, so that a run repeats'),
     ('viewer', 'false', 'true: a live view in the browser'),
     ('viewer_port', '8080', 'port of the view; the next free one if it is taken'),

@@ -157,7 +157,7 @@ class SimulationConfig:
     @property
     def conditions(self) -> tuple[str, ...]:
         """Return what a run depends on and is not the default, as launch arguments say it."""
-        parts = (self.drive, self.ground, self.sensors, self.body)
+        parts = (self.drive, self.ground, self.sensors, self.body, self.power)
         given = [
             (each.name, getattr(part, each.name))
             for part in parts
@@ -172,8 +172,12 @@ class SimulationConfig:
     @property
     def _unfelt(self) -> tuple[str, ...]:
         """Return the settings that move no robot."""
-        seed = () if self.has_noise else ('seed',)
-        return 'localization', 'navsat_rate_hz', 'lidar_rate_hz', 'camera_rate_hz', *seed
+        unfelt = ['localization', 'navsat_rate_hz', 'lidar_rate_hz', 'camera_rate_hz']
+        if not self.has_noise:
+            unfelt.append('seed')
+        if not self.power.battery:
+            unfelt.append('battery_charge')
+        return tuple(unfelt)
 
     @property
     def has_noise(self) -> bool:

@@ -30,6 +30,7 @@ from husky_sim.config import (
     BodyConfig,
     CONTROL_PERIOD_SEC,
     GroundConfig,
+    PowerConfig,
     SensorConfig,
     SimulationConfig,
 )
@@ -46,6 +47,7 @@ class Conditions:
 
     floor: str = GroundConfig.floor
     realistic: bool = False
+    battery: bool = False
     seed: int = 0
 
 
@@ -126,6 +128,7 @@ def _at_start(world: str, start: Pose, conditions: Conditions) -> Simulation:
         robots=(RobotStart(x=x, y=y, yaw=yaw),),
         ground=GroundConfig(floor=conditions.floor),
         body=BodyConfig(realistic=conditions.realistic),
+        power=PowerConfig(battery=conditions.battery),
         sensors=SensorConfig(seed=conditions.seed),
     )
     try:
