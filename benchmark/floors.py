@@ -5,11 +5,13 @@ Drive ten courses on every floor, with the noise and the unequal loads of the or
 
 Prints, for each floor, how many runs passed, and how far off the path they were, as the table of
 docs/simulator.md; and for each course and floor the worst run. Run it with
-`./lab exec python3 benchmark/floors.py [SEEDS]`; SEEDS is how many runs of each there are (20).
+`./lab exec python3 benchmark/floors.py [SEEDS] [--battery]`; SEEDS is how many runs of each there
+are (20), and --battery gives the motors a limit of power.
 Exit status 1 if a run is not complete or touches something, or if on a floor the median is more
 than 0.05 m RMS off the path.
 """
 
+from argparse import ArgumentParser
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from itertools import product
@@ -48,20 +50,23 @@ MORE = (
 Run = tuple[str, str, int, bool, int, float]
 
 
-def drive(case: tuple[Course, str, int]) -> Run:
+def drive(case: tuple[Course, str, int, bool]) -> Run:
     """Return course, floor, seed, whether it is complete, touches, and RMS off the path."""
-    course, floor, seed = case
+    course, floor, seed, battery = case
     route = plan_route(course)
-    conditions = Conditions(floor=floor, realistic=True, seed=seed)
+    conditions = Conditions(floor=floor, realistic=True, seed=seed, battery=battery)
     report = judge(read_run(drive_route(route, conditions=conditions)[0]), route)
     touches = len(report.collisions)
     return course.name, floor, seed, report.completed, touches, report.cross_track_rms_m
 
 
 def main() -> int:
-    seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 20
+    parser = ArgumentParser(description=__doc__)
+    parser.add_argument('seeds', metavar='SEEDS', nargs='?', type=int, default=20)
+    parser.add_argument('--battery', action='store_true')
+    options = parser.parse_args()
     courses = [load_course(file) for file in sorted(FOLDER.glob('*.yaml'))] + list(MORE)
-    cases = list(product(courses, FLOORS, range(seeds)))
+    cases = list(product(courses, FLOORS, range(options.seeds), [options.battery]))
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         runs = list(pool.map(drive, cases, chunksize=4))
     by_floor: dict[str, list[Run]] = defaultdict(list)
