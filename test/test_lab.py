@@ -123,7 +123,10 @@ def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_pa
     ('words', 'said'),
     [
         (['floor:=gras'], 'floor:=gras is not allowed; allowed: one of ideal, asphalt'),
-        (['flor:=grass'], 'flor does not exist; did you mean floor? allowed: floor, interface'),
+        (
+            ['flor:=grass'],
+            'flor does not exist; did you mean floor? allowed: battery, battery_charge',
+        ),
         (['seed:=-1'], 'allowed: a whole number from 0'),
         (['realistic:=[1'], 'realistic:=[1 is not allowed; allowed: true or false'),
         (['a.yaml', 'floor:=grass', 'b.yaml'], 'a.yaml and b.yaml: give one waypoint file'),

@@ -3,9 +3,9 @@
 """
 Run a command as a user that nobody else is, and end all processes of that user with it.
 
-A program, `python -I -S -W ignore guard.py USER COMMAND...`, that imports nothing of ours: it has to start
-quickly. It does what a process namespace does where there is none. The command takes the user's
-number by itself; the guard stays root, whom that user cannot signal.
+A program, `python -I -S -W ignore guard.py USER COMMAND...`, that imports nothing of ours: it has
+to start quickly. It does what a process namespace does where there is none. The command takes the
+user's number by itself; the guard stays root, whom that user cannot signal.
 """
 
 import _thread
