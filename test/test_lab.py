@@ -125,7 +125,7 @@ def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_pa
         (['floor:=gras'], 'floor:=gras is not allowed; allowed: one of ideal, asphalt'),
         (
             ['flor:=grass'],
-            'flor does not exist; did you mean floor? allowed: battery, battery_charge',
+            'flor does not exist; did you mean floor? allowed: battery, ',
         ),
         (['seed:=-1'], 'allowed: a whole number from 0'),
         (['realistic:=[1'], 'realistic:=[1 is not allowed; allowed: true or false'),

@@ -3,6 +3,7 @@
 """A node that does with a real turtlesim what a student's node does."""
 
 from collections.abc import Callable
+import contextlib
 import time
 from types import TracebackType
 from typing import Any
@@ -64,12 +65,23 @@ class TurtleClient:
         return future.result()
 
     def call(self, kind: Any, name: str, /, **fields: object) -> Any:
-        """Call a service and return its response."""
+        """
+        Call a service and return its response.
+
+        A second time where none comes: on a busy machine the first may be sent before the server
+        has found who reads it, and is lost then.
+        """
         if name not in self._made:
             self._made[name] = self.node.create_client(kind, name)
         client = self._made[name]
         self.wait_for(client.service_is_ready, f'the service {name}')
-        return self.result_of(client.call_async(kind.Request(**fields)), f'an answer of {name}')
+        calls = [client.call_async(kind.Request(**fields))]
+        with contextlib.suppress(AssertionError):
+            self.wait_for(calls[0].done, f'an answer of {name}', timeout_sec=5.0)
+        if not calls[0].done():
+            calls.append(client.call_async(kind.Request(**fields)))
+        self.wait_for(lambda: any(call.done() for call in calls), f'an answer of {name}')
+        return next(call.result() for call in calls if call.done())
 
     def command(self, turtle: str, x: float = 0.0, turn: float = 0.0, *, y: float = 0.0) -> None:
         """Publish a velocity, once the turtle listens."""
