@@ -30,6 +30,21 @@ PANEL = """(() => {
 })()"""
 
 
+# Notes how much each frame draws, without drawing it.
+COUNT_DRAWN = """
+window.drawn = [];
+let count = 0;
+for (const name of ['drawElements', 'drawElementsInstanced'])
+  WebGL2RenderingContext.prototype[name] = () => { count += 1; };
+const soon = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => soon((now) => {
+  count = 0;
+  draw(now);
+  if (count > 1) window.drawn.push(count);
+});
+"""
+
+
 @pytest.fixture(scope='module')
 def lab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
     with view_lab(tmp_path_factory.mktemp('view'), browser) as started:
@@ -46,6 +61,18 @@ def test_the_page_shows_passing_time_and_no_legend_of_nothing(page: Page) -> Non
     expect(number(page, 'time')).not_to_have_text(number(page, 'time').inner_text())
     expect(page.locator('.husky-legend')).to_have_text('')
     assert errors(page) == []
+
+
+@pytest.mark.timeout(120)
+def test_the_first_picture_of_the_scene_is_whole_but_for_its_letters(lab: Lab) -> None:
+    page = lab.browser.new_page()
+    page.add_init_script(COUNT_DRAWN)
+    page.goto(lab.address, wait_until='commit')
+    wait_for(page, 'window.drawn.length > 20')
+    drawn = page.evaluate('window.drawn')
+    assert drawn[0] >= max(drawn) - 3, f'{drawn}: parts came later'
+    assert drawn[0] < 30, 'it takes long where a processor draws'
+    page.close()
 
 
 @pytest.mark.timeout(120)

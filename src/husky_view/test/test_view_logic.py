@@ -27,15 +27,17 @@ from husky_view.live.checks import RealTimeFactor
 from husky_view.live.teleop import HOLD_TIMEOUT_SEC, STOPS, Teleop
 from husky_view.picture.geometry import distance_to_line, on_ground, to_odom, to_world
 from husky_view.picture.history import History, MOST_POINTS
-from husky_view.picture.marks import ObstacleShadows, soft_spot
-from husky_view.picture.matte import matte_meshes
+from husky_view.picture.meshes import matte_meshes
 from husky_view.picture.page import Direction, in_decimals
 from husky_view.picture.picture import first_of_run
+from husky_view.picture.scene import PlaypenScene
+from husky_view.picture.shadows import ObstacleShadows, REACH_M, soft_spot
 from husky_view.replay.panel import Playback
 from husky_view.replay.run import load_run, RunScenes
 from mjviser import scene as mjviser_scene
 import numpy as np
 import pytest
+from trimesh.visual import ColorVisuals
 import viser
 
 from husky_sim.config import SimulationConfig
@@ -74,29 +76,59 @@ def test_a_painted_obstacle_is_not_written_as_metal() -> None:
     assert mesh.visual.vertex_colors[0, 0] == pytest.approx(0.477 * 255.0, abs=1.0)
 
 
-def test_a_shadow_stands_under_its_obstacle_and_goes_with_it() -> None:
-    cone = Outline(name='cone', x=1.0, y=2.0, yaw=0.0, size=(0.3,))
-    wall = Outline(name='wall', x=4.0, y=0.0, yaw=0.5, size=(4.0, 0.8))
+def test_alike_obstacles_are_one_mesh_and_the_ground_another() -> None:
+    world = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml'))).world
     server = viser.ViserServer('127.0.0.1', free_port('127.0.0.1', 18200), verbose=False)
     try:
-        shadows = ObstacleShadows(server, (cone, wall), 0.01)
-        shadows.show((replace(cone, x=1.5, yaw=math.pi), wall))
-        under_cone, under_wall = map(server.scene.get_handle_by_name, ('/shadows/0', '/shadows/1'))
-        assert under_cone is not None
-        assert under_wall is not None
-        assert under_cone.position.tolist() == [1.5, 2.0, 0.01]
-        assert under_cone.wxyz[3] == pytest.approx(1.0)
-        assert under_wall.position.tolist() == [4.0, 0.0, 0.01]
+        PlaypenScene(server, world)
+        barriers = server.scene.get_handle_by_name('/bodies/jersey_barrier/group0')
+        assert isinstance(barriers, viser.BatchedGlbHandle)
+        places = barriers.batched_positions[:, :2].astype(float).round(3)
+        bodies = [world.model.body(each) for each in range(world.model.nbody)]
+        named = [body for body in bodies if body.name.startswith('jersey_barrier')]
+        stand = [body.pos[:2].round(3).tolist() for body in named]
+        assert sorted(places.tolist()) == sorted(stand)
+        ground = server.scene.get_handle_by_name('/fixed_bodies/world/group0')
+        assert isinstance(ground, viser.GlbHandle)
+        assert ground.receive_shadow is False, 'it would be drawn a second time'
     finally:
         server.stop()
 
 
-@pytest.mark.parametrize(('size', 'dark'), [((0.5,), 0.35), ((1.0, 1.0), 0.44)])
-def test_a_shadow_is_as_large_as_what_casts_it(size: tuple[float, ...], dark: float) -> None:
-    shade = soft_spot(size, 1.5, 1.5)[..., 3]
-    assert shade[0].max() == shade[:, -1].max() == 0, 'it ends at its border'
-    assert (shade == shade.max()).mean() == pytest.approx(dark, abs=0.05)
-    assert ((shade > 0) & (shade < shade.max())).mean() > 0.2, 'it is soft'
+def test_a_shadow_stands_under_its_obstacle_and_goes_with_it() -> None:
+    cone = Outline(name='cone', x=1.0, y=2.0, yaw=0.0, size=(0.3,))
+    other_cone = replace(cone, x=-1.0, size=(0.301,))
+    wall = Outline(name='wall', x=4.0, y=0.0, yaw=0.5, size=(4.0, 0.8))
+    server = viser.ViserServer('127.0.0.1', free_port('127.0.0.1', 18200), verbose=False)
+    try:
+        shadows = ObstacleShadows(server, (cone, wall, other_cone), 0.01)
+        shadows.show((replace(cone, x=1.5, yaw=math.pi), wall, other_cone))
+        names = '/shadows/0', '/shadows/1'
+        under_cones, under_wall = map(server.scene.get_handle_by_name, names)
+        assert isinstance(under_cones, viser.BatchedGlbHandle)
+        assert isinstance(under_wall, viser.BatchedGlbHandle)
+        places = [[1.5, 2.0, 0.01], [-1.0, 2.0, 0.01]]
+        np.testing.assert_allclose(under_cones.batched_positions, places, atol=1e-6)
+        np.testing.assert_allclose(under_cones.batched_wxyzs[:, 3], [1.0, 0.0], atol=1e-6)
+        np.testing.assert_allclose(under_wall.batched_positions, [[4.0, 0.0, 0.01]], atol=1e-6)
+    finally:
+        server.stop()
+
+
+@pytest.mark.parametrize(('size', 'dark_m2'), [((0.5,), 0.785), ((1.0, 1.0), 1.0)])
+def test_a_shadow_is_as_large_as_what_casts_it(size: tuple[float, ...], dark_m2: float) -> None:
+    spot = soft_spot(size)
+    assert isinstance(spot.visual, ColorVisuals)
+    shade = spot.visual.vertex_colors[:, 3]
+    farthest = np.abs(spot.vertices).max(axis=0)
+    np.testing.assert_allclose(farthest, [0.5 + REACH_M, 0.5 + REACH_M, 0.0], atol=0.01)
+    at_border = np.abs(spot.vertices[:, 0]) > 0.49 + REACH_M
+    assert shade[at_border].tolist() == [0] * at_border.sum(), 'it ends at its border'
+    is_dark = (shade == shade.max())[spot.faces].all(axis=1)
+    assert spot.area_faces[is_dark].sum() == pytest.approx(dark_m2, rel=0.02)
+    assert (spot.face_normals[spot.area_faces > 0.0, 2] > 0.99).all(), 'it is seen from above'
+    soft = ((shade > 0) & (shade < shade.max()))[spot.faces].any(axis=1)
+    assert spot.area_faces[soft].sum() > 0.2 * spot.area, 'it is soft'
 
 
 def test_a_ray_meets_the_ground_only_below_itself() -> None:

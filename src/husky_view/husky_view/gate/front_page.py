@@ -16,10 +16,16 @@ LOST = (
 )
 
 # viser looks for a lost server only while somebody types into the page, and writes the address of
-# its websocket behind ours.
+# its websocket behind ours. Until the scene comes it takes its light from a picture that is in the
+# page; where a processor draws, to load that takes half a second, and ours has other lights.
 _BEFORE = """
 document.hasFocus = () => true;
 history.replaceState = () => {};
+const fetchAny = window.fetch;
+window.fetch = (what, ...more) => {
+  const isLight = (what.url ?? String(what)).startsWith('data:image/jpeg');
+  return isLight ? new Promise(() => {}) : fetchAny(what, ...more);
+};
 """
 
 _STYLE = """

@@ -1,19 +1,17 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is drawn into the scene: trails, paths, waypoints, points, lidar hits and shadows."""
+"""What is drawn into the scene: trails, paths, waypoints, points and lidar hits."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 import math
 from typing import Any
 
 from husky_course.frames import Array
-from husky_course.outline import Outline
 import numpy as np
 import numpy.typing as npt
 import trimesh
 import viser
 
-from husky_view.picture.page import SHADOWS
 from husky_view.picture.palette import Rgb
 
 Colors = Rgb | npt.NDArray[np.uint8]
@@ -23,10 +21,6 @@ TRAIL_STEP_M = 0.05
 """Points of a trail nearer than this to the one before are left out."""
 
 PIECE_POINTS, MOST_PIECES = 100, 200
-SHADOW_REACH_M, SHADOW_OPACITY = 0.25, 0.75
-"""How far a shadow is seen around what casts it."""
-SHADOW_PIXEL_M = 0.04
-
 _NUMBER_ABOVE = np.array([0.0, 0.0, 0.05])  # of its disc, or the ground would hide its lower edge
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
@@ -208,69 +202,3 @@ class NumberedDiscs:
                 on_drag(event)
 
         return discs
-
-
-class ContactShadow:
-    """
-    A soft dark spot under something, or it would seem to float: the scene has no shadows.
-
-    :param size: of its outline, as that of an Outline.
-    """
-
-    def __init__(
-        self, server: viser.ViserServer, name: str, size: Sequence[float], height_m: float
-    ) -> None:
-        self._height_m = height_m
-        lengths = [2.0 * length for length in (*size, *size)] if len(size) == 1 else size
-        width_m, depth_m = (length + 2.0 * SHADOW_REACH_M for length in lengths)
-        self._spot = server.scene.add_image(
-            name,
-            soft_spot(size, width_m, depth_m),
-            render_width=width_m,
-            render_height=depth_m,
-            format='png',
-            cast_shadow=False,
-            receive_shadow=False,
-        )
-
-    def move(self, x: float, y: float, *, yaw: float) -> None:
-        """Put it under what it belongs to."""
-        self._spot.position = (x, y, self._height_m)
-        self._spot.wxyz = (math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0))
-
-
-class ObstacleShadows:
-    """A shadow under each obstacle, also where one is pushed to."""
-
-    def __init__(
-        self, server: viser.ViserServer, outlines: Sequence[Outline], height_m: float
-    ) -> None:
-        self._shadows = [
-            ContactShadow(server, f'{SHADOWS}{place}', outline.size, height_m)
-            for place, outline in enumerate(outlines)
-        ]
-        self._shown: Sequence[Outline | None] = [None] * len(outlines)
-        self.show(outlines)
-
-    def show(self, outlines: Sequence[Outline]) -> None:
-        """Put them under the same obstacles, in the same order, where these are now."""
-        for shadow, outline, before in zip(self._shadows, outlines, self._shown, strict=True):
-            if outline != before:
-                shadow.move(outline.x, outline.y, yaw=outline.yaw)
-        self._shown = outlines
-
-
-def soft_spot(size: Sequence[float], width_m: float, depth_m: float) -> npt.NDArray[np.uint8]:
-    """Return black pixels, dark under the outline and clear SHADOW_REACH_M away from it."""
-    count_x, count_y = (max(round(length / SHADOW_PIXEL_M), 8) for length in (width_m, depth_m))
-    x, y = np.meshgrid(
-        np.abs(np.linspace(-width_m / 2.0, width_m / 2.0, count_x)),
-        np.abs(np.linspace(-depth_m / 2.0, depth_m / 2.0, count_y)),
-    )
-    if len(size) == 1:
-        away = np.maximum(np.hypot(x, y) - size[0], 0.0)
-    else:
-        away = np.hypot(np.maximum(x - size[0] / 2.0, 0.0), np.maximum(y - size[1] / 2.0, 0.0))
-    pixels = np.zeros((count_y, count_x, 4), dtype=np.uint8)
-    pixels[..., 3] = 255.0 * SHADOW_OPACITY * np.clip(1.0 - away / SHADOW_REACH_M, 0.0, 1.0) ** 2
-    return pixels

@@ -14,7 +14,7 @@ import json
 import viser
 from viser._messages import RunJavascriptMessage
 
-from husky_view.picture.palette import css, LEGEND, Rgb
+from husky_view.picture.palette import css, LEGEND, Rgb, SKY_ABOVE, SKY_BELOW
 from husky_view.picture.pointer import POINTER_SCRIPT
 
 STOP, RELEASE = 'STOP', 'Release the stop'
@@ -31,6 +31,10 @@ How names begin of what is drawn over everything, of shadows, and of what mjvise
 viser has no order for them: the transparent border of a shadow would be a hole in the ground,
 which is transparent as well, and a shadow would lie on the lines of a path.
 """
+
+
+HOLD_MS = 5000
+"""After this time a scene is drawn also where parts of it have not come."""
 
 
 class Direction(Enum):
@@ -50,6 +54,7 @@ class Direction(Enum):
 
 
 _STYLE = """
+canvas[data-engine] { background: linear-gradient(SKY); }
 .husky-pad { display: grid !important; gap: 0.3em; padding: 0 0.6em 0.4em;
   grid-template-areas: ". up ." "left down right"; grid-template-columns: 1fr 1fr 1fr; }
 .husky-pad > * { margin: 0 !important; padding: 0 !important; touch-action: none; }
@@ -112,7 +117,7 @@ const makeRoom = () => {
 let waiting = null;
 const play = () => {
   const legend = document.querySelector('[data-plays]');
-  if (legend === waiting) return;
+  if (legend === waiting || !window.__viserMutable?.scene?.visible) return;
   waiting = legend;
   const press = () => { if (legend.isConnected) button(PLAY)?.click(); };
   // The second of two frames begins when the first one is drawn.
@@ -150,6 +155,26 @@ const order = () => {
     });
   }
 };
+// Without a graphics processor each picture of a part takes as long as the one of all.
+const drawWhenWhole = () => {
+  const viewer = window.__viserMutable, end = performance.now() + HOLD_MS;
+  const isThere = ([name, node]) => {
+    const type = node?.message?.type ?? 'LabelMessage', made = viewer.nodeRefFromName[name];
+    let count = 0;
+    made?.traverse((drawn) => { if (drawn.isMesh) count += 1; });
+    return type === 'LabelMessage' || (made && (count > 0 || !type.startsWith('Batched')));
+  };
+  const isWhole = () => document.querySelector('.husky-page') &&
+    Object.entries(window.__viserSceneTree.getState()).every(isThere);
+  const look = () => {
+    if (!isWhole() && performance.now() < end) return requestAnimationFrame(look);
+    order();
+    viewer.scene.visible = true;
+    viewer.requestRender();
+  };
+  viewer.scene.visible = viewer.backgroundMaterial.visible = false;
+  requestAnimationFrame(look);
+};
 const arrange = () => {
   makeRoom();
   play();
@@ -167,6 +192,7 @@ const arrange = () => {
   for (const note of document.querySelectorAll('.mantine-Notification-root'))
     if (note.textContent.startsWith('Software WebGL')) note.querySelector('button').click();
 };
+drawWhenWhole();
 arrange();
 window.huskyPage = setInterval(arrange, 100);
 """
@@ -181,7 +207,9 @@ def add_page_script(server: viser.ViserServer) -> None:
         .replace('PRESETS', json.dumps(PRESETS))
         .replace('PLACES', json.dumps([[ON_TOP, 1], [SHADOWS, -1], [FIXED, -2]]))
         .replace('STOPS', json.dumps([STOP, RELEASE]))
+        .replace('HOLD_MS', str(HOLD_MS))
         .replace('STYLE', json.dumps(_STYLE))
+        .replace('SKY', f'{css(SKY_ABOVE)}, {css(SKY_BELOW)}')
     )
     # viser loads Plotly by this message and has no public method for it. The server keeps the
     # message for new tabs; the elements' HTML cannot do it, for viser runs no scripts in it.

@@ -4,6 +4,9 @@
 
 Rgb = tuple[int, int, int]
 
+SKY_ABOVE: Rgb = (150, 190, 230)
+SKY_BELOW: Rgb = (245, 248, 252)
+
 # Safe for colour-blind people, on dark asphalt (after Okabe and Ito, 2008).
 PATH: Rgb = (86, 180, 233)
 TRUE_TRAIL: Rgb = (240, 228, 66)

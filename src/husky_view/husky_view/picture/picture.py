@@ -25,14 +25,13 @@ from husky_view.picture.geometry import bounds, distance_to_line, to_world
 from husky_view.picture.history import History
 from husky_view.picture.marks import (
     add_line,
-    ContactShadow,
     lifted,
     NumberedDiscs,
-    ObstacleShadows,
     Trail,
 )
 from husky_view.picture.page import SHADOWS, TOP
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
+from husky_view.picture.shadows import ContactShadows, ObstacleShadows
 
 _X, _ODOM_X, _YAW = TRACK.index('x'), TRACK.index('odom_x'), TRACK.index('yaw')
 _SPEED = TRACK.index('speed_m_s')
@@ -83,10 +82,11 @@ class RobotMarks:
             point_size=0.04,
             visible=False,
         )
-        self._shadow = ContactShadow(
+        self._shadow = ContactShadows(
             server,
             f'{SHADOWS}{start.name}',
             (ROBOT_LENGTH_M, ROBOT_WIDTH_M),
+            [(start.x, start.y, start.yaw)],
             ground_m + ABOVE_GROUND_M / 2.0,
         )
         self._name = server.scene.add_label(
@@ -119,7 +119,7 @@ class RobotMarks:
 
     def _place(self) -> None:
         x, y = self._x_y.tolist()
-        self._shadow.move(x, y, yaw=self.yaw)
+        self._shadow.move([(x, y, self.yaw)])
         if self._name.visible:
             self._name.position = (x, y, self._name_m)
 

@@ -14,14 +14,13 @@ import mujoco
 import numpy as np
 import viser
 
-from husky_view.picture.matte import matte_meshes
+from husky_view.picture.meshes import alike_meshes_as_one, matte_meshes
 from husky_view.picture.page import FIXED
 
 GROUND = (176, 174, 168)
 GROUND_LINES = (160, 158, 152)
 
 SKY = (235, 242, 255)
-SKY_ABOVE, SKY_BELOW = (150, 190, 230), (245, 248, 252)
 SKY_INTENSITY = 2.6
 # Name, position, intensity. With one light alone, sides in its shadow would look flat.
 SUNS = (('sun', (-6.0, -9.0, 14.0), 2.4), ('second_sun', (9.0, 4.0, 6.0), 0.7))
@@ -29,6 +28,7 @@ SUNS = (('sun', (-6.0, -9.0, 14.0), 2.4), ('second_sun', (9.0, 4.0, 6.0), 0.7))
 ABOVE_GROUND_M = 0.02
 """Height of lines: at the height of the ground they would flicker."""
 
+_HULLS = '/hull'  # mjviser's name of convex hulls, which are hidden at first
 _BASE_HEIGHT_M = 0.12836  # of base_link above the ground: husky.xml
 
 
@@ -40,8 +40,11 @@ class PlaypenScene:
         _color_textured(world.model)
         self._data = mujoco.MjData(world.model)
         mujoco.mj_kinematics(world.model, self._data)
-        with matte_meshes():
+        with matte_meshes(), alike_meshes_as_one():
             self._scene = ViserMujocoScene(server, world.model, num_envs=1)
+        server.scene.remove_by_name(_HULLS)  # nobody can have them shown
+        for handle in self._scene._fixed_geom_handles.values():
+            handle.receive_shadow = False  # or it is drawn a second time, with none on it
         self._scene.camera_tracking_enabled = False
         _light(server)
         _color_planes(server, world.model)
@@ -105,7 +108,7 @@ def _light(server: viser.ViserServer) -> None:
     Light the scene without shadows and reflections.
 
     Without a graphics processor, mjviser's environment map and viser's shadows take seconds a
-    frame; plain lights give 20 frames a second.
+    frame; plain lights give 20 frames a second. The sky is the page's: it costs nothing there.
     """
     scene = server.scene
     scene.configure_environment_map(None)
@@ -117,9 +120,6 @@ def _light(server: viser.ViserServer) -> None:
         scene.add_light_directional(
             f'/light/{name}', position=position, intensity=intensity, cast_shadow=False
         )
-    fade = np.linspace(0.0, 1.0, 64)[:, None]
-    sky = np.array(SKY_ABOVE) * (1.0 - fade) + np.array(SKY_BELOW) * fade
-    scene.set_background_image(np.repeat(sky.astype(np.uint8)[:, None], 4, axis=1), format='png')
 
 
 def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:

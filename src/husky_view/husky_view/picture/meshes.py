@@ -1,11 +1,14 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Meshes of mjviser that reflect light as paint and concrete do.
+Meshes of mjviser that reflect light as paint and concrete do, and are few.
 
 mjviser 0.0.14 gives coloured meshes no material. A glTF mesh without one is metal
 (`metallicFactor` 1, glTF 2.0, section 3.9.2), and metal with nothing to mirror is black on every
 side away from the suns. Its colours, too, are written as they are on a screen.
+
+Of bodies that are alike it makes one mesh where they can move, and one each where they cannot: a
+page takes longer to make those than to draw them.
 """
 
 from collections.abc import Iterator
@@ -65,3 +68,22 @@ def matte_meshes() -> Iterator[None]:
         yield
     finally:
         mjviser_scene.merge_geoms = merge
+
+
+@contextmanager
+def alike_meshes_as_one() -> Iterator[None]:
+    """Have mjviser draw bodies at once that are alike, also where they stand still."""
+    is_fixed = mjviser_scene.is_fixed_body
+
+    def has_ground(model: mujoco.MjModel, body: int) -> bool:
+        first = int(model.body_geomadr[body])
+        kinds = model.geom_type[first : first + int(model.body_geomnum[body])]
+        return body == 0 or int(mujoco.mjtGeom.mjGEOM_PLANE) in kinds
+
+    mjviser_scene.is_fixed_body = lambda model, body: (
+        is_fixed(model, body) and has_ground(model, body)
+    )
+    try:
+        yield
+    finally:
+        mjviser_scene.is_fixed_body = is_fixed
