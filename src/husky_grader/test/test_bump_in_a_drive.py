@@ -12,13 +12,19 @@ import pytest
 NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it
 
 
-def held_sec(wheels: list[float], body: list[float], *, gap: int = -1) -> float | None:
-    """Return when it was noticed, of speeds 20 ms apart; at the gap the IMU misses 0.2 s."""
+def held_sec(
+    wheels: list[float], body: list[float], *, gap: int = -1, unheard: range = range(0)
+) -> float | None:
+    """
+    Return when it was noticed, of speeds 20 ms apart.
+
+    :param gap: where the IMU misses 0.2 s; unheard: which odometries are lost.
+    """
     bump = Bump()
     for i in range(1, len(wheels)):
         if not gap <= i < gap + 10:
             bump.add_acceleration(i * 0.02, (body[i] - body[i - 1]) / 0.02)
-        if bump.is_held(i * 0.02, wheels[i]):
+        if i not in unheard and bump.is_held(i * 0.02, wheels[i]):
             return i * 0.02
     return None
 
@@ -50,6 +56,15 @@ def test_a_robot_that_gets_its_speed_back_at_once_is_left_alone() -> None:
 def test_what_no_sample_tells_of_is_not_guessed() -> None:
     assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.8), gap=48) is None
     assert held_sec([1.0] * 200, [1.0] * 200) is None  # it began while the robot was driving
+
+
+@pytest.mark.parametrize('lost', [range(148, 190), range(148, 165), range(140, 151)])
+def test_a_robot_that_brakes_while_no_odometry_comes_is_left_alone(lost: range) -> None:
+    assert held_sec(speeds(0.8, 0.0), speeds(0.8, 0.0), unheard=lost) is None
+
+
+def test_a_robot_that_is_held_after_a_gap_in_odometry_is_noticed() -> None:
+    assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.0), unheard=range(80, 120)) is not None
 
 
 def test_gravity_that_an_inclined_imu_feels_does_not_count() -> None:

@@ -17,6 +17,7 @@ from typing import NamedTuple
 LAG_SEC = 0.1  # samples are used at this age, so that late delivery does not change a run
 WINDOW_SEC = 2.0
 GAP_SEC = 0.03  # a longer gap between samples means that one was lost: begin again
+WHEELS_GAP_SEC = 0.2  # after one between odometries nobody knows how the wheels turned in it
 LOST_SHARE = 0.6  # of the wheels' speed
 LOST_M_S = 0.08  # less may come from noise and bends
 SLOWEST_M_S = 0.1  # below it, noise would be most of the lost speed
@@ -45,6 +46,8 @@ class Bump:
 
     def is_held(self, time_sec: float, speed_m_s: float) -> bool:
         """Add the speed of the wheels; return whether the robot moves more slowly than they do."""
+        if self._wheels and time_sec - self._wheels[-1][0] > WHEELS_GAP_SEC:
+            self._begin_again(time_sec)
         self._wheels.append((time_sec, speed_m_s))
         samples, begin_sec, end_sec = (
             self._accelerations,
@@ -60,6 +63,12 @@ class Bump:
         if speed < SLOWEST_M_S or self._lost_m_s() < max(LOST_SHARE * speed, LOST_M_S):
             self._free_sec = now.time_sec
         return now.time_sec - self._free_sec > HELD_SEC
+
+    def _begin_again(self, time_sec: float) -> None:
+        self._window.clear()
+        self._wheels.clear()
+        while self._accelerations and self._accelerations[0][0] <= time_sec:
+            self._accelerations.popleft()
 
     def _integrate(self, time_sec: float, acceleration_m_s2: float) -> None:
         window, wheels = self._window, self._wheels
