@@ -12,6 +12,7 @@ names, EGL and OSMesa. What this Python itself is made for stays, and so do psut
 import builtins
 from collections.abc import Callable
 import ctypes
+import glob
 import io
 import os
 from pathlib import Path
@@ -57,6 +58,9 @@ def take_away() -> None:
     builtins.open = io.open = _refusing(io.open)  # type: ignore[assignment]
     for name in ('open', 'stat', 'lstat', 'scandir', 'listdir', 'readlink', 'access'):
         setattr(os, name, _refusing(getattr(os, name)))
+    for each in vars(glob).values():  # by which pathlib searches, from Python 3.13 on
+        if isinstance(each, type) and 'scandir' in vars(each):
+            each.scandir = staticmethod(os.scandir)  # type: ignore[attr-defined]
     del os.sched_getaffinity
     ctypes.CDLL = _Library  # type: ignore[misc]
     socket.socket = _Socket  # type: ignore[misc]

@@ -52,7 +52,9 @@ class ListingCommand(CommandExtension):
         if failure is not None and not args.all:
             return
         lead = self.INDENT if failure is None else '- '
-        print(f'{lead}{entry_point.name}: {get_first_line_doc(found)}')
+        # None has a docstring from Python 3.13 on.
+        line = '' if found is None else get_first_line_doc(found)
+        print(f'{lead}{entry_point.name}: {line}')
         if args.verbose:
             print(f'    module_name: {entry_point.module}')
             print(f'    attributes: {entry_point.attr}')
