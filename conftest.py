@@ -3,7 +3,7 @@
 """
 What every test relies on.
 
-`./lab test` runs three tests at a time: most wait for a clock more than they compute. The tests of
+`./lab test` runs four tests at a time: most wait for a clock more than they compute. The tests of
 a file stay in one process. Each test that uses DDS has a domain of its own, see
 husky_runtime.domains.
 """

@@ -40,7 +40,9 @@ const soon = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => soon((now) => {
   count = 0;
   draw(now);
-  if (count > 1) window.drawn.push(count);
+  // Before anything has come, viser draws its own axes.
+  const sent = Object.keys(window.__viserSceneTree?.getState() ?? {}).length > 2;
+  if (count > 1 && sent) window.drawn.push(count);
 });
 """
 
