@@ -21,17 +21,13 @@ from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
-# Arguments that are handed on to the simulator: name, default, description.
+# Arguments that are handed on to the simulator: name, default, description. What only it knows,
+# such as floor, reaches its launch file without.
 OF_SIMULATOR = (
     ('record', '', 'where the simulator writes the run'),
     ('limit_sec', '0.0', 'most simulated time; 0.0: any'),
     ('real_time_factor', '1.0', '1.0 keeps pace with the wall, 0.0 is as fast as possible'),
     ('interface', 'lab', "lab, or clearpath: driven by a real A200's topics"),
-    ('floor', 'asphalt', 'how the tyres grip'),
-    ('realistic', 'false', "true: the original's noise and unequal loads"),
-    ('seed', '0', 'of the noise'),
-    ('battery', 'false', 'true: motors with a limit of power, and a battery that runs down'),
-    ('battery_charge', '1.0', 'how full it is at the start'),
     ('lockstep', 'false', 'true: the simulator waits for each command, so that a run repeats'),
     ('viewer', 'false', 'true: a live view in the browser'),
     ('viewer_port', '8080', 'port of the view; the next free one if it is taken'),

@@ -123,9 +123,9 @@ def ids(svg: str, kind: str) -> set[str]:
 def wait_for_event(news: Iterator[dict[str, Any]], fact: Any, timeout_sec: float = 20.0) -> str:
     start = time.monotonic()
     for event in news:
+        assert time.monotonic() - start < timeout_sec, f'the last event is {event}'
         if fact(event):
             break
-    assert time.monotonic() - start < timeout_sec
     return str(event['svg'])
 
 

@@ -92,7 +92,7 @@ class Motors:
     def step(self, step_sec: float) -> None:
         """Take from the battery what a step has used, and see what is left for the next."""
         torques_n_m = self._husky.wheels().side_torques_n_m
-        motors_w = sum(map(electrical_power_w, torques_n_m, self._speeds_rad_s))
+        motors_w = math.fsum(map(electrical_power_w, torques_n_m, self._speeds_rad_s))
         self.battery.draw(motors_w + IDLE_W, step_sec)
         self._limit()
 

@@ -8,6 +8,7 @@ at rest with the mean voltage of the last readings. So it is too low while the r
 """
 
 from collections import deque
+import math
 from typing import NamedTuple
 
 from husky_sim.robot.battery import Battery, charge_at_rest
@@ -42,5 +43,5 @@ class BatteryMonitor:
             return None
         voltage_v = self._battery.voltage_v
         self._voltages_v.append(voltage_v)
-        mean_v = sum(self._voltages_v) / len(self._voltages_v)
+        mean_v = math.fsum(self._voltages_v) / len(self._voltages_v)
         return BatteryReading(voltage_v, self._battery.current_a, charge_at_rest(mean_v))
