@@ -7,6 +7,7 @@ from functools import partial
 import math
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TwistStamped
@@ -21,9 +22,14 @@ from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
-from rclpy.qos import qos_profile_sensor_data, ReliabilityPolicy
+from rclpy.qos import (
+    DurabilityPolicy,
+    qos_profile_sensor_data,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 from sensor_msgs.msg import BatteryState, Imu, JointState, LaserScan, NavSatFix
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, String
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSE = ROOT / 'config' / 'waypoints' / 'straight.yaml'
@@ -102,6 +108,16 @@ def test_topics_have_the_names_types_qos_and_frames_of_the_robot(station: Statio
     assert station.latest('platform/joint_states').name[0] == 'front_left_wheel_joint'
     (taker,) = station.get_subscriptions_info_by_topic(f'{NAMESPACE}cmd_vel')
     assert taker.topic_type == 'geometry_msgs/msg/TwistStamped'
+
+
+def test_the_description_has_the_frames_of_the_robot(station: Station) -> None:
+    told: list[String] = []
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    station.create_subscription(String, 'robot_description', told.append, latched)
+    wait_until(lambda: bool(told), timeout_sec=10.0, what='robot_description')
+    links = {link.get('name') for link in ElementTree.fromstring(told[-1].data).iter('link')}
+    assert {frame for _, frame in PUBLISHED.values() if frame} <= links
+    assert {'front_laser', 'camera_0_color_optical_frame'} <= links
 
 
 def test_the_battery_is_told_as_the_robot_tells_it(station: Station) -> None:

@@ -100,13 +100,11 @@ class RobotTopics:
         self._sensors = SensorTopics(
             node, simulation, robot, namespace, QOS, form, interface=interface
         )
+        fixed = FIXED_FRAMES | (CLEARPATH_FRAMES if as_clearpath else {})
         self._rest += create_transform_topics(
-            node,
-            namespace,
-            localization=bool(self._filtered_publishers),
-            fixed=FIXED_FRAMES | (CLEARPATH_FRAMES if as_clearpath else {}),
+            node, namespace, localization=bool(self._filtered_publishers), fixed=fixed
         )
-        publish_description(node, namespace, simulation.world.husky)
+        publish_description(node, namespace, simulation.world.husky, fixed)
         self.commands = CommandTopics(
             node,
             simulation,

@@ -7,7 +7,7 @@ Links and joints have the names of /tf and /joint_states. What URDF has no shape
 becomes the cylinder between its ends, and a mesh is that of the same name in this package.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 import math
 from pathlib import Path
 from xml.etree import ElementTree
@@ -26,10 +26,11 @@ _INERTIA = ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
 _Vector = NDArray[np.float64]
 
 
-def urdf_of(husky: Path) -> str:
+def urdf_of(husky: Path, fixed: Mapping[str, Frame] = FIXED_FRAMES) -> str:
     """
     Return the URDF of a robot's file, in metres, kilograms and radians.
 
+    :param fixed: the frames that never move in base_link; each is a link.
     :raises ValueError: when MuJoCo cannot read the file.
     """
     model = mujoco.MjModel.from_xml_path(str(husky))
@@ -43,7 +44,7 @@ def urdf_of(husky: Path) -> str:
         if model.body_parentid[body] == base:
             _link(robot, model, body)
             _wheel_joint(robot, model, body)
-    for name, frame in FIXED_FRAMES.items():
+    for name, frame in fixed.items():
         ElementTree.SubElement(robot, 'link', name=name)
         _joint(robot, 'fixed', f'{name}_joint', name, frame)
     ElementTree.indent(robot)
