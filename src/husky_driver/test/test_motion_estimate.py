@@ -13,7 +13,7 @@ from husky_driver.motion import Command, ImuReading, Odometry
 import pytest
 
 PERIOD_SEC = 0.02
-GRASS = Slip(pivot_m=0.19, onward_sec=0.035, outward_sec2=0.2, yaw_gain=0.8)
+GRASS = Slip(pivot_m=0.19, onward_sec=0.035, outward_sec2=0.2, aside_m_s=0.03, yaw_gain=0.8)
 
 
 @dataclass
@@ -90,6 +90,7 @@ def test_what_the_wheels_do_not_tell_is_learned() -> None:
     assert learned.pivot_m == pytest.approx(GRASS.pivot_m, abs=0.02)
     assert learned.onward_sec == pytest.approx(GRASS.onward_sec, abs=0.02)
     assert learned.outward_sec2 == pytest.approx(GRASS.outward_sec2, abs=0.05)
+    assert learned.aside_m_s == pytest.approx(GRASS.aside_m_s, abs=0.01)
     assert off_m(moments[-1], moments[-1].odometry) > 0.4, 'nothing was to be learned'
     assert max(map(off_m, moments, found)) < 0.06
     assert found[-1].speed_m_s == pytest.approx(GRASS.velocity(moments[-1].odometry)[0], abs=0.02)

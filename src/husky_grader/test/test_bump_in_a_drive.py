@@ -13,7 +13,12 @@ NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it
 
 
 def held_sec(
-    wheels: list[float], body: list[float], *, gap: int = -1, unheard: range = range(0)
+    wheels: list[float],
+    body: list[float],
+    *,
+    gap: int = -1,
+    unheard: range = range(0),
+    yaw_rate_rad_s: float = 0.0,
 ) -> float | None:
     """
     Return when it was noticed, of speeds 20 ms apart.
@@ -24,7 +29,7 @@ def held_sec(
     for i in range(1, len(wheels)):
         if not gap <= i < gap + 10:
             bump.add_acceleration(i * 0.02, (body[i] - body[i - 1]) / 0.02)
-        if i not in unheard and bump.is_held(i * 0.02, wheels[i]):
+        if i not in unheard and bump.is_held(i * 0.02, wheels[i], yaw_rate_rad_s):
             return i * 0.02
     return None
 
@@ -45,6 +50,14 @@ def test_a_held_robot_is_noticed_within_a_second(
 def test_a_robot_that_does_as_its_wheels_is_left_alone() -> None:
     assert held_sec(speeds(1.0, 0.0), speeds(1.0, 0.0)) is None
     assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.5)) is None  # slowed, not stopped
+
+
+def test_a_robot_that_turns_about_a_point_beside_its_middle_is_left_alone() -> None:
+    # The wheels go backwards so that it stays on the spot, which the driver does not know yet.
+    wheels, body = speeds(0.0, -0.25), speeds(0.0, 0.0)
+    assert held_sec(wheels, body) is not None
+    assert held_sec(wheels, body, yaw_rate_rad_s=1.4) is None
+    assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.0), yaw_rate_rad_s=1.0) is not None
 
 
 def test_a_robot_that_gets_its_speed_back_at_once_is_left_alone() -> None:

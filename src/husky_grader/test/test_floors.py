@@ -10,7 +10,7 @@ import sys
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
-from husky_course.waypoints import load_course
+from husky_course.waypoints import load_course, parse_course
 from husky_driver.drive import Drive
 from husky_driver.motion import Command, Odometry
 from husky_grader.report.files import summary
@@ -31,6 +31,18 @@ def test_the_barrier_is_rounded_with_noise_and_unequal_loads(floor: str) -> None
     assert report.conditions == (f'floor:={floor}', 'seed:=7', 'realistic:=true')
     assert f'  driven with floor:={floor} seed:=7 realistic:=true\n' in summary(report)
     assert report.cross_track_rms_m < 0.05
+
+
+@pytest.mark.parametrize('floor', ['asphalt', 'gravel'])
+def test_corners_of_more_than_a_right_angle_are_turned_on_the_spot(floor: str) -> None:
+    places = '[0, 0], [-1, 1], [-2, -1], [-3, 1], [-4, -1], [-5, 0.5]'
+    route = plan_route(parse_course(f'speed: 0.5\nwaypoints: [{places}]'))
+    # The heavier side lets a turn on the spot creep away, and the first turn knows nothing of it.
+    conditions = Conditions(floor=floor, realistic=True, seed=0)
+    record, drive = drive_route(route, conditions=conditions)
+    report = judge(read_run(record), route)
+    assert (drive.failure, report.completed) == ('', True)
+    assert report.cross_track_rms_m < 0.04
 
 
 def test_the_same_seed_gives_the_same_run_and_another_one_another() -> None:

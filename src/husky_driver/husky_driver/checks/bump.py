@@ -20,6 +20,7 @@ GAP_SEC = 0.03  # a longer gap between samples means that one was lost: begin ag
 WHEELS_GAP_SEC = 0.2  # after one between odometries nobody knows how the wheels turned in it
 LOST_SHARE = 0.6  # of the wheels' speed
 LOST_M_S = 0.08  # less may come from noise and bends
+PIVOT_M = 0.2  # and so much for each rad/s, from where the point lies about which it turns
 SLOWEST_M_S = 0.1  # below it, noise would be most of the lost speed
 HELD_SEC = 0.5  # a robot that slides along an edge gets its speed back sooner
 
@@ -27,6 +28,7 @@ HELD_SEC = 0.5  # a robot that slides along an edge gets its speed back sooner
 class _Sample(NamedTuple):
     time_sec: float
     speed_m_s: float  # of the wheels
+    yaw_rate_rad_s: float
     gained_nm_s: int  # by the IMU; sums of whole numbers do not depend on where they begin
 
 
@@ -35,7 +37,7 @@ class Bump:
 
     def __init__(self) -> None:
         self._accelerations: deque[tuple[float, float]] = deque(maxlen=1000)
-        self._wheels: deque[tuple[float, float]] = deque(maxlen=1000)
+        self._wheels: deque[tuple[float, float, float]] = deque(maxlen=1000)
         self._window: deque[_Sample] = deque()
         self._free_sec = 0.0
 
@@ -44,11 +46,11 @@ class Bump:
         if math.isfinite(time_sec) and math.isfinite(acceleration_m_s2):
             self._accelerations.append((time_sec, acceleration_m_s2))
 
-    def is_held(self, time_sec: float, speed_m_s: float) -> bool:
+    def is_held(self, time_sec: float, speed_m_s: float, yaw_rate_rad_s: float = 0.0) -> bool:
         """Add the speed of the wheels; return whether the robot moves more slowly than they do."""
         if self._wheels and time_sec - self._wheels[-1][0] > WHEELS_GAP_SEC:
             self._begin_again(time_sec)
-        self._wheels.append((time_sec, speed_m_s))
+        self._wheels.append((time_sec, speed_m_s, yaw_rate_rad_s))
         samples, begin_sec, end_sec = (
             self._accelerations,
             time_sec - LAG_SEC,
@@ -60,7 +62,8 @@ class Bump:
             return False
         now = self._window[-1]
         speed = abs(now.speed_m_s)
-        if speed < SLOWEST_M_S or self._lost_m_s() < max(LOST_SHARE * speed, LOST_M_S):
+        unsure_m_s = LOST_M_S + PIVOT_M * abs(now.yaw_rate_rad_s)
+        if speed < SLOWEST_M_S or self._lost_m_s() < max(LOST_SHARE * speed, unsure_m_s):
             self._free_sec = now.time_sec
         return now.time_sec - self._free_sec > HELD_SEC
 
@@ -83,7 +86,7 @@ class Bump:
             return  # a simulator in lockstep repeats its first message
         gained = round(1e9 * acceleration_m_s2 * (time_sec - before))
         gained += window[-1].gained_nm_s if window else 0
-        window.append(_Sample(time_sec, wheels[0][1], gained))
+        window.append(_Sample(time_sec, *wheels[0][1:], gained))
         while window[0].time_sec < time_sec - WINDOW_SEC:
             window.popleft()
 

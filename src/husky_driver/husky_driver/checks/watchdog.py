@@ -42,9 +42,10 @@ class Watchdog:
         if self._is_slipping(odometry, command):
             return (
                 f'the wheels slip: told to turn {command.yaw_rate_rad_s:.2f} rad/s, but it turns '
-                f'{odometry.yaw_rate_rad_s:.2f} rad/s; is something in its way near {place}?'
+                f'{odometry.yaw_rate_rad_s:.2f} rad/s; is something in its way near {place}, or '
+                'its battery empty?'
             )
-        if self.bump.is_held(odometry.time_sec, odometry.speed_m_s):
+        if self.bump.is_held(odometry.time_sec, odometry.speed_m_s, odometry.yaw_rate_rad_s):
             return (
                 f'the wheels drive {odometry.speed_m_s:.2f} m/s, but the IMU has felt the robot '
                 f'stop: something holds it near {place}'

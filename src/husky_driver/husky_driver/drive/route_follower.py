@@ -13,6 +13,8 @@ from husky_driver.motion import Command, Odometry, STOP
 ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
 ALIGNED_RAD = 0.01  # where turning on the spot ends
 ALIGNED_RAD_S = 0.15
+BACK_PER_SEC = 3.0  # speed over distance, while it turns on the spot
+MAX_BACK_M_S = 0.4
 LOST_HEADING_RAD = 1.2  # facing this far from the path: stop and turn
 ARRIVED_M = 0.004
 SETTLE_SEC = 3.0  # a robot that does not come to rest in this time is left rolling
@@ -89,12 +91,24 @@ class RouteFollower:
 
     def _turn(self, yaw_rad: float, enough_rad: float) -> Generator[Command, None, None]:
         """Turn on the spot to a heading, unless it is right already."""
-        error = math.remainder(yaw_rad - self._now.yaw_rad, _TWO_PI)
+        spot = self._now
+        error = math.remainder(yaw_rad - spot.yaw_rad, _TWO_PI)
         if abs(error) <= enough_rad:
             return
         while abs(error) > ALIGNED_RAD or abs(self._now.yaw_rate_rad_s) > ALIGNED_RAD_S:
-            yield Command(0.0, self._turn_rate(error))
+            yield Command(self._speed_back(spot), self._turn_rate(error))
             error = math.remainder(yaw_rad - self._now.yaw_rad, _TWO_PI)
+
+    def _speed_back(self, spot: Odometry) -> float:
+        """
+        Return the speed back to where a turn on the spot began.
+
+        It creeps away meanwhile; as its heading turns, it can be brought back from any direction.
+        """
+        now = self._now
+        ahead_m = (spot.x_m - now.x_m) * math.cos(now.yaw_rad)
+        ahead_m += (spot.y_m - now.y_m) * math.sin(now.yaw_rad)
+        return min(max(BACK_PER_SEC * ahead_m, -MAX_BACK_M_S), MAX_BACK_M_S)
 
     def _turn_rate(self, error_rad: float) -> float:
         braking = math.sqrt(2 * LIMITS.turn_braking_rad_s2 * abs(error_rad))

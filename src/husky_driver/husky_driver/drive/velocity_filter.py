@@ -16,11 +16,11 @@ from husky_driver.drive.kalman import Kalman
 from husky_driver.drive.slip import Slip
 from husky_driver.motion import ImuReading, Odometry
 
-AHEAD, LEFT, ADDED_AHEAD, ADDED_LEFT, PIVOT, ONWARD, OUTWARD = range(7)
+AHEAD, LEFT, ADDED_AHEAD, ADDED_LEFT, PIVOT, ONWARD, OUTWARD, ASIDE = range(8)
 
 # Standard deviations, in the order of the states: m/s, m/s2 by the IMU, and as in Slip.
-_AT_START = (0.02, 0.02, 0.01, 0.01, 0.1, 0.02, 0.07)
-_IN_A_SECOND = (0.003, 0.003, 0.0003, 0.0003, 0.003, 0.001, 0.003)
+_AT_START = (0.02, 0.02, 0.01, 0.01, 0.1, 0.02, 0.07, 0.05)
+_IN_A_SECOND = (0.003, 0.003, 0.0003, 0.0003, 0.003, 0.001, 0.003, 0.001)
 _STEADY_M_S = 0.01  # how far the truth is from wheels and `Slip`
 _SWAY_SEC = 0.2  # and how much more for each m/s2 and rad/s2 of the last moments
 _MOMENT_SEC = 0.1
@@ -39,20 +39,15 @@ class VelocityFilter:
         return self._kalman.values[AHEAD], self._kalman.values[LEFT]
 
     @property
-    def ground(self) -> tuple[float, float, float]:
+    def ground(self) -> tuple[float, float, float, float]:
         """The values of a `Slip` that were learned."""
-        pivot, onward, outward = self._kalman.values[PIVOT:]
-        return pivot, onward, outward
+        pivot, onward, outward, aside = self._kalman.values[PIVOT:]
+        return pivot, onward, outward, aside
 
     def restart(self, velocity: tuple[float, float]) -> None:
         """Go on from a velocity that is known otherwise; what was learned stays."""
-        covariance = self._kalman.covariance
-        self._kalman.values[:2] = velocity
-        for i in (AHEAD, LEFT):
-            covariance[i] = [0.0] * len(covariance)
-            for row in covariance:
-                row[i] = 0.0
-        covariance[AHEAD][AHEAD] = covariance[LEFT][LEFT] = _AT_START[AHEAD] ** 2
+        for i, speed in zip((AHEAD, LEFT), velocity, strict=True):
+            self._kalman.know(i, speed, _AT_START[i])
 
     def update(self, before: Odometry, reading: ImuReading, odometry: Odometry) -> None:
         """Take a reading, the mean of what was felt since the odometry before."""
@@ -61,13 +56,16 @@ class VelocityFilter:
         self._predict(period_sec, mean_rad_s, reading)
         kalman, wheels, rate = self._kalman, odometry.speed_m_s, odometry.yaw_rate_rad_s
         deviation = self._deviation_m_s(odometry, period_sec)
-        terms = ((AHEAD, 1.0), (PIVOT, -rate), (ONWARD, -wheels * abs(rate)))
-        kalman.correct(terms, wheels, deviation)
+        along = ((AHEAD, 1.0), (PIVOT, -rate), (ONWARD, -wheels * abs(rate)))
+        kalman.correct(along, wheels, deviation)
         ahead, bend = kalman.values[AHEAD], rate * abs(rate)
-        # left + outward * ahead * bend = 0, near the values of now
+        # left + outward * ahead * bend + aside * rate * rate = 0, near the values of now
         outward = kalman.values[OUTWARD]
-        terms = ((AHEAD, outward * bend), (LEFT, 1.0), (OUTWARD, ahead * bend))
-        kalman.correct(terms, outward * ahead * bend, deviation)
+        across = (
+            *((AHEAD, outward * bend), (LEFT, 1.0)),
+            *((OUTWARD, ahead * bend), (ASIDE, rate * rate)),
+        )
+        kalman.correct(across, outward * ahead * bend, deviation)
 
     def _deviation_m_s(self, odometry: Odometry, period_sec: float) -> float:
         """Return how far the truth may be from the wheels: more while speed and turn change."""
