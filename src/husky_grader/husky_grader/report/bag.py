@@ -1,14 +1,15 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A run as ROS 2 messages in one file, for Foxglove and `ros2 bag`.
+A run as ROS 2 messages in one file, for Lichtblick, Foxglove and `ros2 bag`.
 
 The topics have the names and the times that they had in the run, and hold what the record holds:
-the motion in the plane, without wheels, heights and covariances. Two are for those who look at
-it: cross_track_error is that of the report, and tf_static tells where odom stands in world.
+the motion in the plane, without wheels, heights and covariances. The others are for those who look
+at it: cross_track_error is that of the report, tf_static tells where odom stands in world, and
+because Lichtblick draws no odometry, the robot and its whole ways are there as markers and paths.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 from pathlib import Path
@@ -34,12 +35,14 @@ from nav_msgs.msg import Odometry
 from nav_msgs.msg import Path as PathMessage
 import numpy as np
 from std_msgs.msg import Float64
+from visualization_msgs.msg import MarkerArray
 
 from husky_grader.report.files import BAG
+from husky_grader.report.markers import RobotMarkers, surroundings
 from husky_grader.report.mcap_file import Topic, write_mcap
 from husky_grader.scoring.report import Report
 
-EVERY = 5  # of the samples of the path, 2 cm apart
+EVERY = 5  # of the samples of a path, 2 cm apart
 _UNKNOWN = (0.0,) * 6  # as covariances
 
 Messages = Iterator[tuple[int, bytes]]
@@ -64,28 +67,31 @@ def _topics(record: Record, place: int, route: Route, report: Report) -> list[To
     space = f'/{start.name}/' if len(record.robots) > 1 else '/'
     motion = _Motion(record, place)
     first_ns = motion.times_ns[0]
-    path_message = [(first_ns, _bytes(_path(route)))]
-    touches = [
-        (_ns(touch.time_sec), _bytes(new_collision(touch)))
-        for touch in record.collisions
-        if touch.robot == start.name
-    ]
+    touches = [touch for touch in record.collisions if touch.robot == start.name]
+    collisions = [(_ns(touch.time_sec), _bytes(new_collision(touch))) for touch in touches]
+    still: dict[str, Any] = {
+        'path': _path('odom', route.curve.x, route.curve.y),
+        'odometry/path': _path('odom', *motion.columns('odom_x', 'odom_y')),
+        'ground_truth/path': _path('world', *motion.columns('x', 'y')),
+        'surroundings': surroundings(record.obstacles, touches, route),
+    }
+    if TFMessage is not None:
+        still['tf_static'] = fixed_transforms()
+        still['tf_static'].transforms.append(_odom_in_world(start))
     topics = [
-        Topic(f'{space}path', PathMessage, path_message, latched=True),
+        Topic(f'{space}{name}', type(each), [(first_ns, _bytes(each))], latched=True)
+        for name, each in still.items()
+    ]
+    topics += [
+        Topic(f'{space}ground_truth/robot', MarkerArray, motion.robot()),
         Topic(f'{space}odometry/filtered', Odometry, motion.filtered()),
         Topic(f'{space}ground_truth/odom', Odometry, motion.truth()),
         Topic(f'{space}husky_velocity_controller/cmd_vel', Twist, motion.commands(report.begin)),
-        Topic(f'{space}collisions', DiagnosticStatus, touches),
+        Topic(f'{space}collisions', DiagnosticStatus, collisions),
         Topic(f'{space}cross_track_error', Float64, motion.errors(report)),
     ]
     if TFMessage is not None:
-        fixed = fixed_transforms()
-        fixed.transforms.append(_odom_in_world(start))
-        fixed_message = [(first_ns, _bytes(fixed))]
-        topics += [
-            Topic(f'{space}tf_static', TFMessage, fixed_message, latched=True),
-            Topic(f'{space}tf', TFMessage, motion.transforms()),
-        ]
+        topics.append(Topic(f'{space}tf', TFMessage, motion.transforms()))
     return topics
 
 
@@ -96,9 +102,13 @@ class _Motion:
         self._column = partial(record.column, place)
         self.times_ns = [_ns(time_sec) for time_sec in record.time_sec.tolist()]
 
+    def columns(self, *names: str) -> list[Array]:
+        """Return the values of all rows."""
+        return list(map(self._column, names))
+
     def filtered(self) -> Messages:
         """Yield where odometry believed the robot, with the twist by which it came there."""
-        x, y, yaw = (self._column(name) for name in ('odom_x', 'odom_y', 'odom_yaw'))
+        x, y, yaw = self.columns('odom_x', 'odom_y', 'odom_yaw')
         yaw = np.unwrap(yaw)
         turn = np.diff(yaw, prepend=yaw[0])
         heading = yaw - turn / 2
@@ -110,7 +120,14 @@ class _Motion:
     def truth(self) -> Messages:
         """Yield where the robot was."""
         names = ('x', 'y', 'yaw', 'speed_m_s', 'yaw_rate_rad_s')
-        return self._odometry('world', *map(self._column, names))
+        return self._odometry('world', *self.columns(*names))
+
+    def robot(self) -> Messages:
+        """Yield the robot where it was, to be drawn."""
+        message = RobotMarkers()
+        for time_ns, x, y, yaw in self._rows(*self.columns('x', 'y', 'yaw')):
+            message.pack(_stamp(time_ns), x, y, yaw)
+            yield time_ns, bytes(message)
 
     def transforms(self) -> Messages:
         """Yield where base_link was believed in odom."""
@@ -119,7 +136,7 @@ class _Motion:
         pack_stamp = message.packer(place['header']['stamp'])
         pack = message.packer(place['transform'])
         names = ('odom_x', 'odom_y', 'odom_yaw')
-        for time_ns, x, y, yaw in self._rows(*map(self._column, names)):
+        for time_ns, x, y, yaw in self._rows(*self.columns(*names)):
             pack_stamp(*_stamp(time_ns))
             pack(x, y, 0.0, *_quaternion(yaw))
             yield time_ns, bytes(message)
@@ -162,16 +179,13 @@ class _Motion:
         return zip(self.times_ns, *(column.tolist() for column in columns), strict=True)
 
 
-def _path(route: Route) -> PathMessage:
-    curve = route.curve
+def _path(frame_id: str, x: Sequence[float] | Array, y: Sequence[float] | Array) -> PathMessage:
     path = PathMessage()
-    path.header.frame_id = 'odom'
-    for x, y in zip(
-        [*curve.x[:-1:EVERY], curve.x[-1]], [*curve.y[:-1:EVERY], curve.y[-1]], strict=True
-    ):
+    path.header.frame_id = frame_id
+    for east, north in zip([*x[:-1:EVERY], x[-1]], [*y[:-1:EVERY], y[-1]], strict=True):
         stamped = PoseStamped()
-        stamped.header.frame_id = 'odom'
-        stamped.pose.position.x, stamped.pose.position.y = x, y
+        stamped.header.frame_id = frame_id
+        stamped.pose.position.x, stamped.pose.position.y = float(east), float(north)
         path.poses.append(stamped)
     return path
 
