@@ -13,7 +13,7 @@ from husky_driver.motion import Command, Odometry, STOP
 ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
 ALIGNED_RAD = 0.01  # where turning on the spot ends
 ALIGNED_RAD_S = 0.15
-BACK_PER_SEC = 3.0  # speed over distance, while it turns on the spot
+BACK_PER_SEC = 1.5  # speed over distance, while it turns on the spot
 MAX_BACK_M_S = 0.4
 LOST_HEADING_RAD = 1.2  # facing this far from the path: stop and turn
 ARRIVED_M = 0.004
