@@ -218,6 +218,15 @@ def test_the_first_waypoint_has_no_yaw_and_no_dwell() -> None:
     assert parse_course('waypoints: [{x: 0, y: 0, dwell: 0}, [2, 0]]').stops[0].dwell_sec == 0.0
 
 
+def test_a_file_does_not_dwell_for_days() -> None:
+    pause = '  - {x: %d, y: 0, dwell: 600}\n'
+    text = 'waypoints:\n  - [0, 0]\n' + ''.join(pause % x for x in range(1, 7))
+    assert sum(stop.dwell_sec for stop in parse_course(text).stops) == 3600.0
+    assert problems(text + pause % 7) == [
+        'course.yaml: line 2, column 1: waypoints: 4200 s of dwell in all; allowed is up to 3600 s'
+    ]
+
+
 def test_a_link_to_nothing_is_not_said_to_be_meant(tmp_path: Path) -> None:
     (tmp_path / 'dangling.yaml').symlink_to(tmp_path / 'nowhere')
     with pytest.raises(FileRefused, match=r'no such file$'):

@@ -13,6 +13,8 @@ from husky_course.waypoints.course import COURSE, Course, WAYPOINT, Waypoint
 
 MAX_LENGTH_M = 2000.0
 MIN_SPACING_M = 0.05
+MAX_DWELLS_SEC = 3600.0
+"""Of all together: a file must not keep a grader busy for days."""
 
 
 def load_course(path: str | Path) -> Course:
@@ -43,6 +45,7 @@ class _CourseReader(FieldReader):
         waypoints = given.get('waypoints')
         if isinstance(waypoints, tuple):
             self._check_spacing(waypoints, bool(given.get('loop')))
+            self._check_dwells(waypoints)
             if not given.get('loop'):
                 self._check_first(waypoints[0])
         self.refuse_if_wrong()
@@ -99,6 +102,12 @@ class _CourseReader(FieldReader):
         for name in (name for name, given in asked.items() if given):
             message = 'not for the first waypoint, where the drive begins; leave it out'
             self._wrong_point(first, f'waypoints[0].{name}', message)
+
+    def _check_dwells(self, points: tuple[Waypoint, ...]) -> None:
+        dwells_sec = sum(point.dwell_sec for point in points)
+        if dwells_sec > MAX_DWELLS_SEC:
+            message = f'{dwells_sec:.0f} s of dwell in all; allowed is up to {MAX_DWELLS_SEC:g} s'
+            self._wrong_point(points[0], 'waypoints', message)
 
     def _check_spacing(self, points: tuple[Waypoint, ...], loop: bool) -> None:
         if loop and len(points) < 3:
