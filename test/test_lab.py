@@ -129,6 +129,12 @@ def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_pa
         ),
         (['seed:=-1'], 'allowed: a whole number from 0'),
         (['realistic:=[1'], 'realistic:=[1 is not allowed; allowed: true or false'),
+        (['seed:=!!timestamp x'], 'seed:=!!timestamp x is not allowed; allowed: a whole number'),
+        (['seed:=' + '[' * 3000], 'allowed: a whole number from 0'),
+        (['seed:=1:30'], 'seed:=1:30 is not allowed; allowed: a whole number from 0'),
+        (['floor:='], 'floor:= is not allowed; allowed: one of ideal, asphalt'),
+        (['\udcff.yaml'], '\\xff.yaml: ROS takes names in UTF-8 alone; rename it'),
+        (['a.yaml', '--report', '\udcff'], '\\xff: ROS takes names in UTF-8 alone; rename it'),
         (['a.yaml', 'floor:=grass', 'b.yaml'], 'a.yaml and b.yaml: give one waypoint file'),
     ],
 )
@@ -140,6 +146,13 @@ def test_drive_refuses_what_it_does_not_know(
     assert ended.value.code == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert said in line
+
+
+def test_drive_hands_on_what_a_launch_reads() -> None:
+    words = ['seed:=1_0', 'realistic:=TRUE', 'battery_charge:=.5', 'floor:=wet']
+    assert drive_command._conditions(words) == {
+        'seed': '10', 'realistic': 'true', 'battery_charge': '0.5', 'floor': 'wet',
+    }  # fmt: skip
 
 
 def test_drive_refuses_a_bad_file_before_anything_starts(

@@ -92,12 +92,22 @@ def test_an_interrupt_while_a_program_loads_ends_it_silently(
 
 
 @pytest.mark.timeout(60)
-def test_a_host_that_is_not_ours_is_refused_in_one_line(processes: Processes) -> None:
-    view = processes.start(*VIEW, 'viewer_host:=192.0.2.1')
+@pytest.mark.parametrize(
+    ('given', 'why'),
+    [
+        ('viewer_host:=192.0.2.1', "viewer_host='192.0.2.1'"),
+        ('viewer_host:=5', "'5' of type 'INTEGER', expecting type 'STRING'"),
+        ('simulator:=a b', 'Invalid service name'),
+    ],
+)
+def test_a_parameter_that_cannot_be_is_refused_in_one_line(
+    processes: Processes, given: str, why: str
+) -> None:
+    view = processes.start(*VIEW, given)
     assert view.wait() == 2
     said = [line for line in view.lines if line.startswith('view: ')]
     assert len(said) == 1
-    assert "viewer_host='192.0.2.1'" in said[0]
+    assert why in said[0]
     assert 'Traceback' not in view.output
 
 

@@ -11,7 +11,7 @@ from husky_course.frames import Pose
 from husky_course.printable import printable
 from husky_course.route import plan_route, Point, Route, Survey
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.command_line import BAD_INPUT, Parser, run_printing
 
 from husky_grader.playpen import check_route
 
@@ -43,7 +43,7 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('--draw draws one course; give one waypoint file')
     if options.draw and Path(options.draw).suffix not in ('.png', '.svg'):
         parser.error(f'--draw {options.draw}: the name must end in .png or .svg')
-    return max(_check(name, options) for name in options.files)
+    return run_printing(parser.prog, lambda: max(_check(name, options) for name in options.files))
 
 
 def _check(name: str, options: argparse.Namespace) -> int:

@@ -15,18 +15,18 @@ from husky_course.printable import printable
 from husky_course.record import FILE_NAME
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
+from husky_runtime.command_line import BAD_INPUT, discard_output, Parser, run_printing
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.settings import refuse_unknown, Setting, settings_of
 from husky_runtime.supervise import run_to_end
 from husky_runtime.web_address import AddressError
-import yaml
 
 from husky_grader import check, grade
 from husky_grader.drive_page import drive_page, DrivePage, is_at_a_terminal
 from husky_grader.grade_class import NOT_PASSED, PASSED
 from husky_grader.playpen import default_course
 from husky_grader.report.files import keep_course
+from husky_grader.report.folder import alone_in
 from husky_sim.config import BodyConfig, GroundConfig, PowerConfig, RunConfig, SensorConfig
 
 START_SEC = 90.0  # simulated time in which the driver must have begun
@@ -37,6 +37,7 @@ CONDITIONS = {
     if each.name in ('battery', 'battery_charge', 'floor', 'interface', 'realistic', 'seed')
 }
 """Settings of the simulator that a drive may be given."""
+_TRUTHS = {'true': True, 'false': False}
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -67,60 +68,93 @@ def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(args)
     files = [word for word in options.words if ':=' not in word]
-    files += [options.waypoints] if options.waypoints else []
+    files += [options.waypoints] if options.waypoints is not None else []
     if len(files) > 1:
         parser.error(f'{" and ".join(files)}: give one waypoint file')
     options.waypoints = files[0] if files else str(default_course())
     try:
         conditions = _conditions(word for word in options.words if ':=' in word)
+        for name in (options.waypoints, options.report):
+            _refuse_bytes(name)
     except ValueError as error:
-        parser.error(str(error))
+        parser.error(printable(str(error)))
+    return run_printing(parser.prog, lambda: _drive(options, conditions))
+
+
+def _drive(options: argparse.Namespace, conditions: Mapping[str, str]) -> int:
     # A course through a barrier may be driven: what happens is in the report.
     if status := check.main(['--warn', options.waypoints]):
         return status
     folder = Path(options.report)
     try:
         page = None if options.no_view else drive_page(options.open)
-        _prepare(folder, Path(options.waypoints))
-        with ExitStack() as stack:
-            environment = _environment(stack, page)
-            if page is not None:
-                page.open()
-            begun = time.monotonic()
-            run_to_end(_launch(options, folder, page, conditions), environment)
-        wall_time_sec = time.monotonic() - begun
-    except (OSError, DomainError, AddressError) as error:
-        print(f'lab drive: {error}', file=sys.stderr)
+        with alone_in(folder):
+            status = _run(options, folder, page, conditions)
+    except (ValueError, DomainError, AddressError) as error:
+        print(f'lab drive: {printable(str(error))}', file=sys.stderr)
         return BAD_INPUT
-    if not (folder / FILE_NAME).is_file():
-        print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
-        return BAD_INPUT
-    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints, '--mcap']
-    status = grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
     if status in (PASSED, NOT_PASSED):
         _show_again(folder, page)
     return status
 
 
+def _run(
+    options: argparse.Namespace,
+    folder: Path,
+    page: DrivePage | None,
+    conditions: Mapping[str, str],
+) -> int:
+    _prepare(folder, Path(options.waypoints))
+    with ExitStack() as stack:
+        environment = _environment(stack, page)
+        if page is not None:
+            page.open()
+        begun = time.monotonic()
+        run_to_end(_launch(options, folder, page, conditions), environment)
+    wall_time_sec = time.monotonic() - begun
+    if not (folder / FILE_NAME).is_file():
+        print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
+        return BAD_INPUT
+    record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints, '--mcap']
+    return grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
+
+
+def _refuse_bytes(name: str) -> None:
+    """
+    Refuse the name of a file that ROS cannot be told.
+
+    :raises ValueError: if it is not UTF-8.
+    """
+    try:
+        str(Path(name).absolute()).encode()
+    except UnicodeEncodeError:
+        raise ValueError(f'{name}: ROS takes names in UTF-8 alone; rename it') from None
+
+
 def _conditions(words: Iterable[str]) -> dict[str, str]:
     """
-    Read NAME:=VALUE as `ros2 launch` does.
+    Read NAME:=VALUE.
 
     :raises ValueError: naming what is allowed.
     """
     given = dict(word.split(':=', 1) for word in words)
     refuse_unknown(given, CONDITIONS)
-    for name, text in given.items():
-        try:
-            value = yaml.safe_load(text)
-        except yaml.YAMLError:
-            value = text
-        CONDITIONS[name].checked(value, _refusal)
-    return given
+    return {name: _checked(CONDITIONS[name], text) for name, text in given.items()}
 
 
-def _refusal(setting: Setting, given: object) -> ValueError:
-    return ValueError(f'{setting.name}:={given} is not allowed; allowed: {setting.allowed}')
+def _checked(setting: Setting, text: str) -> str:
+    """Return a value as `ros2 launch` takes it, which reads numbers as Python does."""
+    kind = type(setting.default)
+    try:
+        value = _TRUTHS[text.lower()] if kind is bool else kind(text)
+    except (KeyError, ValueError):
+        value = None
+    checked = setting.checked(value, lambda *_: _refusal(setting, text))
+    return str(checked).lower() if kind is bool else str(checked)
+
+
+def _refusal(setting: Setting, text: str) -> ValueError:
+    return ValueError(f'{setting.name}:={text} is not allowed; allowed: {setting.allowed}')
 
 
 def _show_again(folder: Path, page: DrivePage | None) -> None:

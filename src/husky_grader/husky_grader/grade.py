@@ -15,7 +15,7 @@ from husky_course.record import read_record, read_run, Run
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_driver.ros import Tally
-from husky_runtime.command_line import BAD_INPUT, discard_output, Parser
+from husky_runtime.command_line import BAD_INPUT, discard_output, Parser, why
 
 from husky_grader.file_grading import Grade, grade_file
 from husky_grader.grade_class import (
@@ -27,6 +27,7 @@ from husky_grader.grade_class import (
 )
 from husky_grader.playpen import default_course, default_rubric
 from husky_grader.report.files import as_json, summary, write_report
+from husky_grader.report.folder import alone_in
 from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
 
@@ -156,16 +157,19 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error(wrong)
     try:
         options.files = [file for given in options.files for file in _waypoint_files(given)]
-        status = _grade(options)
-        sys.stdout.flush()
-        return status
+        if options.make_gradescope:
+            return _make_gradescope(options)
+        with alone_in(Path(options.report)):
+            status = _grade(options)
+            sys.stdout.flush()
+            return status
     except BrokenPipeError:
         return discard_output()
     except ValueError as error:
         print(printable(str(error), keep='\n'), file=sys.stderr)
         return BAD_INPUT
     except OSError as error:
-        print(printable(_why(error)), file=sys.stderr)
+        print(printable(why(error)), file=sys.stderr)
         _drop_output()
         return BAD_INPUT
     except KeyboardInterrupt:
@@ -176,8 +180,6 @@ def main(args: Sequence[str] | None = None) -> int:
 
 
 def _grade(options: argparse.Namespace) -> int:
-    if options.make_gradescope:
-        return _make_gradescope(options)
     if options.record:
         return _grade_record(options)
     if options.controller:
@@ -323,11 +325,6 @@ def _drop_output() -> None:
         sys.stdout.flush()
     except OSError:
         discard_output()
-
-
-def _why(error: OSError) -> str:
-    where = f'{error.filename}: ' if error.filename else ''
-    return f'{where}{error.strerror or error}'
 
 
 if __name__ == '__main__':

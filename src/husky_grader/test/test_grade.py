@@ -13,6 +13,7 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.check import main as check
 from husky_grader.grade import main as grade
+from husky_grader.report.folder import alone_in
 from husky_grader.run.in_process import drive_route
 from husky_grader.scoring.report import judge
 import pytest
@@ -69,6 +70,41 @@ def test_a_closed_pipe_ends_grade_without_a_message(courses: Path, tmp_path: Pat
         assert run.stderr.read() == b''
     assert run.returncode == 141
     assert (tmp_path / 'report.html').exists()
+
+
+def test_a_folder_in_which_another_writes_is_refused(courses: Path, tmp_path: Path) -> None:
+    words = ['husky_grader.grade', str(courses / 'straight.yaml'), '--report', 'there/..']
+    with alone_in(tmp_path), alone_in(tmp_path):
+        refused = run_module(*words, cwd=tmp_path)
+    assert (refused.returncode, refused.stdout) == (2, '')
+    assert refused.stderr == (
+        'there/..: another drive or grading writes its report there; wait for its end, or name '
+        'another folder with --report DIR\n'
+    )
+    with alone_in(tmp_path):
+        pass
+
+
+def test_what_cannot_be_printed_is_one_line(courses: Path, tmp_path: Path) -> None:
+    with Path('/dev/full').open('w') as full:
+        checked = run_module(
+            'husky_grader.check', str(courses / 'straight.yaml'), cwd=tmp_path, stdout=full
+        )
+    assert (checked.returncode, checked.stderr) == (2, 'check: No space left on device\n')
+
+
+def run_module(
+    module: str, *words: str, cwd: Path, stdout: Any = subprocess.PIPE
+) -> 'subprocess.CompletedProcess[str]':
+    return subprocess.run(
+        [sys.executable, '-m', module, *words],
+        cwd=cwd,
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60.0,
+        check=False,
+    )
 
 
 @pytest.mark.parametrize(

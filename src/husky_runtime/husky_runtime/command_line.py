@@ -3,6 +3,7 @@
 """Command lines: wrong arguments are refused with one line and exit status 2."""
 
 import argparse
+from collections.abc import Callable
 import os
 import sys
 from typing import NoReturn
@@ -16,6 +17,30 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
+
+
+def run_printing(prog: str, work: Callable[[], int]) -> int:
+    """
+    Do what prints; what it cannot print or write ends it with one line.
+
+    :param work: returns the exit status.
+    """
+    try:
+        status = work()
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        return discard_output()
+    except OSError as error:
+        print(f'{prog}: {why(error)}', file=sys.stderr)
+        discard_output()
+        return BAD_INPUT
+
+
+def why(error: OSError) -> str:
+    """Return what went wrong, without the number of it."""
+    where = f'{error.filename}: ' if error.filename else ''
+    return f'{where}{error.strerror or error}'
 
 
 def discard_output() -> int:

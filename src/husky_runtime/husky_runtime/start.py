@@ -46,6 +46,7 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
             os.write(2, b'\ninterrupted\n')
         os._exit(interrupted)  # an exception would be raised inside an import
 
+    _open_closed_streams()
     # MuJoCo would start a second Python to find out whether it can open a window.
     os.environ.setdefault('MUJOCO_GL', 'disabled')
 
@@ -91,6 +92,14 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
             signal.signal(number, signal.SIG_IGN)
 
 
+def _open_closed_streams() -> None:
+    """Open what is closed (`>&-`): what is printed would go into the next file that is opened."""
+    for number, name in enumerate(('stdin', 'stdout', 'stderr')):
+        if getattr(sys, name) is None and os.open(os.devnull, os.O_RDWR) == number:
+            os.set_inheritable(number, True)
+            setattr(sys, name, os.fdopen(number, 'w' if number else 'r', encoding='utf-8'))
+
+
 def _how_to_install(module: str | None) -> str:
     return (
         f'{Path(sys.argv[0]).name}: {sys.executable} has no module {module!r}; in the folder of '
@@ -133,7 +142,28 @@ def run_node(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
     if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
         die_with_parent(signal.SIGTERM)
     os.environ[_CHECK_FIELDS] = '0'
-    return run(load, interrupted=interrupted, catches=catches)
+
+    def checked() -> Callable[[], int]:
+        main = load()
+        if wrong := _wrong_of_ros_arguments():
+            print(wrong, file=sys.stderr)
+            return lambda: _BAD_INPUT
+        return main
+
+    return run(checked, interrupted=interrupted, catches=catches)
+
+
+def _wrong_of_ros_arguments() -> str:
+    """Return in one line what is wrong with the arguments that are for ROS, or nothing."""
+    from rclpy.utilities import remove_ros_args  # the program has loaded it
+
+    try:
+        remove_ros_args(sys.argv)
+    except UnicodeEncodeError:
+        return 'an argument is no UTF-8, and ROS takes nothing else: rename that file'
+    except RuntimeError as error:
+        return f'wrong ROS arguments: {" ".join(str(error).split())}'
+    return ''
 
 
 class SignalsHeldBack:

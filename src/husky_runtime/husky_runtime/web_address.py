@@ -32,6 +32,8 @@ def free_port(host: str, port: int) -> int:
 
     :raises AddressError: if the host is not one of this machine's, or every port is taken.
     """
+    if port < 0:
+        raise AddressError(f'viewer_port={port}: a port is from 1 to 65535')
     try:
         address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except OSError as error:

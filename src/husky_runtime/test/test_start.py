@@ -6,6 +6,8 @@ from pathlib import Path
 import subprocess
 import sys
 
+import pytest
+
 INTERRUPTED = 130
 # Python prints and forgets what is raised in such a callback.
 FORGETFUL = """
@@ -24,18 +26,67 @@ def main():
 """
 
 
+SAYS = """
+import sys
+
+def main():
+    with open('file', 'w') as file:
+        print('to nobody')
+        print('what was there to read:', sys.stdin.read(), file=file)
+    return 0
+"""
+
+
+def started(
+    folder: Path, program: str, *words: str, shell: str = 'exec "$@"'
+) -> 'subprocess.CompletedProcess[str]':
+    return subprocess.run(
+        ['bash', '-c', shell, 'bash', sys.executable, '-c', program, *words],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=30.0,
+        check=False,
+    )
+
+
+def test_what_is_printed_where_nothing_is_open_gets_into_no_file(tmp_path: Path) -> None:
+    (tmp_path / 'says.py').write_text(SAYS)
+    program = (
+        'import sys; from says import main; from husky_runtime.start import run; '
+        'sys.exit(run(lambda: main))'
+    )
+    ended = started(tmp_path, program, shell='exec "$@" <&- >&-')
+    assert (ended.returncode, ended.stderr) == (0, '')
+    assert (tmp_path / 'file').read_text() == 'what was there to read: \n'
+
+
+@pytest.mark.parametrize(
+    ('words', 'said'),
+    [
+        (['--ros-args', '-p', 'x:=['], 'wrong ROS arguments: Failed to parse ROS arguments: '),
+        (['--ros-args', '--params-file', '/none'], "Couldn't parse params file: "),
+        (['\udcff.yaml'], 'an argument is no UTF-8, and ROS takes nothing else'),
+    ],
+)
+def test_wrong_ros_arguments_are_refused_in_one_line(
+    tmp_path: Path, words: list[str], said: str
+) -> None:
+    program = (
+        'import sys; from husky_runtime.start import run_node; '
+        'sys.exit(run_node(lambda: lambda: print("it runs")))'
+    )
+    ended = started(tmp_path, program, *words)
+    assert (ended.returncode, ended.stdout) == (2, '')
+    (line,) = ended.stderr.splitlines()
+    assert said in line
+
+
 def test_an_interrupt_in_a_weakref_callback_is_not_lost(tmp_path: Path) -> None:
     (tmp_path / 'forgetful.py').write_text(FORGETFUL)
     program = (
         'import sys; from forgetful import main; from husky_runtime.start import run; '
         f'sys.exit(run(lambda: main, interrupted={INTERRUPTED}, catches=True))'
     )
-    ended = subprocess.run(
-        [sys.executable, '-c', program],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=30.0,
-        check=False,
-    )
+    ended = started(tmp_path, program)
     assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, '', '')

@@ -217,6 +217,8 @@ def test_a_taken_port_is_skipped_and_a_foreign_host_refused() -> None:
         free_port('192.0.2.1', 8080)
     with pytest.raises(AddressError, match="viewer_host='no such host'"):
         free_port('no such host', 8080)
+    with pytest.raises(AddressError, match='viewer_port=-1: a port is from 1 to 65535'):
+        free_port('127.0.0.1', -1)
 
 
 def test_a_reserved_port_is_for_whom_it_is_reserved(monkeypatch: pytest.MonkeyPatch) -> None:

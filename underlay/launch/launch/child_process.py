@@ -213,4 +213,5 @@ async def start_child_process(
 
 def printable_command(cmd: Sequence[str]) -> str:
     """Return a command as upstream prints it: words with spaces between."""
-    return ' '.join(part for part in cmd if part.strip())
+    text = ' '.join(part for part in cmd if part.strip())
+    return text.encode('utf-8', 'backslashreplace').decode()  # a name may be no UTF-8

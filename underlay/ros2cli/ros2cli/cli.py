@@ -42,12 +42,21 @@ def main(
         build_parser, script_name=script_name, description=description, extension=extension
     )
     gc.set_threshold(_OBJECTS)
+    _open_closed_streams()
     try:
         return _run(build, list(sys.argv[1:] if argv is None else argv))
     except KeyboardInterrupt:
         return int(signal.SIGINT)
     finally:
         gc.freeze()  # the last collection, of a process that ends, would look at all there is
+
+
+def _open_closed_streams() -> None:
+    """Open what is closed (`>&-`): what is printed would go into the next file that is opened."""
+    for number, name in enumerate(('stdin', 'stdout', 'stderr')):
+        if getattr(sys, name) is None and os.open(os.devnull, os.O_RDWR) == number:
+            os.set_inheritable(number, True)
+            setattr(sys, name, os.fdopen(number, 'w' if number else 'r', encoding='utf-8'))
 
 
 @contextlib.contextmanager

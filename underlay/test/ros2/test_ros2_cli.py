@@ -52,6 +52,13 @@ def test_every_verb_is_in_the_help_of_its_command(ros2: Callable[..., Any], comm
     assert {line.split()[0] for line in listed if line.strip()} == COMMANDS[command]
 
 
+def test_where_nothing_is_open_nothing_is_printed() -> None:
+    closed = ['bash', '-c', 'exec "$@" <&- >&-', 'bash', sys.executable, '-m', 'ros2cli.cli']
+    words = ('pkg', 'prefix', 'rclpy')
+    ended = subprocess.run([*closed, *words], capture_output=True, timeout=30, check=False)
+    assert (ended.returncode, ended.stderr) == (0, b'')
+
+
 def test_every_verb_has_help_and_completion_words() -> None:
     from entry_point_index import docstring, entry_points
     from ros2cli import cli

@@ -22,6 +22,7 @@ from husky_sim.world import load_world, World
 from rcl_interfaces.msg import ParameterDescriptor
 import rclpy
 from rclpy.clock import Clock, ClockType
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
@@ -155,8 +156,8 @@ def main(args: list[str] | None = None) -> int:
         finally:
             node.destroy_node()
         return 0
-    except (AddressError, SimulatorError) as error:
-        print(f'view: {error}', file=sys.stderr)
+    except (AddressError, SimulatorError, ParameterException, NameValidationException) as error:
+        print(f'view: {" ".join(str(error).split())}', file=sys.stderr)
         return 2
     finally:
         rclpy.try_shutdown()

@@ -1,0 +1,42 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The folder of a report, into which one process writes at a time."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import hashlib
+import os
+from pathlib import Path
+
+from husky_runtime.domains import Lock
+
+_held: set[str] = set()  # by this process
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """
+    Keep other processes out of a folder: two would take each other's record for their own.
+
+    A process may come in again where it is already. The folder need not be there yet.
+
+    :raises ValueError: if another process is in it.
+    """
+    place = os.fsencode(folder.resolve())
+    name = f'husky_report_{hashlib.sha256(place).hexdigest()}'
+    if name in _held:
+        yield
+        return
+    try:
+        lock = Lock(name)
+    except BlockingIOError:
+        raise ValueError(
+            f'{folder}: another drive or grading writes its report there; wait for its end, or '
+            'name another folder with --report DIR'
+        ) from None
+    _held.add(name)
+    try:
+        yield
+    finally:
+        _held.discard(name)
+        lock.close()
