@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import urllib.request
 
 from ament_index_python.packages import get_package_prefix
+from husky_runtime.supervise import END_WITHIN_SEC
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
@@ -89,6 +90,19 @@ def test_an_interrupt_while_a_program_loads_ends_it_silently(
     assert process.wait(timeout_sec=10.0) == 0, process.output
     assert time.monotonic() - begun < 2.0
     assert process.output == ''
+
+
+BUSY = (
+    'from husky_view.live.node import _exit_soon; print(1, flush=True); _exit_soon()\nwhile 1: 1'
+)
+
+
+def test_a_view_that_builds_its_page_ends_within_the_time_of_a_drive(
+    processes: Processes,
+) -> None:
+    view = processes.start('python3', '-c', BUSY)
+    view.wait_for_text('1')
+    assert view.wait(timeout_sec=END_WITHIN_SEC) == 0
 
 
 @pytest.mark.timeout(60)

@@ -42,6 +42,11 @@ class LivePage(ThreadingHTTPServer):
     def __init__(self, port: int, handler: type[PageHandler]) -> None:
         super().__init__((HOST, port), handler)
 
+    def handle_error(self, request: object, client_address: object) -> None:
+        """Say nothing of a browser that has gone in the middle of a request."""
+        if not isinstance(sys.exc_info()[1], OSError):
+            super().handle_error(request, client_address)  # type: ignore[arg-type]
+
     @property
     def address(self) -> str:
         return f'http://{HOST}:{self.server_port}/'
@@ -105,7 +110,7 @@ class PageHandler(BaseHTTPRequestHandler):
         """Keep the terminal quiet."""
 
     def do_GET(self) -> None:
-        target = urlsplit(self.path)
+        target = _split(self.path)
         try:
             if refusal := self._refusal():
                 self.send_error(refusal)
