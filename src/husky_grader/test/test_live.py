@@ -74,12 +74,15 @@ rclpy.spin(node)
 LOOKS_ROUND = (
     NODE
     + """
-def on_odometry(_):
+from diagnostic_msgs.msg import DiagnosticArray
+def on_diagnostics(told):
     topics = dict(node.get_topic_names_and_types())
     services = [name for name, _ in node.get_service_names_and_types()]
-    print('seen', json.dumps([list(topics), services]), flush=True)
+    levels = [ord(status.level) for status in told.status]
+    print('seen', json.dumps([list(topics), services, levels]), flush=True)
     sys.exit()
-node.create_subscription(Odometry, 'odometry/filtered', on_odometry, 10)
+node.create_subscription(Odometry, 'odometry/filtered', lambda _: None, 10)
+node.create_subscription(DiagnosticArray, '/diagnostics', on_diagnostics, 10)
 rclpy.spin(node)
 """
 )
@@ -163,7 +166,8 @@ def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Pa
     drive_in_jail(LOOKS_ROUND, course, tmp_path / 'run')
     log = (tmp_path / 'run' / 'controller.log').read_text()
     assert 'seen ' in log, log
-    topics, services = json.loads(log.partition('seen ')[2].splitlines()[0])
+    topics, services, levels = json.loads(log.partition('seen ')[2].splitlines()[0])
+    assert levels == [0], 'a time that waits for it is told as a machine that is too slow'
     assert set(topics) <= OF_A_ROBOT
     assert [name for name in services if not name.startswith('/student/')] == []
 

@@ -195,7 +195,7 @@ class SimulatorNode(Node):
             self._record.disturb(self.simulation.time_sec, found.where, found.nodes)
 
     def _on_diagnose(self) -> None:
-        waits = self.paused or self._run.lockstep
+        waits = self.paused or self._pace.waits
         status = self._watch.status(self._pace.pacer, self._pace.factor, waits=waits)
         batteries = battery_statuses(self.simulation.robots)
         message = DiagnosticArray(status=[status, *batteries])

@@ -83,6 +83,9 @@ class Pace(ABC):
     :param factor: simulated seconds a second; 0: as fast as possible.
     """
 
+    waits = True
+    """Whether time waits for a driver: that it is late says nothing of the machine."""
+
     def __init__(self, periods: Periods, factor: float) -> None:
         self._periods = periods
         self.pacer = Pacer(period_sec=CONTROL_PERIOD_SEC, real_time_factor=factor or 1e9)
@@ -121,6 +124,8 @@ class Pace(ABC):
 
 class FreePace(Pace):
     """Time passes whatever the drivers do."""
+
+    waits = False
 
     def _unpaced_tick_sec(self) -> float:
         return 0.0
