@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
-from mcap.exceptions import McapError
 from mcap.reader import make_reader
 from ros2cli.errors import CommandError
 import yaml
@@ -30,8 +29,8 @@ def read_record(path: Path) -> BagRecord:
             with file.open('rb') as stream:
                 reader = make_reader(stream)
                 summary = reader.get_summary()
-        except (McapError, OSError, ValueError) as error:
-            raise CommandError(f"'{file}' cannot be read as MCAP: {error}") from None
+        except Exception as error:  # of damaged bytes the libraries raise many types
+            raise _unreadable(file, error) from None
         if summary is None or summary.statistics is None:
             raise CommandError(
                 f"'{file}' has no summary: its recording was killed before it ended; the MCAP "
@@ -62,8 +61,13 @@ def messages(path: Path, topics: Collection[str]) -> Iterator[tuple[str, int, by
             with file.open('rb') as stream:
                 for _, channel, message in make_reader(stream).iter_messages(list(topics)):
                     yield channel.topic, message.log_time, message.data
-        except (McapError, OSError) as error:
-            raise CommandError(f"'{file}' cannot be read as MCAP: {error}") from None
+        except Exception as error:  # as above
+            raise _unreadable(file, error) from None
+
+
+def _unreadable(file: Path, error: Exception) -> CommandError:
+    why = f'{type(error).__name__}: {error}' if isinstance(error, KeyError) else error
+    return CommandError(f"'{file}' cannot be read as MCAP: {why}")
 
 
 def _topic(name: str, type_name: str, channel: dict[str, str]) -> TopicRecord:

@@ -14,7 +14,10 @@ import time
 from typing import Any
 
 from mcap.reader import make_reader
+from mcap.writer import Writer
 import pytest
+from ros2bag.reader import messages, read_record
+from ros2cli.errors import CommandError
 import yaml
 
 
@@ -96,6 +99,31 @@ def test_a_topic_that_comes_later_is_recorded(
     recorder.terminate()
     recorder.wait(timeout=10)
     assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
+
+
+def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
+    file = tmp_path / 'run.mcap'
+    with file.open('wb') as stream:
+        writer = Writer(stream, chunk_size=500)
+        writer.start()
+        schema = writer.register_schema('std_msgs/msg/String', 'ros2msg', b'string data')
+        channel = writer.register_channel('/chatter', 'cdr', schema)
+        for number in range(100):
+            writer.add_message(channel, number, b'message %d' % number, number)
+        writer.finish()
+    whole = file.read_bytes()
+    assert len(list(messages(file, ['/chatter']))) == 100
+    refused = 0
+    for place in range(8, len(whole) - 8, 31):
+        for length in (1, 8):
+            file.write_bytes(whole[:place] + b'\xff' * length + whole[place + length :])
+            try:
+                read_record(file)
+                list(messages(file, ['/chatter']))
+            except CommandError as error:
+                refused += 1
+                assert 'cannot be read as MCAP' in str(error) or 'has no summary' in str(error)
+    assert refused > 10
 
 
 @pytest.mark.parametrize(
