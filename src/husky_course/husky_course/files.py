@@ -4,15 +4,31 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+import errno
 from pathlib import Path
+import stat
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Give the name of a file to write; it takes the place of `path`, unless something fails."""
+    """
+    Give the name of a file to write; it takes the place of `path`, unless something fails.
+
+    :raises OSError: also where a device is: root would put the file in the place of /dev/null.
+    """
+    if _is_device(path):
+        raise OSError(errno.EEXIST, 'a device, no file', str(path))
     part = path.with_name(f'.{path.stem}.part{path.suffix}')
     try:
         yield part
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def _is_device(path: Path) -> bool:
+    try:
+        mode = path.lstat().st_mode
+    except OSError:
+        return False
+    return stat.S_ISCHR(mode) or stat.S_ISBLK(mode)

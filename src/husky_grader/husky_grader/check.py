@@ -11,7 +11,7 @@ from husky_course.frames import Pose
 from husky_course.printable import printable
 from husky_course.route import plan_route, Point, Route, Survey
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, Parser, run_printing
+from husky_runtime.command_line import BAD_INPUT, Parser, run_printing, why
 
 from husky_grader.playpen import check_route
 
@@ -54,7 +54,8 @@ def _check(name: str, options: argparse.Namespace) -> int:
         if options.draw:
             _draw(route, found, (x, y, yaw), Path(options.draw))
     except (ValueError, OSError) as error:
-        print(printable(str(error), keep='\n'), file=sys.stderr)
+        text = why(error) if isinstance(error, OSError) else str(error)
+        print(printable(text, keep='\n'), file=sys.stderr)
         return BAD_INPUT
     for near in found.near:
         print(printable(f'{name}: {near}'), file=sys.stderr)

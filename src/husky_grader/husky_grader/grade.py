@@ -5,6 +5,7 @@
 import argparse
 from collections.abc import Sequence
 import json
+import math
 import os
 from pathlib import Path
 import sys
@@ -145,6 +146,8 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('--record needs --waypoints FILE, the course that was driven')
     if not options.real_time_factor > 0.0:
         parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
+    if options.wall_time is not None and not 0.0 <= options.wall_time < math.inf:
+        parser.error(f'--wall-time {options.wall_time:g}: give a number of seconds from 0 on')
     if options.mcap and not options.record:
         parser.error('--mcap needs --record FILE, the run to write')
     if options.rubric and not (options.lab or zipped):

@@ -93,6 +93,16 @@ def test_what_cannot_be_printed_is_one_line(courses: Path, tmp_path: Path) -> No
     assert (checked.returncode, checked.stderr) == (2, 'check: No space left on device\n')
 
 
+@pytest.mark.parametrize('given', ['nan', 'inf', '-1'])
+def test_a_time_on_the_clock_is_a_number_of_seconds(
+    given: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        grade(['--record', 'run', '--waypoints', 'course.yaml', f'--wall-time={given}'])
+    assert ended.value.code == 2
+    assert f'--wall-time {given}: give a number of seconds' in capsys.readouterr().err
+
+
 def run_module(
     module: str, *words: str, cwd: Path, stdout: Any = subprocess.PIPE
 ) -> 'subprocess.CompletedProcess[str]':
