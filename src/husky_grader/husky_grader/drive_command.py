@@ -15,7 +15,7 @@ from husky_course.printable import printable
 from husky_course.record import FILE_NAME
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, discard_output, Parser, run_printing
+from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, run_printing
 from husky_runtime.domains import DomainError, OwnDomain
 from husky_runtime.settings import refuse_unknown, Setting, settings_of
 from husky_runtime.supervise import run_to_end
@@ -45,6 +45,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         'words',
         metavar='FILE | NAME:=VALUE',
+        type=given_name,
         nargs='*',
         help='waypoint file to drive (central_barrier.yaml), and settings of the simulator: '
         + '; '.join(f'{name}, {each.allowed}' for name, each in CONDITIONS.items()),
@@ -60,7 +61,13 @@ def _parser() -> argparse.ArgumentParser:
         help="open the page in this desktop's browser, and wait some seconds for it; the default "
         'in a terminal of a desktop',
     )
-    parser.add_argument('--report', metavar='DIR', default='report', help='where the report goes')
+    parser.add_argument(
+        '--report',
+        metavar='DIR',
+        type=given_name,
+        default='report',
+        help='where the report goes',
+    )
     return parser
 
 

@@ -16,7 +16,7 @@ from husky_course.record import read_record, read_run, Run
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_driver.ros import Tally
-from husky_runtime.command_line import BAD_INPUT, discard_output, Parser, why
+from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, why
 
 from husky_grader.file_grading import Grade, grade_file
 from husky_grader.grade_class import (
@@ -46,7 +46,11 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        'files', metavar='FILE', nargs='*', help='waypoint files to grade, or folders of them'
+        'files',
+        metavar='FILE',
+        type=given_name,
+        nargs='*',
+        help='waypoint files to grade, or folders of them',
     )
     parser.add_argument('--record', metavar='FILE', help="what the simulator's 'record' wrote")
     parser.add_argument('--waypoints', metavar='FILE', help='the course of a record or controller')
@@ -103,7 +107,11 @@ def _parser() -> argparse.ArgumentParser:
         help='write the record as run.mcap, too, for Foxglove and ros2 bag',
     )
     parser.add_argument(
-        '--report', metavar='DIR', default='report', help='where the reports go (%(default)s)'
+        '--report',
+        metavar='DIR',
+        type=given_name,
+        default='report',
+        help='where the reports go (%(default)s)',
     )
     parser.add_argument(
         '--wall-time', metavar='SEC', type=float, help='how long the run took on the clock'

@@ -181,6 +181,7 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
         (['--lab', '.', '--answers', '1'], '--lab takes courses and answers from the rubric'),
         (['--record', 'x.record'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: no such file'),
+        ([''], 'argument FILE: the name is empty'),
         (
             ['{empty}'],
             'no waypoint file lies in this folder (*.yaml); what was handed in for a lab',

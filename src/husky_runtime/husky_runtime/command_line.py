@@ -19,6 +19,17 @@ class Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
 
 
+def given_name(text: str) -> str:
+    """
+    Return the name of a file or folder, as the type of an argument.
+
+    :raises ArgumentTypeError: if it is empty, which would be the current folder.
+    """
+    if not text:
+        raise argparse.ArgumentTypeError('the name is empty')
+    return text
+
+
 def run_printing(prog: str, work: Callable[[], int]) -> int:
     """
     Do what prints; what it cannot print or write ends it with one line.
