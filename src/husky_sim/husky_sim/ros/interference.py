@@ -18,6 +18,9 @@ CHECK_SEC = 0.1
 NAME_CHECKS = 20
 """How many checks to wait for the name of a node, which has a message of its own."""
 
+UNSEEN_CHECKS = 2
+"""How many checks the graph may lack a publisher: Cyclone DDS tells a reader of it first."""
+
 GONE = 'a node that is gone already'
 
 _UNKNOWN = '_NODE_NAME_UNKNOWN_'  # rmw_dds_common, until that message is there
@@ -74,8 +77,9 @@ class InterferenceWatch:
         self._on_found = on_found
         self._found: set[Interference] = set()
         self._nameless_checks = 0
+        self._unseen: dict[str, tuple[int, int]] = {}  # by topic: publishers, checks left
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(CHECK_SEC, self.check, clock=steady)
+        self._timer = node.create_timer(CHECK_SEC, self._on_timer, clock=steady)
 
     def check(self, *, at_the_end: bool = False) -> None:
         """
@@ -97,12 +101,28 @@ class InterferenceWatch:
                 others.remove(me)
             if len(others) > (not ours):
                 self._report(Interference(spoken, tuple(others), ours))
+        if at_the_end:
+            for topic in [*self._unseen]:
+                self._end_search(topic)
 
     def check_commands(self, topic: str, publishers: int) -> None:
         """Check a topic of commands when DDS reports so many publishers at once."""
         self.check()
+        if publishers > 1 and self._node.count_publishers(topic) < publishers:
+            self._unseen[topic] = publishers, UNSEEN_CHECKS
+
+    def _on_timer(self) -> None:
+        self.check()
+        for topic, (publishers, left) in [*self._unseen.items()]:
+            self._unseen[topic] = publishers, left - 1
+            if left == 1:
+                self._end_search(topic)
+
+    def _end_search(self, topic: str) -> None:
+        """Report a publisher that the graph has not shown."""
+        publishers, _ = self._unseen.pop(topic)
         known = any(topic in found.topics for found in self._found)
-        if publishers > 1 and not known and self._node.count_publishers(topic) < publishers:
+        if not known and self._node.count_publishers(topic) < publishers:
             there = _publishers(self._node, (topic,))
             self._report(Interference((topic,), (*there, GONE), ours=False))
 
