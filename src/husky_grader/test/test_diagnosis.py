@@ -14,6 +14,7 @@ from geometry_msgs.msg import Twist, TwistStamped
 from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons, reasons_of_graph
 from husky_grader.run.graph import read_graph
 from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
+from husky_grader.run.watcher import GraphWatcher
 from husky_runtime.children import ChildProcess
 from nav_msgs.msg import Odometry
 import pytest
@@ -137,13 +138,11 @@ def test_of_a_long_log_beginning_and_end_are_kept(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def student(
-    domain: int, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[tuple[Node, Callable[[], Graph]]]:
-    """Give a student's node beside a simulator, and how the grader sees it."""
+def nodes(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Node]]:
+    """Give nodes of a student, of a simulator and of the grader."""
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     with ExitStack() as stack:
-        nodes = []
+        nodes: list[Node] = []
         for name in ('follow_path', 'husky_sim', 'grader'):
             context = rclpy.Context()
             rclpy.init(
@@ -154,13 +153,19 @@ def student(
             stack.callback(nodes[-1].destroy_node)
         nodes[1].create_publisher(Odometry, 'odometry/filtered', 10)
         nodes[1].create_publisher(Odometry, 'front/scan', qos_profile_sensor_data)
+        yield nodes
 
-        def graph() -> Graph:
-            return read_graph(nodes[2], ('husky_sim', 'grader'))
 
-        offered = {'/front/scan', ODOMETRY}
-        wait_for(lambda: {e.topic for e in graph().other_publishers} >= offered, 'the simulator')
-        yield nodes[0], graph
+@pytest.fixture
+def student(nodes: list[Node]) -> tuple[Node, Callable[[], Graph]]:
+    """Give a student's node beside a simulator, and how the grader sees it."""
+
+    def graph() -> Graph:
+        return read_graph(nodes[2], ('husky_sim', 'grader'))
+
+    offered = {'/front/scan', ODOMETRY}
+    wait_for(lambda: {e.topic for e in graph().other_publishers} >= offered, 'the simulator')
+    return nodes[0], graph
 
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -227,3 +232,20 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
     wait_for(lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, 'the graph')
     assert tuple(reasons_of_graph(graph())) == ()
     del kept
+
+
+def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
+    program, simulator, _ = nodes
+    subscription = program.create_subscription(Odometry, 'odometry/filterd', print, 10)
+    wait_for(lambda: simulator.count_publishers('/parameter_events') == len(nodes), 'all nodes')
+    watcher = GraphWatcher(simulator, 'lab')
+
+    def told() -> bool:
+        watcher.look()
+        return any('/odometry/filterd' in reason for reason in watcher.reasons)
+
+    wait_for(told, 'the mistake')
+    program.destroy_subscription(subscription)
+    wait_for(lambda: not simulator.count_subscribers('odometry/filterd'), 'the end of it')
+    assert told(), 'the rest of the program may be about to go'
+    assert not told(), 'it goes on'

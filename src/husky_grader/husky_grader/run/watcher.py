@@ -6,7 +6,7 @@ import time
 
 from rclpy.node import Node
 
-from husky_grader.run.diagnosis import reasons_of_graph, unheard_commands
+from husky_grader.run.diagnosis import Endpoint, Graph, reasons_of_graph, unheard_commands
 from husky_grader.run.graph import read_graph
 
 
@@ -17,12 +17,19 @@ class GraphWatcher:
         self._node = node
         self._interface = interface
         self._unheard_since_sec: float | None = None
+        self._there: set[tuple[str, Endpoint]] = set()
         self.reasons: list[str] = []
 
     def look(self) -> None:
-        """Look at the graph; what it said is kept, because nodes come and go."""
+        """
+        Look at the graph; what it said is kept, because nodes come and go.
+
+        One that ends takes its endpoints from it one by one: what only lacks some of the last look
+        says nothing, unless the next finds the same.
+        """
         graph = read_graph(self._node, ours=(self._node.get_name(),))
-        if not (graph.publishers or graph.subscriptions):
+        before, self._there = self._there, _program_in(graph)
+        if not self._there or self._there < before:
             return
         self.reasons = reasons_of_graph(graph, self._interface)
         if not any(unheard_commands(graph, self._interface)):
@@ -34,3 +41,10 @@ class GraphWatcher:
         """Return for how long every look has found commands that cannot be heard."""
         since = self._unheard_since_sec
         return 0.0 if since is None else time.monotonic() - since
+
+
+def _program_in(graph: Graph) -> set[tuple[str, Endpoint]]:
+    return {
+        *(('publisher', each) for each in graph.publishers),
+        *(('subscription', each) for each in graph.subscriptions),
+    }
