@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests
 from husky_grader.lab.finding import Finding, nothing
+from husky_grader.rubric.colcon_errors import first_error
 from husky_grader.run.diagnosis import crash
 
 BUILD_WITHIN_SEC = 300.0
@@ -37,13 +38,9 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
         return nothing(f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
     if exit_code != 0:
         text = log.read_text(encoding='utf-8', errors='replace')
-        return nothing(f'colcon build failed: {crash(text) or _first_error(text, log.name)}')
+        why = crash(text) or first_error(text) or f'see {log.name}'
+        return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
-
-
-def _first_error(text: str, log: str) -> str:
-    lines = (line.strip() for line in text.splitlines() if 'rror' in line)
-    return next(lines, f'see {log}')
 
 
 def sourced(jail: Jail) -> Mapping[str, str]:

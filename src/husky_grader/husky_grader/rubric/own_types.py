@@ -19,6 +19,8 @@ import shutil
 import subprocess
 import sys
 
+from husky_grader.rubric.colcon_errors import first_error
+
 Variables = Mapping[str, str]
 """What is put before the lists of folders in an environment, by the names of the variables."""
 
@@ -121,9 +123,7 @@ def _build(packages: Sequence[Path], folder: Path) -> None:
     except FileNotFoundError:
         raise ValueError('colcon, which builds them, is not installed here') from None
     if built.returncode != 0:
-        told = built.stderr.partition('--- stderr: ')[2].splitlines()[1:] or [built.stderr]
-        why = next((line.strip() for line in told if line.strip()), 'colcon build fails')
-        raise ValueError(why)
+        raise ValueError(first_error(built.stderr) or 'colcon build fails')
 
 
 def _sourced(install: Path) -> Variables:

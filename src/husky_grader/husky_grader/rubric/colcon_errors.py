@@ -1,0 +1,25 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What `colcon build` prints of a package that it cannot build, in one line."""
+
+import re
+
+_FAILED = re.compile(r'^--- stderr: .*\n((?:(?!---$).*\n)*)---\nFailed ', re.MULTILINE)
+_CMAKE = 'CMake Error at '
+
+
+def first_error(printed: str) -> str:
+    """Return the first error of the first package that failed; empty if nothing tells one."""
+    failed = _FAILED.search(printed)
+    told = failed[1] if failed else printed
+    lines = [line.strip() for line in told.splitlines()]
+    error = next((line for line in lines if 'rror' in line), '')
+    if error.startswith(_CMAKE):
+        return _message_of_cmake(told.partition(error)[2]) or error
+    return error or (next(filter(None, lines), '') if failed else '')
+
+
+def _message_of_cmake(below: str) -> str:
+    """Return the first paragraph that is not only the beginning of the next: `... said:`."""
+    paragraphs = (' '.join(each.split()) for each in re.split(r'\n\s*\n', below.lstrip('\n')))
+    return next((each for each in paragraphs if each and not each.endswith(':')), '')
