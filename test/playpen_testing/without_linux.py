@@ -12,6 +12,7 @@ names, EGL and OSMesa. What this Python itself is made for stays, and so do psut
 import builtins
 from collections.abc import Callable
 import ctypes
+import ctypes.util
 import glob
 import io
 import os
@@ -20,7 +21,7 @@ import socket
 import sys
 import sysconfig
 from typing import Any
-import urllib.request  # noqa: F401  on macOS it needs a module of that system
+import urllib.request  # noqa: F401  on macOS it needs a module of that system, as ctypes.util does
 
 import psutil
 

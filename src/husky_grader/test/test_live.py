@@ -55,9 +55,9 @@ BY_SLEEPING = (
     NODE
     + """
 import time
-for _ in range(20):
+for _ in range(22):
     publisher.publish(message)
-    time.sleep(0.1)
+    time.sleep(0.093)  # no whole number of control periods: at any moment of one
 """
 )
 ANSWERS_LATE = (
