@@ -12,13 +12,15 @@ from playpen_testing.browser import start_browser
 from playpen_testing.desk import Terminals
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
-from playpen_testing.which_ros import SOURCED
+from playpen_testing.which_ros import lacks, SOURCED
 from playwright.sync_api import Browser
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 # That Ctrl-C ends a Python that still starts without a traceback is the work of underlay/.
 collect_ignore = ['test_interrupts.py'] if SOURCED else []
+if lacks('turtlesim') or lacks('tf2_ros'):
+    collect_ignore.append('test_tutorials.py')
 
 
 @pytest.fixture(scope='module')

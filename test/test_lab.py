@@ -21,6 +21,7 @@ from playpen_testing.page_client import PageClient
 from playpen_testing.processes import IN_A_TERMINAL, Process, Processes
 from playpen_testing.shared_memory import left, own_files
 from playpen_testing.waiting import wait_until
+from playpen_testing.which_ros import lacks
 import pytest
 import rclpy
 
@@ -76,15 +77,32 @@ def read_bag(path: Path) -> dict[str, list[tuple[int, Any]]]:
     return read
 
 
+def ask_ros2_bag(processes: Processes, path: Path) -> dict[str, int]:
+    """Return how many messages of each topic `ros2 bag info` finds."""
+    info = processes.start(LAB, 'exec', 'ros2', 'bag', 'info', str(path))
+    assert info.wait(timeout_sec=30.0) == 0, info.output
+    found = re.findall(r'Topic: (\S+) \| Type: \S+ \| Count: (\d+)', info.output)
+    return {topic: int(count) for topic, count in found}
+
+
+def count_messages(path: Path) -> dict[str, int]:
+    """Return how many messages of each topic stand in a file, by its own index."""
+    with path.open('rb') as stream:
+        summary = make_reader(stream).get_summary()
+    assert summary is not None
+    assert summary.statistics is not None
+    counts = summary.statistics.channel_message_counts
+    return {each.topic: counts.get(number, 0) for number, each in summary.channels.items()}
+
+
 def check_bag(processes: Processes, folder: Path) -> None:
     """Ask `ros2 bag` and MCAP's own reader what a drive has left, and compare with the record."""
-    info = processes.start(LAB, 'exec', 'ros2', 'bag', 'info', str(folder / 'run.mcap'))
-    assert info.wait(timeout_sec=30.0) == 0, info.output
-    told = dict(re.findall(r'Topic: (\S+) \| Type: \S+ \| Count: (\d+)', info.output))
+    bag = folder / 'run.mcap'
+    told = count_messages(bag) if lacks('ros2bag') else ask_ros2_bag(processes, bag)
     record = read_record(folder)
-    assert told['/odometry/filtered'] == told['/tf'] == str(len(record.rows)), info.output
-    assert (told['/path'], told['/tf_static'], told['/collisions']) == ('1', '1', '0')
-    read = read_bag(folder / 'run.mcap')
+    assert told['/odometry/filtered'] == told['/tf'] == len(record.rows), told
+    assert (told['/path'], told['/tf_static'], told['/collisions']) == (1, 1, 0)
+    read = read_bag(bag)
     truth, tf = read['/ground_truth/odom'], read['/tf']
     assert [ns for ns, _ in truth] == [round(sec * 1e9) for sec in record.time_sec.tolist()]
     for name, topic, value in (
