@@ -71,15 +71,18 @@ def yaml_mapping(text: str) -> dict[str, Any]:
     return values
 
 
-def populate(msg: Any, values: dict[str, Any], **options: bool) -> list[Callable[..., None]]:
+def populate(
+    msg: Any, values: dict[str, Any], *, told: str = 'field', **options: bool
+) -> list[Callable[..., None]]:
     """Fill a message from YAML.
 
+    :param told: what an error says that was to be filled.
     :raises CommandError: a value does not fit.
     """
     try:
         return set_message_fields(msg, values, **options)
     except (AttributeError, TypeError, ValueError, RecursionError) as error:
-        raise CommandError(f'Failed to populate field: {error}') from None
+        raise CommandError(f'Failed to populate {told}: {error}') from None
 
 
 def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> Any:

@@ -134,3 +134,19 @@ def test_odd_words_are_refused_in_few_lines(
     assert answer.status in (1, 2), answer
     assert 0 < len(answer.err.splitlines()[-1]) < 500
     assert 'ROS2CLI_TRACEBACK' not in answer.err, 'an unexpected error'
+
+
+@pytest.mark.parametrize(
+    ('words', 'told'),
+    [
+        (('action', 'send_goal', '/a', 'example_interfaces/action/Fibonacci', '{order: x}'),
+         "Failed to populate message fields: order: 'x' is refused"),
+        (('service', 'call', '/a', 'std_srvs/srv/SetBool', '{data: x}'),
+         "Failed to populate field: data: 'x' is refused"),
+    ],
+)  # fmt: skip
+def test_a_value_that_does_not_fit_is_told_as_upstream(
+    ros2: Callable[..., Any], words: tuple[str, ...], told: str
+) -> None:
+    answer = ros2(*words)
+    assert (answer.status, answer.err.startswith(told)) == (1, True), answer

@@ -58,7 +58,7 @@ class SendGoalVerb(VerbExtension):
         action_class = interfaces.action(args.action_type)
         goal = action_class.Goal()
         text = sys.stdin.read() if args.stdin else args.goal
-        interfaces.populate(goal, interfaces.yaml_mapping(text))
+        interfaces.populate(goal, interfaces.yaml_mapping(text), told='message fields')
         with command_node(args) as node:
             client = ActionClient(node.node, action_class, topics.checked_name(args.action_name))
             try:
