@@ -96,6 +96,14 @@ def test_what_the_wheels_do_not_tell_is_learned() -> None:
     assert found[-1].speed_m_s == pytest.approx(GRASS.velocity(moments[-1].odometry)[0], abs=0.02)
 
 
+def test_a_gap_in_which_the_robot_brakes_costs_little() -> None:
+    moments = list(drive(GRASS, 20.0, noise=0.005))
+    heard = [each for each in moments if not 6.02 < each.odometry.time_sec < 6.42]
+    _, found = follow(heard)
+    assert heard[-1].odometry.time_sec - heard[0].odometry.time_sec > 19.0
+    assert max(map(off_m, heard, found)) < 0.12
+
+
 def test_a_heading_that_drifts_is_held_by_that_of_the_imu() -> None:
     moments = list(drive(Slip(), 60.0, noise=0.005, drift=0.005))
     _, found = follow(moments)

@@ -103,7 +103,7 @@ class MotionEstimate:
             or not 0.0 < period_sec <= MAX_PERIOD_SEC
         ):
             velocity = self._steady(before, odometry)
-            self._velocity.restart(velocity)
+            self._velocity.restart(self.slip.velocity(odometry))
         else:
             last = self._velocity.velocity
             self._velocity.update(before, felt, odometry)
