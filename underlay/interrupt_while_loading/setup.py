@@ -35,5 +35,5 @@ setuptools.setup(
         (f'share/{NAME}', ['package.xml']),
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
     ],
-    scripts=['bin/python_held_back'],
+    scripts=['bin/python_held_back', 'bin/python_of_setup_files'],
 )
