@@ -7,7 +7,6 @@ An episode is a function of the settings, of the seeds that `reset` is given and
 bit for bit. Its rewards add up to the score that the grader gives it, from 0 to 100.
 """
 
-from array import array
 import math
 from typing import Any
 
@@ -91,7 +90,7 @@ class HuskyPlaypen(gymnasium.Env[Observation, Action]):
         self._place.follow(*self.husky.place)
         self._worth, self._is_over = 0.0, False
         self._touches: list[Collision] = []
-        self._rows = array('d', self.husky.row())
+        self._rows = [self.husky.row()]
         return self._observation(), self._info()
 
     def _drawn_start(self) -> Pose:
@@ -136,7 +135,7 @@ class HuskyPlaypen(gymnasium.Env[Observation, Action]):
         husky, place = self.husky, self._place
         touches = husky.drive(speed_m_s, yaw_rate_rad_s)
         self._touches += touches
-        self._rows.extend(husky.row())
+        self._rows.append(husky.row())
         place.follow(*husky.place)
         speed = husky.robot.state.velocity[0]
         self._score.add(place, speed_m_s=speed, touches=len(touches))

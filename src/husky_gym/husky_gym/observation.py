@@ -6,7 +6,6 @@ import cmath
 from typing import Any
 
 from gymnasium import spaces
-from husky_course.frames import Array
 from husky_course.route import Route
 from husky_sim.sensors import RANGE_MAX_M
 import numpy as np
@@ -61,6 +60,12 @@ class Sight:
         curve = route.curve
         self._s, self._path = np.array(curve.s), np.array(curve.x) + 1j * np.array(curve.y)
         self._ahead_m = settings.path_spacing_m * np.arange(1, settings.path_points + 1)
+        # All but the laser in one array, which takes half the time: the path first.
+        self._path_end = path_end = 2 * settings.path_points
+        self._most = np.array([*[PATH_M] * path_end, *MOST, GREATEST[0], LEFT_M])
+        self._least = -self._most
+        self._numbers = np.empty_like(self._most)
+        self._path_numbers = self._numbers[:path_end].view(np.complex128)
 
     def observe(self, estimate: Estimate, ranges: Floats | None) -> Observation:
         """
@@ -69,21 +74,21 @@ class Sight:
         :param ranges: those of the last scan; None where there is no laser.
         """
         x, y, yaw = estimate[:3]
-        self.place.follow(x, y)
+        place, numbers, end = self.place, self._numbers, self._path_end
+        place.follow(x, y)
         # Complex numbers: to interpolate, to shift and to turn x and y is one call each.
-        path = np.interp(self.place.along_m + self._ahead_m, self._s, self._path)
-        path = (path - complex(x, y)) * cmath.exp(complex(0.0, -yaw))
-        seen = {
-            'odometry': _within(np.array(estimate), MOST),
-            'path': _within(path.view(np.float64).reshape(-1, 2), PATH_M),
-            'asked_speed': np.array([self.place.asked_speed_m_s], dtype=np.float32),
-            'path_left': np.array([min(self.place.left_m, LEFT_M)], dtype=np.float32),
+        path = np.interp(place.along_m + self._ahead_m, self._s, self._path)
+        turn = cmath.exp(complex(0.0, -yaw))
+        np.multiply(path - complex(x, y), turn, out=self._path_numbers)
+        numbers[end:] = (*estimate, place.asked_speed_m_s, place.left_m)
+        # `np.clip` takes three times as long.
+        np.maximum(numbers, self._least, out=numbers)
+        np.minimum(numbers, self._most, out=numbers)
+        seen = numbers.astype(np.float32)
+        found = {
+            'odometry': seen[end:-2],
+            'path': seen[:end].reshape(-1, 2),
+            'asked_speed': seen[-2:-1],
+            'path_left': seen[-1:],
         }
-        return seen if ranges is None else {**seen, 'laser': ranges.copy()}
-
-
-def _within(values: Array, most: Array | float) -> Floats:
-    """Cut values to a range, in place; `np.clip` takes three times as long."""
-    np.maximum(values, -most, out=values)
-    np.minimum(values, most, out=values)
-    return values.astype(np.float32)
+        return found if ranges is None else {**found, 'laser': ranges.copy()}

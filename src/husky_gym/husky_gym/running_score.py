@@ -10,7 +10,7 @@ part of the path, without the points for standing at the end, for speed and for 
 from collections.abc import Sequence
 import math
 
-from husky_course.record import Collision, COLUMNS, read_run, Record
+from husky_course.record import Collision, read_run, Record
 from husky_course.route import Route
 from husky_grader.scoring import (
     COLLISION_FACTOR,
@@ -61,7 +61,7 @@ class RunningScore:
 
 
 def report_on(
-    rows: Sequence[float],
+    rows: Sequence[Sequence[float]],
     collisions: Sequence[Collision],
     route: Route,
     config: SimulationConfig,
@@ -69,7 +69,7 @@ def report_on(
     """
     Return what the grader says of an episode.
 
-    :param rows: the columns of a record one after another, from the start to the last period.
+    :param rows: those of a record, from the start to the last period.
     """
     record = Record(
         file='',
@@ -77,7 +77,7 @@ def report_on(
         conditions=config.conditions,
         robots=config.robots,
         obstacles=(),  # the clearance, which is no part of the score, is left out
-        rows=np.array(rows).reshape(-1, 1, len(COLUMNS)),
+        rows=np.array(rows)[:, np.newaxis],
         collisions=tuple(collisions),
     )
     return judge(read_run(record), route)

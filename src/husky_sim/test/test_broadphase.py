@@ -16,6 +16,7 @@ from husky_sim.config import SimulationConfig
 
 PERIODS = 600
 ALONE = (RobotStart(x=-4.6, y=-8.0, yaw=3.14),)  # before a cone
+BESIDE = (RobotStart(x=5.4, y=-1.5, yaw=1.5),)  # between barriers that stand askew and a barrel
 CROWD = (
     RobotStart(name='a'),
     RobotStart(name='b', x=-1.2, y=0.9, yaw=-0.6),
@@ -40,7 +41,7 @@ def driven(worlds: Path, starts: tuple[RobotStart, ...], seed: int) -> Iterator[
         yield simulation.data.qpos.tobytes(), simulation.touches
 
 
-@pytest.mark.parametrize('starts', [ALONE, CROWD], ids=['alone', 'crowd'])
+@pytest.mark.parametrize('starts', [ALONE, BESIDE, CROWD], ids=['alone', 'beside', 'crowd'])
 def test_a_drive_is_that_with_every_obstacle_looked_at(
     worlds: Path, starts: tuple[RobotStart, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -61,8 +62,20 @@ def test_what_touches_sleeps_together_after_a_reset_too(worlds: Path) -> None:
     assert simulation.data.tree_asleep.tolist() == at_start
 
 
-def test_only_what_can_be_reached_is_looked_at(worlds: Path) -> None:
-    simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml')))
+@pytest.mark.parametrize(
+    ('start', 'names', 'alone'),
+    [
+        (RobotStart(), set(), True),
+        (BESIDE[0], {'Construction Barrel'}, True),  # not before it has gone a quarter metre
+        (RobotStart(x=1.0, y=-0.2), {'jersey_barrier_15'}, False),
+    ],
+    ids=['far', 'beside', 'before'],
+)
+def test_only_what_can_be_reached_is_looked_at(
+    worlds: Path, start: RobotStart, names: set[str], alone: bool
+) -> None:
+    config = SimulationConfig(world=str(worlds / 'playpen.xml'), robots=(start,))
+    simulation = Simulation(config)
 
     def looked_at() -> set[str]:
         simulation.advance()
@@ -72,7 +85,8 @@ def test_only_what_can_be_reached_is_looked_at(worlds: Path) -> None:
     everything = looked_at()
     assert len(everything) == 40
     near = looked_at() - {'world'}
-    assert {name for name in near if not name.startswith('husky/')} == {'jersey_barrier_15'}
+    assert {name for name in near if not name.startswith('husky/')} == names
+    assert simulation.broadphase.alone is alone
     simulation.data.qvel[-10] = 9.0
     simulation.advance()
     assert looked_at() == everything, 'too fast to be sure of anything'

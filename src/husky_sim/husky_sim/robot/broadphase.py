@@ -5,7 +5,8 @@ Obstacles far from every robot are left out of the search for contacts.
 
 MuJoCo's broad phase bounds and sorts all bodies in every step, which is a third of what a step in
 the playpen costs. Left out is only what no robot can reach before it looks around again, and
-MuJoCo sorts the pairs that are left. So contacts and trajectory are the same, bit for bit.
+MuJoCo sorts the pairs that are left. So contacts and trajectory are the same, bit for bit. While
+no robot can reach anything, nobody need look at the contacts after each step, too: `alone`.
 
 Why nothing that is left out can be touched: it stays where it is, being fixed to the world or
 asleep; while anything but the robots is awake, nothing is left out. A robot that has gone AGAIN_M
@@ -56,7 +57,12 @@ class BroadPhase:
             (field, field[self._bodies].copy())
             for field in (model.body_contype, model.body_conaffinity)
         ]
-        self._boxes: tuple[Array, Array] | None = None  # of a world that is at rest
+        turns = np.empty((model.ngeom, 9))
+        for turn, quaternion in zip(turns, model.geom_quat, strict=True):
+            mujoco.mju_quat2Mat(turn, quaternion)
+        # A barrier that stands askew fills little of a box along the axes of the world.
+        self._own_boxes = self._boxes_around(model.geom_pos, turns)
+        self._boxes: tuple[Array, Array] | None = None  # in world, while all is at rest
         self.reset()
 
     def _stays(self, body: int) -> bool:
@@ -88,24 +94,44 @@ class BroadPhase:
         ):
             if not self._all:
                 self._include_all()
-        elif self._all or not _farthest_m(places, self._looked) <= AGAIN_M:
-            self._looked = places
-            self._include(self._near(places), apart=self._are_apart(places))
+            return
+        since_m = math.inf if self._all else _farthest_m(places, self._looked)
+        if not since_m <= AGAIN_M:
+            self._look(places)
+            since_m = 0.0
+        self.alone = since_m < self._free_m
 
-    def _near(self, places: Places) -> Flags:
-        """Tell for each body whether a robot could reach the box around it."""
-        if self._boxes is None:
-            self._boxes = self._measured_boxes()
-        low, high = self._boxes
-        near = np.zeros(len(self._bodies), dtype=bool)
+    def _look(self, places: Places) -> None:
+        """Leave out what no robot can reach; note how far each can go and meet nothing."""
+        near, self._free_m = np.zeros(len(self._bodies), dtype=bool), -math.inf
+        if self._can_be_alone and self._are_apart(places):
+            self._free_m = math.inf
         for place, reach_m in zip(places, self._reach_m, strict=True):
-            away = np.maximum(np.maximum(low - place, place - high), 0.0)
-            near |= ~(np.einsum('ij,ij->i', away, away) > reach_m * reach_m)
-        return self._with_neighbours(near, low, high)
+            away_m = self._away_m(place)
+            near |= ~(away_m > reach_m)
+            solid_m = float(away_m[self._solid].min(initial=math.inf))
+            self._free_m = min(solid_m - (reach_m - AGAIN_M), self._free_m)
+        self._looked, self._all = places, False
+        self._include(self._with_neighbours(near))
 
-    def _with_neighbours(self, near: Flags, low: Array, high: Array) -> Flags:
+    def _away_m(self, place: list[float]) -> Array:
+        """Return how far the box around each body is from a place."""
+        data, bodies = self._data, self._bodies
+        turns = data.xmat[bodies].reshape(-1, 3, 3)
+        from_body = np.einsum('nij,ni->nj', turns, place - data.xpos[bodies])
+        low, high = self._own_boxes
+        away = np.maximum(np.maximum(low - from_body, from_body - high), 0.0)
+        away_m: Array = np.sqrt(np.einsum('ij,ij->i', away, away))
+        return away_m
+
+    def _with_neighbours(self, near: Flags) -> Flags:
         """Add what loose bodies could push, and what that could push, and so on."""
         pushed = near & self._loose
+        if not pushed.any():
+            return near
+        if self._boxes is None:
+            self._boxes = self._boxes_around(self._data.geom_xpos, self._data.geom_xmat)
+        low, high = self._boxes
         while pushed.any():
             apart = low[pushed, None] - SLACK_M > high
             apart |= high[pushed, None] + SLACK_M < low
@@ -114,12 +140,16 @@ class BroadPhase:
             near = near | beside
         return near
 
-    def _measured_boxes(self) -> tuple[Array, Array]:
-        """Return the lowest and highest corners of the boxes around bodies, in world (n, 3)."""
-        model, data = self._model, self._data
-        turns = data.geom_xmat.reshape(-1, 3, 3)
-        middle = data.geom_xpos + np.einsum('nij,nj->ni', turns, model.geom_aabb[:, :3])
-        half = np.einsum('nij,nj->ni', np.abs(turns), model.geom_aabb[:, 3:])
+    def _boxes_around(self, places: Array, turns: Array) -> tuple[Array, Array]:
+        """
+        Return the lowest and highest corners of the boxes around bodies, (n, 3).
+
+        :param places: of all geoms in a frame, (ngeom, 3).
+        :param turns: their rotation matrices there, (ngeom, 9).
+        """
+        model, matrices = self._model, turns.reshape(-1, 3, 3)
+        middle = places + np.einsum('nij,nj->ni', matrices, model.geom_aabb[:, :3])
+        half = np.einsum('nij,nj->ni', np.abs(matrices), model.geom_aabb[:, 3:])
         half += _margins_m(model)[:, None]
         half[model.geom_rbound <= 0.0] = np.inf  # a plane has no bounds
         low = np.full((model.nbody, 3), np.inf)
@@ -137,9 +167,7 @@ class BroadPhase:
             )
         )
 
-    def _include(self, near: Flags, *, apart: bool) -> None:
-        self._all = False
-        self.alone = self._can_be_alone and apart and not (near & self._solid).any()
+    def _include(self, near: Flags) -> None:
         for field, bits in self._bits:
             field[self._bodies] = np.where(near, bits, 0)
 
