@@ -104,6 +104,17 @@ def test_an_end_that_was_asked_for_is_no_error(
     assert reasons(printed, '', (), None) == ()
 
 
+@pytest.mark.parametrize(
+    ('script', 'how'),
+    [('exit 7', 'exit code 7'), ('kill -SEGV $$', 'SIGSEGV'), ('kill -40 $$', 'signal 40')],
+)
+def test_every_way_to_end_has_words(script: str, how: str, tmp_path: Path) -> None:
+    with (tmp_path / 'log').open('w') as stream:
+        process = ChildProcess(['bash', '-c', script], os.environ, stream)
+        assert process.wait(20.0)
+    assert reasons('', '', (), process.exit_code) == (f'it crashed ({how})',)
+
+
 def test_a_velocity_that_is_no_number_is_told(
     student: tuple[Node, Callable[[], Graph]], domain: int, tmp_path: Path
 ) -> None:

@@ -7,7 +7,6 @@ import json
 import os
 from pathlib import Path
 import pickle
-import signal
 from tempfile import TemporaryDirectory
 import time
 
@@ -20,7 +19,7 @@ from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.lab.programs import Programs
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
-from husky_grader.run.diagnosis import crash, shortened
+from husky_grader.run.diagnosis import crash, how_ended, shortened
 from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import trusted
 
@@ -90,7 +89,7 @@ def how_it_ended(exit_code: int, printed: str) -> str:
     """Return why a program has ended, by its own error if it tells of one."""
     if error := crash(printed):
         return error
-    how = f'exit code {exit_code}' if exit_code >= 0 else signal.Signals(-exit_code).name
     lines = printed.split('\n')
     last = next((line for line in reversed(lines) if line.strip()), '')
-    return shortened(f'it ended by itself ({how})' + (f': {last.strip()}' if last else ''))
+    how = f'it ended by itself ({how_ended(exit_code)})'
+    return shortened(how + (f': {last.strip()}' if last else ''))

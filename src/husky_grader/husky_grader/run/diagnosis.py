@@ -72,9 +72,8 @@ def reasons(
     """
     crashed = crash(printed)
     if exit_code:
-        how = f'exit code {exit_code}' if exit_code > 0 else Signals(-exit_code).name
         last = crashed or shortened(printed.strip().rpartition('\n')[2])
-        crashed = f'it crashed ({how})' + (f': {last}' if last else '')
+        crashed = f'it crashed ({how_ended(exit_code)})' + (f': {last}' if last else '')
     found = [crashed] if crashed else []
     if refused := _NOT_FINITE.search(simulator_log):
         found.append(
@@ -83,6 +82,13 @@ def reasons(
         )
     found += graph_reasons
     return tuple(dict.fromkeys(map(printable, found)))
+
+
+def how_ended(exit_code: int) -> str:
+    """Return an exit status in words; of a signal its name, which most real-time ones lack."""
+    if exit_code >= 0:
+        return f'exit code {exit_code}'
+    return {each.value: each.name for each in Signals}.get(-exit_code, f'signal {-exit_code}')
 
 
 def reasons_of_graph(graph: Graph, interface: str = 'lab') -> list[str]:
