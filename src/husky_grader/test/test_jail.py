@@ -60,6 +60,14 @@ for file in hoard:
     os.write(file, bytes(60_000_000))
 time.sleep(600)
 """
+REMOVES = """
+import tempfile, time
+hoard = [tempfile.TemporaryFile(dir='.') for _ in range(4)]
+for file in hoard:
+    file.write(bytes(2_000_000))
+    file.flush()
+time.sleep(600)
+"""
 GRADER = """
 import os, sys, time
 import os
@@ -240,6 +248,16 @@ def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> Non
         process = jail.start(['bash', '-c', many], log=log)
         assert process.wait(10.0)
         assert process.stopped == 'filled its folder with over 5 MB'
+
+
+@in_each_sandbox
+def test_files_that_were_removed_count_while_they_are_open(
+    sandbox: Sandbox, tmp_path: Path, mark: str
+) -> None:
+    with jail_in(sandbox, tmp_path, Limits(folder_mb=5)) as jail:
+        process = jail.start(python(REMOVES, mark), log=tmp_path / 'log')
+        assert process.wait(10.0)
+    assert process.stopped == 'filled its folder with over 5 MB'
 
 
 @in_each_with_network

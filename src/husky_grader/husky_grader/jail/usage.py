@@ -7,6 +7,7 @@ from contextlib import suppress
 import errno
 import os
 from pathlib import Path
+import stat
 import time
 
 import psutil
@@ -34,7 +35,7 @@ class Usage:
             why = _overuse(processes(), self._limits)
         if not why and now >= self._folder_at_sec:
             self._folder_at_sec = now + FOLDER_SEC
-            why = _overfull(self._folder, self._limits)
+            why = _overfull(self._folder, self._limits, processes())
         return why
 
 
@@ -47,7 +48,7 @@ def _overuse(processes: Iterable[psutil.Process], limits: Limits) -> str:
         own += used.get('RssAnon', 0) * _KIB
         shared += used.get('RssShmem', 0) * _KIB
         tasks += used.get('Threads', 0)
-        nameless |= _nameless_files(process.pid)
+        nameless |= _nameless_files(process.pid, _is_in_memory)
     memory = own + max(shared, sum(nameless.values()))  # some of these are mapped, too
     if memory > limits.memory_mb * MB:
         return f'used {memory // MB} MB of memory; {limits.memory_mb} MB are allowed'
@@ -68,29 +69,35 @@ def _status_of(pid: int) -> dict[str, int]:
     return {each[0][:-1]: int(each[1]) for each in words if len(each) > 1 and each[1].isdigit()}
 
 
-def _nameless_files(pid: int) -> dict[int, int]:
-    """Return the bytes of each file in memory that a process has open and nobody can see."""
+def _nameless_files(pid: int, counts: Callable[[Path], bool]) -> dict[int, int]:
+    """Return the bytes of each file that a process has open and no folder has, by its inode."""
     found = {}
     with suppress(OSError):  # it has ended
         for link in Path(f'/proc/{pid}/fd').iterdir():
             with suppress(OSError):  # closed meanwhile
-                if str(link.readlink()).startswith('/memfd:'):
-                    status = link.stat()
+                status = link.stat()
+                if stat.S_ISREG(status.st_mode) and status.st_nlink == 0 and counts(link):
                     found[status.st_ino] = status.st_blocks * _BLOCK_BYTES
     return found
 
 
-def _overfull(folder: Path, limits: Limits) -> str:
-    """Return in words what a folder holds too much of; nothing if it does not."""
-    size, files, folders = 0, 0, [str(folder)]
+def _is_in_memory(link: Path) -> bool:
+    return str(link.readlink()).startswith('/memfd:')
+
+
+def _overfull(folder: Path, limits: Limits, processes: Iterable[psutil.Process]) -> str:
+    """Return in words what a folder, or its disk, holds too much of; nothing if it does not."""
+    disk = folder.stat().st_dev
+    removed: dict[int, int] = {}
+    for process in processes:
+        removed |= _nameless_files(process.pid, lambda link: link.stat().st_dev == disk)
+    size, files, folders = sum(removed.values()), 0, [str(folder)]
     while folders:
         try:
             with os.scandir(folders.pop()) as entries:
                 for entry in entries:
                     files += 1
                     size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK_BYTES
-                    if size > limits.folder_mb * MB:
-                        return f'filled its folder with over {limits.folder_mb} MB'
                     if files > limits.files:
                         return f'made over {limits.files} files'
                     if entry.is_dir(follow_symlinks=False):
@@ -101,4 +108,5 @@ def _overfull(folder: Path, limits: Limits) -> str:
             if error.errno == errno.ENAMETOOLONG:
                 return 'made folders too deep in each other'
             continue  # removed meanwhile
-    return ''
+    too_much = size > limits.folder_mb * MB
+    return f'filled its folder with over {limits.folder_mb} MB' if too_much else ''
