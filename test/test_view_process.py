@@ -12,6 +12,7 @@ import urllib.request
 from ament_index_python.packages import get_package_prefix
 from husky_runtime.supervise import END_WITHIN_SEC
 from playpen_testing.listener import Listener
+from playpen_testing.page_client import stalled_tab
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
@@ -175,21 +176,3 @@ def test_ten_stalled_tabs_do_not_hold_up_the_physics(
     finally:
         for tab in tabs:
             tab.close()
-
-
-def stalled_tab(address: str) -> socket.socket:
-    """Open the page's websocket, and never read from it."""
-    import viser
-
-    url = urlsplit(address)
-    tab = socket.create_connection((url.hostname, url.port or 0))
-    tab.sendall(
-        (
-            f'GET {url.path} HTTP/1.1\r\nHost: localhost\r\n'
-            'Upgrade: websocket\r\nConnection: Upgrade\r\n'
-            'Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n'
-            f'Sec-WebSocket-Protocol: viser-v{viser.__version__}\r\n\r\n'
-        ).encode()
-    )
-    assert b'101 Switching' in tab.recv(200), 'no websocket'
-    return tab

@@ -3,7 +3,9 @@
 """A client that speaks to the view as its page does, without a browser."""
 
 from importlib.metadata import version
+import socket
 from typing import Any
+from urllib.parse import urlsplit
 
 import msgspec
 from websockets.sync.client import ClientConnection, connect
@@ -25,6 +27,25 @@ CAMERA = {
 """The first message of a page: with it, viser has a new tab."""
 
 
+_PROTOCOL = Subprotocol(f'viser-v{version("viser")}')
+
+
+def stalled_tab(address: str) -> socket.socket:
+    """Open the page's websocket, and never read from it."""
+    url = urlsplit(address)
+    tab = socket.create_connection((url.hostname, url.port or 0))
+    tab.sendall(
+        (
+            f'GET {url.path} HTTP/1.1\r\nHost: localhost\r\n'
+            'Upgrade: websocket\r\nConnection: Upgrade\r\n'
+            'Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n'
+            f'Sec-WebSocket-Protocol: {_PROTOCOL}\r\n\r\n'
+        ).encode()
+    )
+    assert b'101 Switching' in tab.recv(200), 'no websocket'
+    return tab
+
+
 class PageClient:
     """
     A tab of the view.
@@ -35,7 +56,7 @@ class PageClient:
     def __init__(self, address: str) -> None:
         self._tab: ClientConnection = connect(
             address.replace('http://', 'ws://').rstrip('/'),
-            subprotocols=[Subprotocol(f'viser-v{version("viser")}')],
+            subprotocols=[_PROTOCOL],
             max_size=None,
             close_timeout=0.1,
         )

@@ -3,7 +3,7 @@
 """The gate: who is let to the page, and what of what a page sends."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from functools import partial
 from http import HTTPStatus
 import math
@@ -14,13 +14,21 @@ import urllib.error
 import urllib.request
 
 from husky_view.gate.admission import Admission
-from husky_view.gate.gate import BURST, MOST_BYTES, MOST_CONNECTIONS, MOST_TABS
+from husky_view.gate.gate import (
+    BURST,
+    MOST_BYTES,
+    MOST_CONNECTIONS,
+    MOST_FRAMES,
+    MOST_TABS,
+    MOST_UNREAD_BYTES,
+)
 from husky_view.server import close_server, PageServer
 from msgspec.msgpack import encode
-from playpen_testing.page_client import CAMERA
+from playpen_testing.page_client import CAMERA, stalled_tab
 import pytest
 import viser
 from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.frames import Frame, Opcode
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
@@ -110,12 +118,8 @@ class Page:
         return hear
 
     def connect(self, **options: Any) -> Connection:
-        return connect(
-            self.websocket,
-            subprotocols=[Subprotocol(f'viser-v{viser.__version__}')],
-            max_size=None,
-            **options,
-        )
+        spoken = [Subprotocol(f'viser-v{viser.__version__}')]
+        return connect(self.websocket, **{'subprotocols': spoken, 'max_size': None, **options})
 
     def heard_after(self, *messages: object) -> list[tuple[str, Any]]:
         """Send messages by a tab of their own; return what was heard of them."""
@@ -235,6 +239,38 @@ def test_a_message_too_long_ends_the_connection(page: Page) -> None:
         tab.send(b'\x00' * (MOST_BYTES + 1))
         with pytest.raises(ConnectionClosed, match='too big'):
             list(tab)
+
+
+def test_a_message_in_many_frames_ends_the_connection(page: Page) -> None:
+    with page.connect() as tab:
+        tab.send(encode(CAMERA))
+        update = page.update('slider', value=0.8)
+        tab.send([update[:9], update[9:]])
+        assert page.heard_before_a_click(tab) == [('slider', 0.8)]
+        with suppress(ConnectionClosed):
+            tab.send(b'' for _ in range(2 * MOST_FRAMES))
+        with pytest.raises(ConnectionClosed):
+            list(iter(partial(tab.recv, timeout=10.0), None))
+
+
+def test_a_tab_that_asks_and_never_reads_is_left(page: Page) -> None:
+    with page.connect() as other, stalled_tab(page.server.address) as tab:
+        tab.settimeout(10.0)
+        ping = Frame(Opcode.PING, b'x' * 125).serialize(mask=True)
+        with pytest.raises(ConnectionError):  # the kernel keeps some megabytes, too
+            tab.sendall(ping * (3 * MOST_UNREAD_BYTES // len(ping)))
+        other.send(encode(CAMERA))
+        assert page.heard_before_a_click(other) == []
+
+
+def test_another_version_of_the_page_is_refused_in_silence(
+    page: Page, capfd: pytest.CaptureFixture[str]
+) -> None:
+    for spoken in ['viser-v0.1'], None:
+        with pytest.raises(InvalidStatus) as refused:
+            page.connect(subprotocols=spoken)
+        assert refused.value.response.status_code == HTTPStatus.BAD_REQUEST
+    assert capfd.readouterr() == ('', '')
 
 
 def test_tabs_beyond_the_last_place_are_refused(page: Page) -> None:

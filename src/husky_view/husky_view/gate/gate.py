@@ -15,10 +15,13 @@ from http import HTTPStatus
 import logging
 from typing import Any
 
+import viser
 from websockets.asyncio import server as websockets_server
 from websockets.asyncio.server import serve, Server, ServerConnection
 from websockets.datastructures import Headers
+from websockets.frames import DATA_OPCODES, Frame
 from websockets.http11 import Request, Response
+from websockets.protocol import Event
 
 from husky_view.gate.admission import Admission
 from husky_view.gate.controls import accepts
@@ -27,6 +30,12 @@ from husky_view.gate.incoming import GuiUpdateMessage, read_message, Refused
 
 MOST_BYTES = 4096
 """Of a message; a page sends half a kilobyte at most."""
+
+MOST_FRAMES = 16
+"""Of a message: a browser cuts one in two where a buffer of its own ends."""
+
+MOST_UNREAD_BYTES = 8_000_000
+"""Kept for a tab that sends and does not read; twice the whole scene."""
 
 MOST_TABS, MOST_CONNECTIONS = 32, 256
 HANDSHAKE_SEC = 5.0
@@ -40,6 +49,7 @@ _HEADERS = {
     'Referrer-Policy': 'no-referrer',
     'X-Content-Type-Options': 'nosniff',
 }
+_PROTOCOL = f'viser-v{viser.__version__}'
 _log = logging.getLogger(__name__)
 
 
@@ -96,6 +106,8 @@ class Gate:
         if refusal is not None:
             return connection.respond(refusal.status, f'{refusal.reason}\n')
         if 'Upgrade' in headers:
+            if headers.get_all('Sec-WebSocket-Protocol') != [_PROTOCOL]:
+                return connection.respond(HTTPStatus.BAD_REQUEST, f'Spoken here: {_PROTOCOL}.\n')
             if len(connection.server.connections) < MOST_TABS:
                 return None
             full = f'{MOST_TABS} tabs look at this page already: close one.\n'
@@ -130,12 +142,22 @@ class CheckedConnection(ServerConnection):
     ) -> None:
         super().__init__(protocol, server, **options)
         self._admits = admits
+        self._frames = 0  # of a message that is not whole yet
         self._free_sec = 0.0  # when all that was read would have been due
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Take a connection, if there are not too many."""
         super().connection_made(transport)
         if len(self.server.handlers) > MOST_CONNECTIONS:
+            self.transport.abort()
+
+    def process_event(self, event: Event) -> None:
+        """Take a request or a frame; end a connection that would have ever more kept of it."""
+        super().process_event(event)
+        if isinstance(event, Frame) and event.opcode in DATA_OPCODES:
+            self._frames = 0 if event.fin else self._frames + 1
+        unread = self.transport.get_write_buffer_size()
+        if self._frames > MOST_FRAMES or unread > MOST_UNREAD_BYTES:
             self.transport.abort()
 
     async def recv(self, decode: bool | None = None) -> str | bytes:  # type: ignore[override]
