@@ -47,7 +47,8 @@ def unused_files() -> dict[Path, float]:
         except OSError:  # removed meanwhile
             continue
         if status.st_uid == os.getuid():
-            ages[file] = time.time() - status.st_mtime
+            # Of one from the future, the clock was set back: it is not being made now.
+            ages[file] = abs(time.time() - status.st_mtime)
             # A busy machine may take long from the lock on NAME_el to the map of NAME.
             if status.st_ino in locked:
                 used.add(_stem_of(file.name))

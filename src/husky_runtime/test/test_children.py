@@ -17,6 +17,7 @@ from husky_runtime.domains import OwnDomain
 from husky_runtime.shared_memory import clean_shared_memory, unused_files
 from playpen_testing.shared_memory import mapped_by
 import psutil
+import pytest
 import rclpy
 
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
@@ -207,6 +208,20 @@ def test_shared_memory_that_is_being_made_stays() -> None:
         assert not file.exists()
     finally:
         file.unlink(missing_ok=True)
+
+
+def test_a_clock_that_was_set_back_holds_nobody_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Not in /dev/shm: a run of somebody else would see it.
+    monkeypatch.setattr('husky_runtime.shared_memory._FOLDER', tmp_path)
+    file = tmp_path / 'fastrtps_left_from_the_future'
+    file.touch()
+    os.utime(file, (time.time() + 5.0,) * 2)
+    begun = time.monotonic()
+    clean_shared_memory()
+    assert time.monotonic() - begun < 4.0
+    assert not file.exists()
 
 
 def participant(domain: int) -> 'subprocess.Popen[bytes]':
