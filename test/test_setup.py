@@ -231,6 +231,14 @@ def test_a_full_disk_is_said_before_anything_is_made(clone: Path, tmp_path: Path
     assert not (clone / '.venv').exists()
 
 
+def test_a_terminal_with_few_letters_is_no_matter_to_a_set_up(clone: Path, tmp_path: Path) -> None:
+    told = tmp_path / 'told'
+    folder = tmp_path / 'bin'
+    path = program(folder, 'df', f'locale charmap >{told}; printf "h\\nfs 1 1 90000 1%% /\\n"')
+    refused(lab(clone, 'exec', 'true', PATH=path, LC_ALL='C'), 'disk is full')
+    assert told.read_text() == 'UTF-8\n'
+
+
 def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> None:
     (clone / '.venv' / 'bin').mkdir(parents=True)
     (clone / '.venv' / 'bin' / 'python').symlink_to('/nonexistent/python')
