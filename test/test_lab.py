@@ -252,6 +252,19 @@ def test_a_home_that_cannot_be_written_costs_no_run(
     assert 'Traceback' not in run.output
 
 
+def test_a_folder_of_logs_that_somebody_else_has_made_is_not_used(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ('ROS_LOG_DIR', 'ROS_HOME'):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv('HOME', '/proc')
+    monkeypatch.setenv('TMPDIR', str(tmp_path))
+    (tmp_path / f'ros_log-{os.getuid()}').symlink_to(tmp_path)
+    refused = processes.start(LAB, 'exec', 'true')
+    assert refused.wait() == 2
+    assert 'set ROS_LOG_DIR to a folder of your own' in refused.output
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_drive_leaves_nothing_behind(
     processes: Processes, tmp_path: Path, number: signal.Signals

@@ -147,6 +147,30 @@ def test_the_lines_of_a_step_tell_how_far_it_is(
     assert shown in step.doing
 
 
+def test_a_folder_in_place_of_the_link_to_a_clone_is_left(tmp_path: Path) -> None:
+    root, cache = tmp_path / 'a clone', tmp_path / 'cache'
+    root.mkdir()
+    text = (ROOT / 'lab').read_text()
+    function = text[text.index('plain_way() {') :].partition('\n}\n')[0]
+    command = ['bash', '-c', f'{function}\n}}\nroot=$0; plain_way', str(root)]
+    environment = {**os.environ, 'XDG_CACHE_HOME': str(cache)}
+
+    def way() -> Path:
+        return Path(subprocess.check_output(command, env=environment, text=True).strip())
+
+    theirs = way()
+    assert (theirs.parent, theirs.samefile(root)) == (cache, True)
+    assert way() == theirs
+    theirs.unlink()
+    theirs.mkdir()
+    ours = way()
+    try:
+        assert ours.samefile(root)
+        assert ours != theirs
+    finally:
+        ours.unlink()
+
+
 def test_another_ros_than_jazzy_is_refused(clone: Path) -> None:
     done = lab(clone, 'exec', 'true', ROS_DISTRO='humble', AMENT_PREFIX_PATH='/opt/ros/humble')
     refused(done, 'humble', 'ROS 2 Jazzy', 'source')
