@@ -15,6 +15,7 @@ from typing import Any
 import zipfile
 
 from husky_grader.autograder.gradescope_zip import make_gradescope
+from husky_grader.autograder.packed_lab import packed_lab
 from husky_grader.playpen import default_rubric
 from husky_grader.rubric.rubric_file import load_rubric
 from playpen_testing.autograder_shapes import check_classroom50, check_gradescope
@@ -136,6 +137,13 @@ def test_a_lab_that_is_no_clone_is_packed_too(tmp_path: Path, rubric_file: Path)
         assert names.getnames() == ['config/a.yaml', 'lab']
     with pytest.raises(ValueError, match='not the folder of the lab'):
         make_gradescope(tmp_path / 'b.zip', load_rubric(rubric_file), lab=tmp_path)
+
+
+def test_a_clone_that_git_does_not_read_is_refused(tmp_path: Path) -> None:
+    (tmp_path / '.git').mkdir()  # as one of another user, git takes it for none
+    (tmp_path / 'lab').touch()
+    with pytest.raises(ValueError, match='git does not tell which files are of the lab: fatal: '):
+        packed_lab(tmp_path)
 
 
 def test_a_course_named_by_its_place_here_is_refused(rubric_file: Path) -> None:

@@ -26,7 +26,7 @@ def packed_lab(lab: Path) -> bytes:
 
     Of a clone it has what git tracks, as it is now.
 
-    :raises ValueError: if it is not the folder of the lab.
+    :raises ValueError: if it is not the folder of the lab, or git does not read the clone.
     """
     if not (lab / 'lab').is_file():
         raise ValueError(
@@ -47,10 +47,12 @@ def _names(lab: Path) -> Iterator[str]:
     if (lab / '.git').exists():
         listed = subprocess.run(
             ['git', '-C', str(lab), 'ls-files', '-z', '--', *_NEEDED],
-            check=True,
             capture_output=True,
             text=True,
         )
+        if listed.returncode != 0:  # above all, where the clone belongs to another user
+            said = ' '.join(listed.stderr.split())
+            raise ValueError(f'{lab}: git does not tell which files are of the lab: {said}')
         names = listed.stdout.split('\0')
         yield from (name for name in names if name and (lab / name).is_file())
         return
