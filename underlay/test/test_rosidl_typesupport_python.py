@@ -242,3 +242,16 @@ def test_a_message_loads_no_generator_and_the_generator_is_there() -> None:
         'False',
         'rosidl_generator_py.generate_py_impl',
     ], done.stderr
+
+
+def test_a_node_that_needs_no_arrays_does_not_load_numpy() -> None:
+    program = (
+        'import sys, rclpy\n'
+        'from service_msgs.msg import ServiceEventInfo\n'
+        'rclpy.init()\n'
+        "rclpy.create_node('plain')\n"
+        "print('numpy' in sys.modules, ServiceEventInfo().client_gid.dtype)\n"
+    )
+    with in_own_domain():
+        told = subprocess.check_output([sys.executable, '-c', program], text=True)
+    assert told == 'False uint8\n'
