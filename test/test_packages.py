@@ -171,12 +171,14 @@ def test_a_circle_is_found() -> None:
     assert cycle_in({'a': {'b'}, 'b': {'c'}, 'c': {'b'}}) == ['b', 'c', 'b']
 
 
-@pytest.fixture
-def only_declared(built_packages: Path, tmp_path: Path) -> dict[str, Path]:
+@pytest.fixture(scope='module')
+def only_declared(
+    built_packages: Path, tmp_path_factory: pytest.TempPathFactory
+) -> dict[str, Path]:
     """Link what each package declares, and what that needs, into a folder: all that it gets."""
-    folders = {}
+    folders, here = {}, tmp_path_factory.mktemp('only_declared')
     for package in PACKAGES:
-        folders[package] = tmp_path / package
+        folders[package] = here / package
         folders[package].mkdir()
         places = (place for name in closure(package) for place in places_of(name, built_packages))
         for name, path in {path.name: path for path in places}.items():
