@@ -250,7 +250,7 @@ def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> Non
         assert process.stopped == 'filled its folder with over 5 MB'
 
 
-@in_each_sandbox
+@in_each_way_with_processes  # a container's root may not look at the files of another user
 def test_files_that_were_removed_count_while_they_are_open(
     sandbox: Sandbox, tmp_path: Path, mark: str
 ) -> None:
