@@ -3,7 +3,7 @@
 from io import StringIO
 import math
 
-from husky_driver.ros.progress import Progress, Tally
+from husky_driver.ros.progress import Progress
 import pytest
 
 
@@ -48,12 +48,3 @@ def test_what_is_no_number_is_not_shown(bar: bool) -> None:
     progress.update(math.nan, math.nan, 1.0, '')
     progress.update(20.0, math.inf, 1.0, '')
     assert (terminal.getvalue(), lines) == ('', [])
-
-
-def test_a_tally_counts_to_the_last_file() -> None:
-    stream = StringIO()
-    tally = Tally(30, stream, '', bar=False)
-    for number in range(30):
-        tally.add(f's{number} 100.0')
-    assert stream.getvalue().splitlines()[-1] == '30 of 30  s29 100.0'
-    assert len(stream.getvalue().splitlines()) == 10

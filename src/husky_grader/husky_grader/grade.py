@@ -15,7 +15,6 @@ from husky_course.printable import printable
 from husky_course.record import read_record, read_run, Run
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
-from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, why
 
 from husky_grader.file_grading import Grade, grade_file
@@ -31,6 +30,7 @@ from husky_grader.report.files import as_json, summary, write_report
 from husky_grader.report.folder import alone_in
 from husky_grader.run.told import Told
 from husky_grader.scoring.report import FORMULA, judge, Report
+from husky_grader.tally import Tally
 
 INTERRUPTED = 130
 INTERFACES = ('lab', 'clearpath')

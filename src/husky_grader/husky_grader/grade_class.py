@@ -12,12 +12,11 @@ import sys
 from typing import TYPE_CHECKING, TypeVar
 
 from husky_course.printable import printable
-from husky_driver.ros import Tally
 from husky_runtime.command_line import BAD_INPUT
 
 from husky_grader.batch.shards import parse_shard
-from husky_grader.batch.tables import names_of, table, write_csv
 from husky_grader.playpen import default_rubric
+from husky_grader.tally import Tally
 
 if TYPE_CHECKING:  # they take their time
     from husky_grader.batch.job import Job, Outcome
@@ -61,6 +60,7 @@ def wrong_of_class(options: argparse.Namespace) -> str:
 
 def grade_files(options: argparse.Namespace) -> int:
     """Grade waypoint files; return the exit code."""
+    from husky_grader.batch.tables import names_of, table, write_csv
     from husky_grader.file_job import FileJob
 
     folder = Path(options.report)
