@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Start real processes, read what they print, and end them all."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import threading
@@ -18,6 +19,21 @@ from playpen_testing.waiting import wait_until
 
 IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
 """A program for `python3 -c` that runs a command in a terminal."""
+
+
+def find_line(output: Iterable[str], pattern: str) -> re.Match[str]:
+    """
+    Read on to the first line in which a pattern is found; return the match.
+
+    Fast DDS may print a harmless line of its own before the one that a test waits for.
+    """
+    before = ''
+    for line in output:
+        found = re.search(pattern, line)
+        if found is not None:
+            return found
+        before += line
+    raise AssertionError(f'the output ended without {pattern!r}:\n{before}')
 
 
 class Process:

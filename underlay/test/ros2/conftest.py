@@ -16,6 +16,7 @@ import sys
 import time
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.processes import find_line
 import pytest
 
 HERE = Path(__file__).resolve().parent
@@ -57,12 +58,7 @@ class Processes:
         self._started.append(process)
         if ready is not None:
             assert process.stdout is not None
-            seen = ''
-            for line in process.stdout:
-                seen += line
-                if ready in line:
-                    return process
-            pytest.fail(f'{words} ended without {ready!r}; it printed:\n{seen}')
+            find_line(process.stdout, re.escape(ready))
         return process
 
     def node(self, kind: str, name: str, *arguments: str) -> subprocess.Popen[str]:

@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
 from ros2doctor import api
@@ -225,7 +226,7 @@ def test_a_peer_behind_a_network_interface_is_found(domain: int, ros2: Callable[
             stdout=subprocess.PIPE, text=True, env=environment,
         )  # fmt: skip
         assert node.stdout is not None
-        assert node.stdout.readline() == 'ready\n'
+        find_line(node.stdout, '^ready$')
         line = _line(ros2('doctor'), 'range')
         assert f'1 ROS process of domain {domain} on other machines (198.18.7.2)' in line
         assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET' in line

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from http.client import HTTPConnection
 import json
 from pathlib import Path
-import re
 import signal
 import subprocess
 import sys
@@ -19,6 +18,7 @@ from xml.etree import ElementTree
 
 from playpen_testing import chromium
 from playpen_testing.browser import errors, start_browser
+from playpen_testing.processes import find_line
 import pytest
 
 SVG = '{http://www.w3.org/2000/svg}'
@@ -187,7 +187,7 @@ def events(address: str) -> Iterator[dict[str, Any]]:
 
 def test_the_page_shows_nodes_that_start_and_end(talk: Any) -> None:
     page = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    (address,) = re.findall(r'http://127\.0\.0\.1:\d+/', page.stdout.readline())
+    address = find_line(page.stdout, r'http://127\.0\.0\.1:\d+/')[0]
     assert '<title>rqt_graph</title>' in urlopen(address, timeout=10).read().decode()
     news = events(address)
     first = next(news)
@@ -213,7 +213,7 @@ def test_the_page_answers_to_this_computer_alone(
     processes: Any, headers: dict[str, str], status: int
 ) -> None:
     server = processes.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    (place,) = re.findall(r'127\.0\.0\.1:\d+', server.stdout.readline())
+    place = find_line(server.stdout, r'127\.0\.0\.1:\d+')[0]
     connection = HTTPConnection(place, timeout=10.0)
     connection.request('GET', '/graph.svg', headers=headers)
     assert connection.getresponse().status == status
@@ -222,7 +222,7 @@ def test_the_page_answers_to_this_computer_alone(
 
 def test_the_page_lights_what_hangs_on_a_pointed_shape(talk: Any) -> None:
     server = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    (address,) = re.findall(r'http://127\.0\.0\.1:\d+/', server.stdout.readline())
+    address = find_line(server.stdout, r'http://127\.0\.0\.1:\d+/')[0]
     with start_browser(chromium.find_or_install()) as browser:
         page = browser.new_page()
         page.goto(address)
@@ -257,7 +257,7 @@ def test_a_signal_ends_the_page_within_two_seconds(processes: Any, number: signa
 def test_a_taken_port_is_refused_in_one_line(processes: Any) -> None:
     page = processes.start(sys.executable, '-m', 'rqt_graph.main')
     assert page.stdout is not None
-    (port,) = re.findall(r':(\d+)/', page.stdout.readline())
+    port = find_line(page.stdout, r'http://.*:(\d+)/')[1]
     answer = run('--port', port)
     assert answer.returncode == 1
     assert answer.stderr == f'rqt_graph: --port {port} is taken: leave it out to get a free one\n'

@@ -13,6 +13,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import PointStamped, TransformStamped
+from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
@@ -157,7 +158,7 @@ rclpy.spin(asking)
     with SpunNodes(domain) as nodes:
         nodes.start(Sender).fixed.sendTransform(transform('odom', 'base', 7.0))
         assert process.stdout is not None
-        assert process.stdout.readline() == 'found 7.0\n'
+        find_line(process.stdout, r'^found 7\.0$')
         begin = time.monotonic()
         process.send_signal(2)
         _, said = process.communicate(timeout=10)

@@ -18,6 +18,7 @@ from xml.etree import ElementTree
 from geometry_msgs.msg import TransformStamped
 from playpen_testing import chromium
 from playpen_testing.browser import errors, start_browser
+from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 import pytest
 from rclpy.node import Node
@@ -131,7 +132,7 @@ def wait_for_event(news: Iterator[dict[str, Any]], fact: Any, timeout_sec: float
 
 def test_the_page_follows_what_is_sent(processes: Any, sender: Sender) -> None:
     page = processes.start(*COMMAND, '--live')
-    (address,) = re.findall(r'http://127\.0\.0\.1:\d+/', page.stdout.readline())
+    address = find_line(page.stdout, r'http://127\.0\.0\.1:\d+/')[0]
     assert '<title>view_frames</title>' in urlopen(address, timeout=10).read().decode()
     news = events(address)
     svg = wait_for_event(
@@ -158,7 +159,7 @@ def test_the_page_follows_what_is_sent(processes: Any, sender: Sender) -> None:
 @pytest.mark.usefixtures('sender')
 def test_the_page_in_a_browser_lights_what_hangs_on_a_frame(processes: Any) -> None:
     server = processes.start(*COMMAND, '--live')
-    (address,) = re.findall(r'http://127\.0\.0\.1:\d+/', server.stdout.readline())
+    address = find_line(server.stdout, r'http://127\.0\.0\.1:\d+/')[0]
     with start_browser(chromium.find_or_install()) as browser:
         page = browser.new_page()
         page.goto(address)
