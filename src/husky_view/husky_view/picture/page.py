@@ -14,7 +14,7 @@ import json
 import viser
 from viser._messages import RunJavascriptMessage
 
-from husky_view.picture.palette import css, LEGEND, Rgb, SKY_ABOVE, SKY_BELOW
+from husky_view.picture.palette import css, DOTS, LEGEND, Rgb, SKY_ABOVE, SKY_BELOW
 from husky_view.picture.pointer import POINTER_SCRIPT
 
 STOP, RELEASE = 'STOP', 'Release the stop'
@@ -53,6 +53,8 @@ class Direction(Enum):
         self.left = left
 
 
+_BAR = 'width:1.4em;height:.35em;border-radius:.2em'
+_DOT = 'width:.7em;height:.7em;border-radius:50%'
 _STYLE = """
 canvas[data-engine] { background: linear-gradient(SKY); }
 .husky-pad { display: grid !important; gap: 0.3em; padding: 0 0.6em 0.4em;
@@ -230,13 +232,14 @@ def page_html(*, active: Collection[str] = (), plays: bool = False) -> str:
 
 def legend_html(shown: Collection[Rgb]) -> str:
     """
-    Return the legend: a coloured bar and a word for each.
+    Return the legend: a word for each colour, with a bar for a line and a dot for points.
 
     :param shown: the colours of what there is to be seen.
     """
     rows = ''.join(
-        '<span style="display:inline-flex;align-items:center;gap:.4em;margin-right:.9em">'
-        f'<i style="width:1.4em;height:.35em;border-radius:.2em;background:{css(color)};'
+        '<span style="display:inline-flex;align-items:center;gap:.4em;margin-right:.9em;'
+        'vertical-align:top">'
+        f'<i style="{_DOT if color in DOTS else _BAR};background:{css(color)};'
         'outline:1px solid #0003"></i>'
         f'{name}</span>'
         for color, name in LEGEND

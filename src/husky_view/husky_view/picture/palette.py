@@ -11,7 +11,7 @@ SKY_BELOW: Rgb = (245, 248, 252)
 PATH: Rgb = (86, 180, 233)
 TRUE_TRAIL: Rgb = (240, 228, 66)
 ODOMETRY_TRAIL: Rgb = (230, 120, 200)
-LOOK_AHEAD: Rgb = (0, 220, 160)
+LOOK_AHEAD: Rgb = (255, 140, 0)
 WAYPOINT: Rgb = (86, 180, 233)
 REACHED: Rgb = (0, 200, 120)
 LIDAR: Rgb = (255, 70, 30)
@@ -24,6 +24,7 @@ CLEAR: Rgb = (20, 180, 40)
 SCARCE: Rgb = (255, 190, 0)
 BLOCKED: Rgb = (255, 0, 40)
 
+DOTS = frozenset((REACHED, LOOK_AHEAD, LIDAR, COLLISION))  # all others are lines
 LEGEND: tuple[tuple[Rgb, str], ...] = (
     (PATH, 'given path and waypoints'),
     (REACHED, 'waypoint reached'),
