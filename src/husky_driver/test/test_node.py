@@ -42,7 +42,7 @@ class PlantNode(Node):
         super().__init__('plant', context=context)
         self.plant = plant
         self.received: list[Command] = []
-        self.silent = False
+        self.answered = math.inf  # after so many commands it falls silent
         self.spoil: Callable[[Odometry], None] = lambda _: None  # falsifies a message
         self._sent_sec = 0.0
         self._odometry = self.create_publisher(Odometry, 'odometry/filtered', 10)
@@ -59,7 +59,7 @@ class PlantNode(Node):
     def _on_command(self, msg: Twist) -> None:
         self.received.append(Command(msg.linear.x, msg.angular.z))
         self.plant.advance(self.received[-1])
-        if not self.silent:
+        if len(self.received) < self.answered:
             self.publish()
 
     def publish(self) -> None:
@@ -183,9 +183,9 @@ def test_the_answered_distance_is_driven(plant_node: PlantNode, follow_path: Any
 def test_odometry_that_ends_is_given_up_with_a_message(
     plant_node: PlantNode, follow_path: Any, course: Path
 ) -> None:
+    plant_node.answered = 50
     process = follow_path('--waypoints', course, '--ros-args', '-p', 'odometry_timeout_sec:=0.5')
-    wait_until(lambda: len(plant_node.received) > 50, timeout_sec=15, what='50 commands')
-    plant_node.silent = True
+    wait_until(lambda: len(plant_node.received) >= 50, timeout_sec=15, what='50 commands')
     output, _ = process.communicate(timeout=10)
     assert process.returncode == 1
     assert 'gave up: no odometry for' in output
@@ -230,12 +230,12 @@ def call(node: PlantNode, kind: Any, name: str, request: Any) -> Any:
 def test_a_drive_can_be_paused_and_goes_on(
     plant_node: PlantNode, follow_path: Any, course: Path
 ) -> None:
+    plant_node.answered = 80
     process = follow_path('--waypoints', course)
-    wait_until(lambda: len(plant_node.received) > 80, timeout_sec=15, what='80 commands')
-    plant_node.silent = True
+    wait_until(lambda: len(plant_node.received) >= 80, timeout_sec=15, what='80 commands')
     pause = '/follow_path/pause'
     assert call(plant_node, SetBool, pause, SetBool.Request(data=True)).message == 'paused'
-    plant_node.silent = False
+    plant_node.answered = math.inf
     plant_node.publish()
     wait_until(
         lambda: plant_node.received[-30:] == [Command(0.0, 0.0)] * 30,
@@ -252,9 +252,9 @@ def test_a_drive_can_be_paused_and_goes_on(
 def test_a_new_file_takes_over_and_a_broken_one_is_refused(
     plant_node: PlantNode, follow_path: Any, course: Path
 ) -> None:
+    plant_node.answered = 50
     process = follow_path('--waypoints', course)
-    wait_until(lambda: len(plant_node.received) > 50, timeout_sec=15, what='50 commands')
-    plant_node.silent = True
+    wait_until(lambda: len(plant_node.received) >= 50, timeout_sec=15, what='50 commands')
     other, broken = course.with_name('other.yaml'), course.with_name('broken.yaml')
     other.write_text('speed: 0.8\nwaypoints: [[1, 1], [2, 2]]\n')
     broken.write_text('speed: fast\n')
@@ -270,7 +270,7 @@ def test_a_new_file_takes_over_and_a_broken_one_is_refused(
     assert not refused.successful
     assert 'broken.yaml: line 1' in refused.reason
     assert set_waypoints(other).successful
-    plant_node.silent = False
+    plant_node.answered = math.inf
     plant_node.publish()
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 0, output
