@@ -74,6 +74,7 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
         ('speed: 1', 'line 1, column 1: waypoints: missing'),
         ('waypoints: 5', 'line 1, column 12: waypoints: 5 instead of a list'),
         ('waypoints: [[0, 0]]', 'line 1, column 12: waypoints: 1 given; allowed are 2 to 1000'),
+        ('waypoints: [[0, 0, 0]]', 'column 13: waypoints[0]: 3 values instead of 2'),
         (
             'waypoints: [[0, 0], [.nan, 1]]',
             'column 22: waypoints[1].x: .nan is not a number',

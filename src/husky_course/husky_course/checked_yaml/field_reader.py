@@ -183,10 +183,11 @@ class FieldReader:
         if not least <= len(value.items) <= most:
             count = len(value.items)
             self.wrong(value, name, f'{count} given; allowed are {least} to {most}')
-            return None
+            if count > most:
+                return None  # what is wrong in each of them would be too long a list
         read = [self.item(field, item, f'{name}[{i}]') for i, item in enumerate(value.items)]
         complete = tuple(entry for entry in read if entry is not None)
-        return complete if len(complete) == len(read) else None
+        return complete if least <= len(complete) == len(read) else None
 
     def _mapping(self, field: Field, value: Value, name: str) -> object:
         if field.table is not None:

@@ -84,18 +84,20 @@ def survey_route(
 def _near_passes(
     course: Course, poses: np.ndarray, numbers: np.ndarray, table: np.ndarray, names: list[str]
 ) -> list[NearPass]:
-    """Return the nearest place for each pair of waypoint and obstacle."""
+    """Return the nearest place for each pair of waypoint and obstacle, in the order of the way."""
     passes = []
     for number in sorted(set(numbers.tolist())):
         part = np.nonzero(numbers == number)[0]
-        for name, distances in zip(names, table[:, part], strict=True):
-            k = int(distances.argmin())
-            if distances[k] < ENOUGH_M:
-                x, y, _ = poses[part[k]]
+        nearest = table[:, part].argmin(axis=1)
+        for place in np.argsort(nearest, kind='stable'):
+            k = part[nearest[place]]
+            if table[place, k] < ENOUGH_M:
+                x, y, _ = poses[k]
                 waypoint = number % len(course.waypoints)
                 line = course.waypoints[waypoint].line
+                clearance_m = float(table[place, k])
                 passes.append(
-                    NearPass(waypoint, line, name, float(distances[k]), float(x), float(y))
+                    NearPass(waypoint, line, names[place], clearance_m, float(x), float(y))
                 )
     return passes
 
