@@ -9,7 +9,10 @@ import subprocess
 import sys
 import time
 
+from geometry_msgs.msg import Point, Pose, PoseArray, PoseStamped
 from husky_sim.scene_topic import QOS as SCENE_QOS
+from husky_view.live.links import LATCHED
+from nav_msgs.msg import Path
 from playpen_testing.browser import button, errors, number, wait_for
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
@@ -17,7 +20,7 @@ from playwright.sync_api import Browser, Error, expect, Page
 import pytest
 from rclpy.node import Node
 from sensor_msgs.msg import Image
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Float64MultiArray, UInt32
 
 PHONE = (390, 844)
 FACTOR = "parseFloat((document.querySelector('[data-number=factor]') || {}).textContent)"
@@ -170,6 +173,39 @@ def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Page) -> No
     lab.nodes.close(stranger)
     wait_for(page, f'!{TROUBLE}')
     expect(number(page, 'time')).not_to_have_text(shown_sec)
+    assert errors(page) == []
+
+
+@pytest.mark.timeout(120)
+def test_a_reset_keeps_the_path_of_a_driver_that_still_drives_only(lab: Lab, page: Page) -> None:
+    driver = lab.nodes.start(Node, 'driver')
+    poses = [Pose(position=Point(x=x)) for x in (0.0, 2.0)]
+    for kind, topic, message in (
+        (Path, 'path', Path(poses=[PoseStamped(pose=pose) for pose in poses])),
+        (PoseArray, 'waypoints', PoseArray(poses=poses)),
+        (UInt32, 'waypoints_left', UInt32(data=2)),
+    ):
+        driver.create_publisher(kind, topic, LATCHED).publish(message)
+    legend, left = page.locator('.husky-legend'), number(page, 'left')
+    expect(legend).to_contain_text('given path', timeout=10_000)
+    expect(left).to_have_text('2')
+
+    def reset() -> None:
+        before_sec = lab.time_sec
+        button(page, 'Reset').click()
+        wait_until(lambda: lab.time_sec < before_sec, timeout_sec=15.0, what='a new beginning')
+        wait_until(lambda: lab.time_sec > 0.5, timeout_sec=15.0, what='time that goes on')
+
+    reset()
+    expect(legend).to_contain_text('given path')
+    expect(left).to_have_text('2')
+    publishers = lab.listener.count_publishers
+    lab.nodes.close(driver)
+    wait_until(lambda: not publishers('path'), timeout_sec=10.0, what='a driver that is gone')
+    expect(left).to_have_text('2')  # until the reset, it is what was driven
+    reset()
+    expect(legend).not_to_contain_text('given path')
+    expect(left).to_have_text('–')
     assert errors(page) == []
 
 

@@ -62,7 +62,8 @@ class RobotLink:
         self._scan: LaserScan | None = None  # since the last frame
         self._waypoints: Array = np.zeros((0, 2))
         self.waypoints_left: int | None = None
-        self._topic = f'{namespace}husky_velocity_controller/cmd_vel'
+        self._path_topic = f'{namespace}path'
+        self._command_topic = f'{namespace}husky_velocity_controller/cmd_vel'
         self._commands: Publisher[Twist] | None = None  # only while the page drives
         self._driven_sec = 0.0
         self._stops = node.create_publisher(Bool, f'{namespace}e_stop', LATCHED)
@@ -82,7 +83,7 @@ class RobotLink:
     def drive(self, speed_m_s: float, yaw_rate_rad_s: float, *, now_sec: float) -> None:
         """Send a velocity command, as any teleop does."""
         if self._commands is None:
-            self._commands = self._node.create_publisher(Twist, self._topic, 10)
+            self._commands = self._node.create_publisher(Twist, self._command_topic, 10)
         self._driven_sec = now_sec
         command = Twist()
         command.linear.x = speed_m_s
@@ -97,6 +98,13 @@ class RobotLink:
     def stop(self, stopped: bool) -> None:
         """Press or release the emergency stop."""
         self._stops.publish(Bool(data=stopped))
+
+    def begin_run(self) -> None:
+        """Forget the path of a driver that has ended."""
+        if not self._node.count_publishers(self._path_topic):
+            self._robot.set_path(np.zeros((0, 2)))
+            self._set_waypoints(np.zeros((0, 2)))
+            self.waypoints_left = None
 
     def draw(self, now_sec: float) -> None:
         """Draw the newest scan; once a frame, however often scans come."""
@@ -124,8 +132,11 @@ class RobotLink:
     def _on_waypoints(self, msg: PoseArray) -> None:
         points = [(pose.position.x, pose.position.y) for pose in msg.poses]
         if self._are_places('waypoints', points):
-            self._waypoints = np.array(points).reshape(-1, 2)
-            self._robot.set_waypoints(self._waypoints, reached=self._reached)
+            self._set_waypoints(np.array(points).reshape(-1, 2))
+
+    def _set_waypoints(self, points: Array) -> None:
+        self._waypoints = points
+        self._robot.set_waypoints(points, reached=self._reached)
 
     def _on_waypoints_left(self, msg: UInt32) -> None:
         self.waypoints_left = msg.data

@@ -176,7 +176,9 @@ class LiveView:
         if self._scene is not None and self._scene.run != scene.run:
             self._control.factor = None  # it is another simulator
         self._scene = scene
-        self._picture.show(scene)
+        if self._picture.show(scene):
+            for link in self._links:
+                link.begin_run()
 
     def _on_invalid(self, what: str) -> None:
         """Report what is not drawn: on the page for a while, in the log once."""

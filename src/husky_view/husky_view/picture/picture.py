@@ -231,10 +231,15 @@ class Picture:
         self._run = ''
         self.followed = 0
 
-    def show(self, scene: Scene) -> None:
-        """Draw a scene; one of another run, or with a time that goes back, begins a new run."""
+    def show(self, scene: Scene) -> bool:
+        """
+        Draw a scene; one of another run, or with a time that goes back, begins a new run.
+
+        :return: whether it began one.
+        """
         first = first_of_run(scene.time_sec, after_sec=self._time_sec)
-        if first is not None or scene.run != (self._run or scene.run):
+        is_new = first is not None or scene.run != (self._run or scene.run)
+        if is_new:
             self.clear()
         self._run = scene.run
         self._time_sec = float(scene.time_sec[-1])
@@ -249,6 +254,7 @@ class Picture:
             track[:, _SPEED],
             lambda place: followed.off_path_m(track[place, _X : _X + 2]),
         )
+        return is_new
 
     def draw(self, now_sec: float) -> None:
         """Send what grew, animate flashes and cameras; now is of a steady wall clock."""
