@@ -17,7 +17,7 @@ from husky_view.picture.geometry import Bounds, to_odom, to_world
 
 AXIS_M = 1.0
 X_COLOR, Y_COLOR = (220, 60, 60), (60, 190, 60)  # as in RViz
-AXIS_PX, GRID_PX = 4.0, 1.0
+AXIS_PX, GRID_PX = 4.0, 1.5
 GRID_M = 2.0
 GRID_COLOR = (150, 150, 155)
 

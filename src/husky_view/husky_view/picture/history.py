@@ -16,6 +16,7 @@ STEP_SEC = 0.1
 
 MOST_POINTS = 300
 HEIGHT_PX = 110
+AXIS_PX = 62  # uPlot's own 50 px cut the sign off -0.05
 SPEED: Rgb = (200, 150, 0)  # of the trail, dark enough for white paper
 
 
@@ -82,5 +83,6 @@ def _plot(gui: viser.GuiApi, title: str, color: Rgb) -> viser.GuiUplotHandle:
         title=title,
         scales={'x': {'time': False}},
         legend={'show': False},
+        axes=({}, {'size': AXIS_PX}),
         height=HEIGHT_PX,
     )
