@@ -104,6 +104,7 @@ def check_bag(processes: Processes, folder: Path) -> None:
     assert (told['/path'], told['/tf_static'], told['/collisions']) == (1, 1, 0)
     read = read_bag(bag)
     truth, tf = read['/ground_truth/odom'], read['/tf']
+    assert len(read['/front/scan']) == math.ceil(len(record.rows) / 5)
     assert [ns for ns, _ in truth] == [round(sec * 1e9) for sec in record.time_sec.tolist()]
     for name, topic, value in (
         ('x', truth, lambda each: each.pose.pose.position.x),

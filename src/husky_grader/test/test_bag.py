@@ -17,6 +17,7 @@ from husky_course.waypoints import parse_course
 from husky_grader.playpen import config_folder
 from husky_grader.report.bag import write_bag
 from husky_grader.scoring.report import judge
+from husky_sim.world import default_worlds
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 import pytest
@@ -24,7 +25,11 @@ from rosidl_runtime_py.utilities import get_message
 from visualization_msgs.msg import Marker
 
 # What of these Lichtblick 1.10 draws in a scene; it draws no nav_msgs/msg/Odometry.
-DRAWN = {'nav_msgs/msg/Path', 'visualization_msgs/msg/MarkerArray'}
+DRAWN = {
+    'nav_msgs/msg/Path',
+    'sensor_msgs/msg/LaserScan',
+    'visualization_msgs/msg/MarkerArray',
+}
 PANELS = {'3D', 'Plot', 'StateTransitions'}
 
 ROUTE = plan_route(parse_course('waypoints: [[0, 0], [2, 0]]'))
@@ -46,7 +51,7 @@ OBSTACLES = (
 def record(make_record: Callable[..., Record]) -> Record:
     """Return a run to the north: half a second of waiting, then 1 m/s, from a start of its own."""
     places = [(0.5, 2.0)] * 25 + [(0.5, 2.0 + k / 50) for k in range(50)]
-    return make_record(
+    run = make_record(
         places,
         start=[0.5, 2.0, math.pi / 2],
         yaw=[math.pi / 2] * 75,
@@ -54,6 +59,7 @@ def record(make_record: Callable[..., Record]) -> Record:
         odom_y=[0.0] * 75,
         collisions=[TOUCH],
     )
+    return replace(run, world=str(default_worlds() / 'playpen.xml'))
 
 
 def write(folder: Path, record: Record) -> str:
@@ -130,6 +136,33 @@ def test_the_whole_ways_are_there_from_the_beginning(record: Record, tmp_path: P
         assert path.header.frame_id == path.poses[0].header.frame_id == frame
         end = path.poses[-1].pose.position
         assert (end.x, end.y) == pytest.approx(last), topic
+
+
+def test_the_laser_sees_the_barrier_come_nearer(
+    make_record: Callable[..., Record], tmp_path: Path
+) -> None:
+    run = make_record([(k / 50, 0.0) for k in range(50)], yaw=[0.0] * 50)
+    record = replace(run, world=str(default_worlds() / 'playpen.xml'))
+    assert write(tmp_path, record) == ''
+    scans = read(tmp_path, '/front/scan')
+    assert [time for time, _ in scans] == pytest.approx(record.time_sec[::5].tolist())
+    first, last = scans[0][1], scans[-1][1]
+    assert first.header.frame_id == 'front_laser'
+    assert len(first.ranges) == 720
+    ahead_m = [each.ranges[len(each.ranges) // 2] for each in (first, last)]
+    assert ahead_m[0] < 2.0
+    driven_m = record.column(0, 'x')[45] - record.column(0, 'x')[0]
+    assert ahead_m[0] - ahead_m[1] == pytest.approx(driven_m, abs=0.01)
+
+
+def test_a_world_that_is_gone_costs_the_scans_alone(record: Record, tmp_path: Path) -> None:
+    gone = replace(record, world='/nowhere/playpen.xml')
+    wrong = write(tmp_path, gone)
+    assert wrong.startswith(f'{tmp_path}/run.mcap: without front/scan: ')
+    assert '/nowhere/playpen.xml' in wrong
+    assert '\n' not in wrong
+    assert read(tmp_path, '/front/scan') == []
+    assert len(read(tmp_path, '/ground_truth/odom')) == len(record.rows)
 
 
 def test_the_robot_is_drawn_where_it_was(record: Record, tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ from typing import Any
 from geometry_msgs.msg import Twist
 from husky_course.robot import RobotStart
 from husky_sim.messages import messages
-from husky_sim.ros.sensor_topics import new_scan
 from husky_sim.sensors.navsat import VARIANCE_M2
 from husky_sim.simulation import Simulation
 import mujoco
@@ -18,7 +17,7 @@ from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import Imu, JointState, NavSatFix
+from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
 
 from husky_sim.config import SimulationConfig
 
@@ -139,10 +138,16 @@ def test_the_command_out_is_what_the_limits_left(worlds: Path, drive: Drive) -> 
 
 
 def test_scan_and_fix_describe_themselves() -> None:
-    scan, packed = new_scan('front_laser', 10.0), messages.FixMessage()
+    beamed, packed = messages.ScanMessage(), messages.FixMessage()
+    measured = np.linspace(1.0, 30.0, 720, dtype=np.float32)
+    measured[:2] = (-math.inf, math.inf)
+    beamed.pack(STAMP, measured)
+    scan = deserialize_message(bytes(beamed), LaserScan)
     packed.pack(STAMP, (49.5, 8.5, 12.0))
     fix = deserialize_message(bytes(packed), NavSatFix)
-    assert scan.header.frame_id == 'front_laser'
+    assert (stamp_of(scan), scan.header.frame_id) == (STAMP, 'front_laser')
+    assert list(scan.ranges) == measured.tolist()
+    assert not scan.intensities
     assert (scan.range_min, scan.range_max) == pytest.approx((0.1, 30.0))
     beams = 1 + round((scan.angle_max - scan.angle_min) / scan.angle_increment)
     assert beams == 720

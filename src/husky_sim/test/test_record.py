@@ -3,6 +3,7 @@
 """The record of a run: written meanwhile, read by one reader, refused when it cannot be true."""
 
 from collections.abc import Callable
+import math
 import os
 from pathlib import Path
 import random
@@ -21,14 +22,16 @@ from husky_course.record import (
     RecordRefused,
 )
 from husky_course.record.blocks import block_of, read_blocks
+from husky_course.robot import RobotStart
 from husky_sim.errors import SettingError
+from husky_sim.recording.recorded_scans import RecordedScans
 from husky_sim.recording.recorder import open_recorder, RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world.world import default_worlds
 import numpy as np
 import pytest
 
-from husky_sim.config import SimulationConfig
+from husky_sim.config import SensorConfig, SimulationConfig
 
 X = COLUMNS.index('x')
 
@@ -73,6 +76,29 @@ def test_the_record_has_one_entry_a_period_and_the_start(tmp_path: Path) -> None
     assert [touch.obstacle for touch in record.collisions] == ['jersey_barrier_15']
     assert record.min_clearance_m(0) == 0.0
     assert [path.name for path in (tmp_path / 'new').iterdir()] == [FILE_NAME]
+
+
+def test_scans_worked_out_of_a_record_are_those_that_were_measured(tmp_path: Path) -> None:
+    world = str(default_worlds() / 'playpen.xml')
+    start = RobotStart(x=-2.35, y=-2.6, yaw=-math.pi / 2)  # in front of a dumpster, to push it
+    config = SimulationConfig(
+        world=world, robots=(start,), sensors=SensorConfig(lidar_rate_hz=10.0)
+    )
+    simulation = Simulation(config)
+    measured = {}
+    with RunRecorder(simulation, tmp_path / FILE_NAME) as recorder:
+        for period in range(1, 151):
+            drive(simulation, recorder, 1)
+            if simulation.robots[0].sensors.scan is not None:
+                measured[period] = simulation.robots[0].sensors.scan
+    record = read_record(tmp_path)
+    assert list(record.pushed) == ['Dumpster_0']
+    scans = dict(RecordedScans(record, 0))
+    assert list(scans) == [0, *measured]
+    for period, ranges in measured.items():
+        # A record has neither roll nor pitch; beams past an edge may see what is behind it.
+        is_near = np.isclose(scans[period], ranges, rtol=0.0, atol=0.02)
+        assert is_near.mean() > 0.97, f'period {period}: {1.0 - is_near.mean():.3f} differ'
 
 
 def test_what_disturbed_the_run_is_in_its_record(tmp_path: Path) -> None:

@@ -4,9 +4,10 @@
 A run as ROS 2 messages in one file, for Lichtblick, Foxglove and `ros2 bag`.
 
 The topics have the names and the times that they had in the run, and hold what the record holds:
-the motion in the plane, without wheels, heights and covariances. The others are for those who look
-at it: cross_track_error is that of the report, tf_static tells where odom stands in world, and
-because Lichtblick draws no odometry, the robot and its whole ways are there as markers and paths.
+the motion in the plane, without wheels, heights and covariances. front/scan is worked out from it,
+whether the laser was on or not. The others are for those who look at it: cross_track_error is that
+of the report, tf_static tells where odom stands in world, and because Lichtblick draws no
+odometry, the robot and its whole ways are there as markers and paths.
 """
 
 from collections.abc import Iterator, Sequence
@@ -19,21 +20,25 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, Twist
 from husky_course.files import replacing
 from husky_course.frames import Array
-from husky_course.record import Record
+from husky_course.record import Record, RecordRefused
 from husky_course.robot import RobotStart
 from husky_course.route import Route
 from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.errors import SimulatorError
 from husky_sim.messages import (
     fixed_transforms,
     new_collision,
     new_transform,
     OdometryMessage,
     PackedMessage,
+    ScanMessage,
     TFMessage,
 )
+from husky_sim.recording import RecordedScans, SCAN_RATE_HZ
 from nav_msgs.msg import Odometry
 from nav_msgs.msg import Path as PathMessage
 import numpy as np
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float64
 from visualization_msgs.msg import MarkerArray
 
@@ -50,21 +55,51 @@ Messages = Iterator[tuple[int, bytes]]
 
 def write_bag(folder: Path, record: Record, place: int, route: Route, report: Report) -> str:
     """
-    Write the run of one robot; return why it cannot be written, or nothing.
+    Write the run of one robot; return why it, or its scans, cannot be written, or nothing.
 
     :param place: which robot of the record.
     """
+    topics, lacking = _topics(record, place, route, report), ''
+    try:
+        scans = _scans(record, place)
+    except (SimulatorError, RecordRefused) as error:
+        lacking = f'{folder / BAG}: without front/scan: {error}'
+    else:
+        topics.append(Topic(f'{_space(record, place)}front/scan', LaserScan, scans))
     try:
         with replacing(folder / BAG) as part:
-            write_mcap(part, _topics(record, place, route, report))
+            write_mcap(part, topics)
     except OSError as error:
         return f'{folder / BAG}: cannot be written: {error.strerror}; the report is there'
-    return ''
+    return lacking
+
+
+def _space(record: Record, place: int) -> str:
+    return f'/{record.robots[place].name}/' if len(record.robots) > 1 else '/'
+
+
+def _scans(record: Record, place: int) -> Messages:
+    """
+    Prepare the scans of one robot.
+
+    :raises SimulatorError: if the world of the run is gone.
+    :raises RecordRefused: if it is not the one that was driven.
+    """
+    scans = RecordedScans(record, place)
+    message = ScanMessage(rate_hz=SCAN_RATE_HZ)
+
+    def pack() -> Messages:
+        for row, ranges in scans:
+            time_ns = _ns(record.time_sec[row])
+            message.pack(_stamp(time_ns), ranges)
+            yield time_ns, bytes(message)
+
+    return pack()
 
 
 def _topics(record: Record, place: int, route: Route, report: Report) -> list[Topic]:
     start = record.robots[place]
-    space = f'/{start.name}/' if len(record.robots) > 1 else '/'
+    space = _space(record, place)
     motion = _Motion(record, place)
     first_ns = motion.times_ns[0]
     touches = [touch for touch in record.collisions if touch.robot == start.name]

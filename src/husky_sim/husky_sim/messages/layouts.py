@@ -13,6 +13,6 @@ def packed_messages() -> list[PackedMessage]:
         *(messages.GroundTruthMessage(), messages.ImuMessage(), messages.JointStateMessage()),
         *(messages.CommandMessage(), messages.FixMessage(), messages.ClockMessage()),
         *(messages.StampedCommandMessage(), messages.EmergencyStopMessage()),
-        messages.BatteryMessage(),
+        *(messages.BatteryMessage(), messages.ScanMessage()),
         *([] if transforms.TFMessage is None else [transforms.TransformsMessage()]),
     ]

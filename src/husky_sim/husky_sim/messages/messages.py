@@ -12,8 +12,17 @@ from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
+import numpy as np
+import numpy.typing as npt
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import BatteryState, Imu, JointState, NavSatFix, NavSatStatus
+from sensor_msgs.msg import (
+    BatteryState,
+    Imu,
+    JointState,
+    LaserScan,
+    NavSatFix,
+    NavSatStatus,
+)
 from std_msgs.msg import Bool
 
 from husky_sim.messages.packed_message import PackedMessage
@@ -21,6 +30,7 @@ from husky_sim.robot.battery import BATTERIES, CAPACITY_AH
 from husky_sim.robot.contacts import Collision
 from husky_sim.robot.diff_drive import WheelOdometry
 from husky_sim.robot.husky import JOINTS, Quaternion, Vector
+from husky_sim.sensors import lidar
 from husky_sim.sensors.battery_monitor import BatteryReading
 from husky_sim.sensors.imu import VARIANCE as IMU_VARIANCE
 from husky_sim.sensors.localization import PlanarFilter
@@ -191,6 +201,30 @@ class EmergencyStopMessage(PackedMessage):
     def pack(self, _: Stamp, robot: SimulatedRobot) -> None:
         """Pack the state."""
         self._data(robot.is_stopped)
+
+
+class ScanMessage(PackedMessage):
+    """A scan of the laser."""
+
+    def __init__(self, frame_id: str = lidar.FRAME, *, rate_hz: float = 10.0) -> None:
+        message = LaserScan(
+            angle_min=-lidar.HALF_ANGLE_RAD,
+            angle_max=lidar.HALF_ANGLE_RAD,
+            angle_increment=lidar.ANGLE_INCREMENT_RAD,
+            scan_time=1.0 / rate_hz,
+            range_min=lidar.RANGE_MIN_M,
+            range_max=lidar.RANGE_MAX_M,
+            ranges=[0.0] * lidar.BEAMS,
+        )
+        message.header.frame_id = frame_id
+        super().__init__(message)
+        self._stamp = self.packer(self.places['header']['stamp'])
+        self._ranges = self.array(self.places['ranges'])
+
+    def pack(self, stamp: Stamp, ranges: npt.NDArray[np.float32]) -> None:
+        """Pack the range of every beam, in m."""
+        self._stamp(*stamp)
+        self._ranges[:] = ranges
 
 
 class FixMessage(PackedMessage):

@@ -12,7 +12,13 @@ from rclpy.qos import qos_profile_sensor_data, QoSProfile
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, LaserScan, NavSatFix
 
 from husky_sim.config import SensorConfig
-from husky_sim.messages.messages import BatteryMessage, FixMessage, Stamp, time_message
+from husky_sim.messages.messages import (
+    BatteryMessage,
+    FixMessage,
+    ScanMessage,
+    Stamp,
+    time_message,
+)
 from husky_sim.messages.packed_message import Form
 from husky_sim.ros import clearpath
 from husky_sim.sensors import camera, lidar
@@ -72,7 +78,7 @@ class SensorTopics:
         every = [OF_LAB, *([OF_CLEARPATH] if interface == clearpath.NAME else [])]
         self._scans = [
             (
-                new_scan(names.scan_frame, config.lidar_rate_hz),
+                ScanMessage(names.scan_frame, rate_hz=config.lidar_rate_hz),
                 node.create_publisher(LaserScan, f'{namespace}{names.scan}', qos),
             )
             for names in every
@@ -115,9 +121,8 @@ class SensorTopics:
         if sensors.scan is not None:
             for scan, publisher in self._scans:
                 if publisher.get_subscription_count():
-                    scan.header.stamp = time_message(stamp)
-                    scan.ranges = array('f', sensors.scan.tobytes())
-                    publisher.publish(scan)
+                    scan.pack(stamp, sensors.scan)
+                    publisher.publish(self._form(scan))
         if sensors.fix is not None:
             for fix, publisher in self._fixes:
                 if publisher.get_subscription_count():
@@ -146,20 +151,6 @@ class SensorTopics:
         if self._camera is not None:
             self._camera.close()
             self._camera = None
-
-
-def new_scan(frame: str, rate_hz: float) -> LaserScan:
-    """Make a scan with everything but its ranges."""
-    message = LaserScan(
-        angle_min=-lidar.HALF_ANGLE_RAD,
-        angle_max=lidar.HALF_ANGLE_RAD,
-        angle_increment=lidar.ANGLE_INCREMENT_RAD,
-        scan_time=1.0 / rate_hz,
-        range_min=lidar.RANGE_MIN_M,
-        range_max=lidar.RANGE_MAX_M,
-    )
-    message.header.frame_id = frame
-    return message
 
 
 def new_camera_info(frame: str, focal_length_px: float) -> CameraInfo:

@@ -1,0 +1,52 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the laser scanner would have measured in a recorded run, worked out from the poses."""
+
+from collections.abc import Iterator
+
+from husky_course.record import Record
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from husky_sim.config import CONTROL_PERIOD_SEC
+from husky_sim.recording.played_run import PlayedRun
+from husky_sim.robot.husky import RobotState
+from husky_sim.sensors.lidar import Lidar
+from husky_sim.world.world import load_world
+
+SCAN_RATE_HZ = 10.0
+_EVERY = round(1.0 / (SCAN_RATE_HZ * CONTROL_PERIOD_SEC))  # rows of the record
+
+
+class RecordedScans:
+    """Scans of one robot, ten a second, without noise."""
+
+    def __init__(self, run: Record, place: int) -> None:
+        """
+        Load the world of the run.
+
+        :param place: which robot of the record.
+        :raises SimulatorError: if the world is gone or cannot be used.
+        :raises RecordRefused: if it is not the one that was driven.
+        """
+        self._run = run
+        self._name = run.robots[place].name
+        world = load_world(run.world, run.robots, visual=False)
+        self._played = PlayedRun(run, world)
+        self._model = world.model
+        self._data = mujoco.MjData(world.model)
+        self._lidar = Lidar(self._name, self._model, self._data, None)
+
+    def __iter__(self) -> Iterator[tuple[int, npt.NDArray[np.float32]]]:
+        """Yield rows of the record with the ranges of all beams, as `Lidar.scan` returns them."""
+        base = int(self._model.joint(f'{self._name}/base_joint').qposadr[0])
+        still = (0.0, 0.0, 0.0)
+        for row in range(0, len(self._run.rows), _EVERY):
+            qpos = self._played.qpos(row)
+            self._data.qpos[:] = qpos
+            mujoco.mj_kinematics(self._model, self._data)
+            x, y, z, *orientation = qpos[base : base + 7].tolist()
+            w, i, j, k = orientation
+            state = RobotState((x, y, z), (w, i, j, k), still, still)
+            yield row, self._lidar.scan(state, 1.0 / SCAN_RATE_HZ)
