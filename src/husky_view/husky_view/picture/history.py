@@ -57,8 +57,8 @@ class RunPlots:
     def __init__(self, gui: viser.GuiApi) -> None:
         self._drawn_sec = np.nan
         with gui.add_folder('Plots over the time', expand_by_default=False):
-            self._speed = _plot(gui, 'speed, m/s', SPEED)
-            self._off = _plot(gui, 'off the path, m', palette.PATH)
+            self._speed = _plot(gui, 'speed, m/s', SPEED, low=0.0, high=0.6)
+            self._off = _plot(gui, 'off the path, m', palette.PATH, low=-0.06, high=0.06)
 
     def show(self, history: History) -> None:
         """Show a history, if there is something new in it."""
@@ -75,13 +75,20 @@ class RunPlots:
             self._off.visible = bool(is_known.any())
 
 
-def _plot(gui: viser.GuiApi, title: str, color: Rgb) -> viser.GuiUplotHandle:
+def _reaching(low: float, high: float) -> dict[str, dict[str, float]]:
+    """Let an axis reach from low to high, or further: a robot at rest draws a flat line."""
+    return {'min': {'soft': low, 'mode': 1}, 'max': {'soft': high, 'mode': 1}}
+
+
+def _plot(
+    gui: viser.GuiApi, title: str, color: Rgb, *, low: float, high: float
+) -> viser.GuiUplotHandle:
     # With no point at all, viser's plot would stay empty for good.
     return gui.add_uplot(
         (np.zeros(1), np.zeros(1)),
         ({'label': 's'}, {'label': title, 'stroke': css(color), 'width': 2}),
         title=title,
-        scales={'x': {'time': False}},
+        scales={'x': {'time': False}, 'y': {'range': _reaching(low, high)}},
         legend={'show': False},
         axes=({}, {'size': AXIS_PX}),
         height=HEIGHT_PX,

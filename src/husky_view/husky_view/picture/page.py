@@ -67,7 +67,8 @@ canvas[data-engine] { background: linear-gradient(SKY); }
   [style*="width: 20em"]:has(.husky-page) { width: 100% !important; }
   [style*="position: fixed"]:has(.husky-page) { max-height: 52% !important; }
 }
-button.husky-active { background: var(--mantine-color-blue-filled); color: #fff; }
+button.husky-active, button.husky-active:hover {
+  background: var(--mantine-color-blue-filled); color: #fff; }
 .husky-stop button, button.husky-stop { height: 3.2em !important; font-size: 1.15em; }
 """
 
