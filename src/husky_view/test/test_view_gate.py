@@ -25,9 +25,10 @@ from husky_view.gate.gate import (
 from husky_view.server import close_server, PageServer
 from msgspec.msgpack import encode
 from playpen_testing.page_client import CAMERA, stalled_tab
+from playpen_testing.waiting import wait_until
 import pytest
 import viser
-from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
 from websockets.frames import Frame, Opcode
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
@@ -120,6 +121,14 @@ class Page:
     def connect(self, **options: Any) -> Connection:
         spoken = [Subprotocol(f'viser-v{viser.__version__}')]
         return connect(self.websocket, **{'subprotocols': spoken, 'max_size': None, **options})
+
+    def has_room(self) -> bool:
+        """Tell whether a tab that comes now is let in."""
+        try:
+            self.connect().close()
+        except (ConnectionError, WebSocketException):
+            return False
+        return True
 
     def heard_after(self, *messages: object) -> list[tuple[str, Any]]:
         """Send messages by a tab of their own; return what was heard of them."""
@@ -292,6 +301,7 @@ def test_connections_that_say_nothing_do_not_disturb_a_tab(page: Page) -> None:
         tab.send(encode(CAMERA))
         tab.send(page.update('slider', value=0.9))
         assert page.heard_before_a_click(tab) == [('slider', 0.9)]
+    wait_until(page.has_room, timeout_sec=10.0, what='room, when the strangers have left')
 
 
 def test_a_flood_of_one_tab_waits_and_another_tab_does_not(page: Page) -> None:
