@@ -61,11 +61,12 @@ def write_bag(folder: Path, record: Record, place: int, route: Route, report: Re
     """
     topics, lacking = _topics(record, place, route, report), ''
     try:
-        scans = _scans(record, place)
+        scans = RecordedScans(record, place)
     except (SimulatorError, RecordRefused) as error:
         lacking = f'{folder / BAG}: without front/scan: {error}'
     else:
-        topics.append(Topic(f'{_space(record, place)}front/scan', LaserScan, scans))
+        name = f'{_space(record, place)}front/scan'
+        topics.append(Topic(name, LaserScan, _scans(record, scans)))
     try:
         with replacing(folder / BAG) as part:
             write_mcap(part, topics)
@@ -78,23 +79,12 @@ def _space(record: Record, place: int) -> str:
     return f'/{record.robots[place].name}/' if len(record.robots) > 1 else '/'
 
 
-def _scans(record: Record, place: int) -> Messages:
-    """
-    Prepare the scans of one robot.
-
-    :raises SimulatorError: if the world of the run is gone.
-    :raises RecordRefused: if it is not the one that was driven.
-    """
-    scans = RecordedScans(record, place)
+def _scans(record: Record, scans: RecordedScans) -> Messages:
     message = ScanMessage(rate_hz=SCAN_RATE_HZ)
-
-    def pack() -> Messages:
-        for row, ranges in scans:
-            time_ns = _ns(record.time_sec[row])
-            message.pack(_stamp(time_ns), ranges)
-            yield time_ns, bytes(message)
-
-    return pack()
+    for row, ranges in scans:
+        time_ns = _ns(record.time_sec[row])
+        message.pack(_stamp(time_ns), ranges)
+        yield time_ns, bytes(message)
 
 
 def _topics(record: Record, place: int, route: Route, report: Report) -> list[Topic]:
