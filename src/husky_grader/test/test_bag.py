@@ -17,7 +17,7 @@ from husky_course.waypoints import parse_course
 from husky_grader.playpen import config_folder
 from husky_grader.report.bag import write_bag
 from husky_grader.scoring.report import judge
-from husky_sim.world import default_worlds
+from husky_sim.world import default_worlds, load_world
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 import pytest
@@ -47,6 +47,12 @@ OBSTACLES = (
 )
 
 
+def in_playpen(run: Record) -> Record:
+    """Return a run as if it had been driven there."""
+    world = str(default_worlds() / 'playpen.xml')
+    return replace(run, world=world, obstacles=load_world(world, run.robots).obstacles)
+
+
 @pytest.fixture
 def record(make_record: Callable[..., Record]) -> Record:
     """Return a run to the north: half a second of waiting, then 1 m/s, from a start of its own."""
@@ -59,7 +65,7 @@ def record(make_record: Callable[..., Record]) -> Record:
         odom_y=[0.0] * 75,
         collisions=[TOUCH],
     )
-    return replace(run, world=str(default_worlds() / 'playpen.xml'))
+    return in_playpen(run)
 
 
 def write(folder: Path, record: Record) -> str:
@@ -142,7 +148,7 @@ def test_the_laser_sees_the_barrier_come_nearer(
     make_record: Callable[..., Record], tmp_path: Path
 ) -> None:
     run = make_record([(k / 50, 0.0) for k in range(50)], yaw=[0.0] * 50)
-    record = replace(run, world=str(default_worlds() / 'playpen.xml'))
+    record = in_playpen(run)
     assert write(tmp_path, record) == ''
     scans = read(tmp_path, '/front/scan')
     assert [time for time, _ in scans] == pytest.approx(record.time_sec[::5].tolist())
@@ -163,6 +169,14 @@ def test_a_world_that_is_gone_costs_the_scans_alone(record: Record, tmp_path: Pa
     assert '\n' not in wrong
     assert read(tmp_path, '/front/scan') == []
     assert len(read(tmp_path, '/ground_truth/odom')) == len(record.rows)
+
+
+def test_a_world_that_has_changed_costs_the_scans_alone(record: Record, tmp_path: Path) -> None:
+    first, *rest = record.obstacles
+    for others in (tuple(rest), (replace(first, x=first.x + 0.01), *rest)):
+        wrong = write(tmp_path, replace(record, obstacles=others))
+        assert 'without front/scan: test: the obstacles of ' in wrong
+        assert read(tmp_path, '/front/scan') == []
 
 
 def test_the_robot_is_drawn_where_it_was(record: Record, tmp_path: Path) -> None:

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the laser scanner would have measured in a recorded run, worked out from the poses."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from husky_course.record import Record
+from husky_course.outline import Outline
+from husky_course.record import Record, RecordRefused
 import mujoco
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,7 @@ from husky_sim.sensors.lidar import Lidar
 from husky_sim.world.world import load_world
 
 SCAN_RATE_HZ = 10.0
+_SAME_M = 1e-6  # and rad: more than two machines may differ by
 _EVERY = round(1.0 / (SCAN_RATE_HZ * CONTROL_PERIOD_SEC))  # rows of the record
 
 
@@ -33,6 +35,11 @@ class RecordedScans:
         self._run = run
         self._name = run.robots[place].name
         world = load_world(run.world, run.robots, visual=False)
+        if not _are_same(world.obstacles, run.obstacles):
+            raise RecordRefused(
+                f'{run.file}: the obstacles of {run.world} are not those that were driven among; '
+                'put back the world that was driven'
+            )
         self._played = PlayedRun(run, world)
         self._model = world.model
         self._data = mujoco.MjData(world.model)
@@ -50,3 +57,14 @@ class RecordedScans:
             w, i, j, k = orientation
             state = RobotState((x, y, z), (w, i, j, k), still, still)
             yield row, self._lidar.scan(state, 1.0 / SCAN_RATE_HZ)
+
+
+def _are_same(some: Sequence[Outline], others: Sequence[Outline]) -> bool:
+    return len(some) == len(others) and all(map(_is_same, some, others))
+
+
+def _is_same(one: Outline, other: Outline) -> bool:
+    if (one.name, one.type) != (other.name, other.type):
+        return False
+    these, those = [(*each.size, each.x, each.y, each.yaw) for each in (one, other)]
+    return np.allclose(these, those, rtol=0.0, atol=_SAME_M)
