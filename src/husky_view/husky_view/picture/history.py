@@ -17,6 +17,8 @@ STEP_SEC = 0.1
 MOST_POINTS = 300
 HEIGHT_PX = 110
 AXIS_PX = 62  # uPlot's own 50 px cut the sign off -0.05
+TICK_PX = 16  # from one to the next, at least: with uPlot's 30 there may be one alone
+PADDING_PX = (8, 8, 0, 0)  # top, right, bottom, left: room for half of the last numbers
 SPEED: Rgb = (200, 150, 0)  # of the trail, dark enough for white paper
 
 
@@ -90,6 +92,7 @@ def _plot(
         title=title,
         scales={'x': {'time': False}, 'y': {'range': _reaching(low, high)}},
         legend={'show': False},
-        axes=({}, {'size': AXIS_PX}),
+        axes=({}, {'size': AXIS_PX, 'space': TICK_PX}),
+        padding=PADDING_PX,
         height=HEIGHT_PX,
     )
