@@ -29,20 +29,29 @@ class Moment:
 
 
 def drive(
-    slip: Slip, seconds: float, *, noise: float = 0.0, drift: float = 0.0
+    slip: Slip,
+    seconds: float,
+    *,
+    noise: float = 0.0,
+    drift: float = 0.0,
+    rest_sec: float = 0.0,
 ) -> Iterator[Moment]:
     """
     Drive bends to both sides and turn on the spot, in steady motion at every moment.
 
     :param noise: of the IMU, in its units.
     :param drift: of odometry's heading, rad/s.
+    :param rest_sec: how long it stands before it drives.
     """
     dice = random.Random(5)
     x = y = yaw = rolled_x = rolled_y = wheels = rate = 0.0
     before = (0.0, 0.0)
     for period in range(round(seconds / PERIOD_SEC)):
         now_sec = period * PERIOD_SEC
-        told = Command(0.6 if now_sec % 8.0 < 6.0 else 0.0, 0.9 * math.sin(now_sec / 1.5))
+        on_sec = now_sec - rest_sec
+        told = Command(0.6 if on_sec % 8.0 < 6.0 else 0.0, 0.9 * math.sin(on_sec / 1.5))
+        if on_sec < 0.0:
+            told = Command(0.0, 0.0)
         wheels += (told.speed_m_s - wheels) * 0.1
         rate += (slip.yaw_gain * told.yaw_rate_rad_s - rate) * 0.1
         error = drift * now_sec
@@ -111,6 +120,14 @@ def test_a_heading_that_drifts_is_held_by_that_of_the_imu() -> None:
     last = math.remainder(found[-1].yaw_rad - moments[-1].yaw_rad, math.tau)
     assert abs(last) < 0.01
     assert off_m(moments[-1], found[-1]) < 0.15
+
+
+def test_at_rest_a_robot_neither_moves_nor_turns_whatever_the_sensors_say() -> None:
+    moments = list(drive(GRASS, 0.5, noise=0.005, drift=0.02, rest_sec=0.5))
+    _, found = follow(moments)
+    assert moments[-1].odometry.yaw_rad < -0.009, 'odometry turns'
+    assert abs(found[-1].yaw_rad) < 0.003
+    assert max(map(off_m, moments, found)) < 0.001
 
 
 def test_the_gain_of_turns_is_learned_from_steady_ones() -> None:

