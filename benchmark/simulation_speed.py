@@ -136,7 +136,8 @@ def title(row: Row) -> str:
 class SolvedFilter(PlanarFilter):
     """The filter with LAPACK in the place of cofactors."""
 
-    def _gain(self, seen: Array) -> Array:
+    def _gain(self) -> Array:
+        seen = self._seen
         variances = (WHEEL_SPEED_VARIANCE, WHEEL_SPEED_VARIANCE, self._rate_variance)
         covariance = seen[:, VX : RATE + 1] + np.diag(variances)
         return np.asarray(np.linalg.solve(covariance, seen), dtype=np.float64)

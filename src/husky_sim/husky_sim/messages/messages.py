@@ -44,9 +44,6 @@ Stamp = tuple[int, int]
 # Diagonals of the velocity controller (husky_control, control.yaml).
 ODOMETRY_VARIANCES = (0.001, 0.001, 0.001, 0.001, 0.001, 0.03)
 
-# Where x, y and yaw stand in the 6 x 6 covariances of a message.
-_PLANE = [0, 1, 5, 6, 7, 11, 30, 31, 35]
-
 
 def time_message(stamp: Stamp) -> Time:
     """Return a time as a message."""
@@ -89,16 +86,15 @@ class FilteredOdometryMessage(OdometryMessage):
 
     def __init__(self) -> None:
         super().__init__()
-        self._pose_covariance = self.array(self.places['pose']['covariance'])
-        self._twist_covariance = self.array(self.places['twist']['covariance'])
+        self._pose_covariance = self.numbers(self.places['pose']['covariance'])
+        self._twist_covariance = self.numbers(self.places['twist']['covariance'])
 
     def pack(self, stamp: Stamp, robot: SimulatedRobot) -> None:
         """Pack the estimate; the covariances are of x, y, yaw, and of their speeds."""
         self.pack_stamp(*stamp)
         self.pack_planar(robot.filtered)
-        covariance = robot.filtered.covariance
-        self._pose_covariance[_PLANE] = covariance[:3, :3].ravel()
-        self._twist_covariance[_PLANE] = covariance[3:6, 3:6].ravel()
+        _copy_plane(robot.filtered.pose_covariance, self._pose_covariance)
+        _copy_plane(robot.filtered.twist_covariance, self._twist_covariance)
 
 
 class GroundTruthMessage(OdometryMessage):
@@ -306,6 +302,13 @@ def new_collision(touch: Collision) -> DiagnosticStatus:
             KeyValue(key='time_sec', value=f'{touch.time_sec:.3f}'),
         ],
     )
+
+
+def _copy_plane(estimate: 'memoryview[float]', packed: 'memoryview[float]') -> None:
+    """Copy the covariances of x, y and yaw, from the filter's eight a row to a message's six."""
+    packed[0], packed[1], packed[5] = estimate[0], estimate[1], estimate[2]
+    packed[6], packed[7], packed[11] = estimate[8], estimate[9], estimate[10]
+    packed[30], packed[31], packed[35] = estimate[16], estimate[17], estimate[18]
 
 
 def _xyzw(orientation: Quaternion) -> tuple[float, float, float, float]:

@@ -74,6 +74,11 @@ class PackedMessage:
         """Return the numbers of a field of many as an array; what is written to it is packed."""
         return np.frombuffer(self._bytes, f'<{place.code}', place.count, place.begin)
 
+    def numbers(self, place: Place) -> 'memoryview[float]':
+        """Return the numbers of a field as `array` does; single ones are packed sooner so."""
+        packed = memoryview(self._bytes)[place.begin : place.begin + place.size]
+        return packed.cast(place.code)  # type: ignore[call-overload]
+
 
 def proven_form(messages: Iterable[PackedMessage], logger: Any) -> Form:
     """

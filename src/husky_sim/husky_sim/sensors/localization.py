@@ -48,17 +48,24 @@ class PlanarFilter:
         self._jacobian = np.eye(8)
         for row, column in ((YAW, RATE), (VX, AX), (VY, AY)):
             self._jacobian[row, column] = period_sec
-        self._inverse = np.empty((3, 3))
+        self.covariance: Array = np.empty((8, 8))
+        self._seen = self.covariance[VX : RATE + 1]
+        self._seen_variances = self._seen[:, VX : RATE + 1]
+        self._inverse, self._size, self._errors = np.empty((3, 3)), np.empty(()), np.empty(3)
         self._product, self._gains, self._change = np.empty((8, 8)), np.empty((3, 8)), np.empty(8)
-        # Numbers are written through these: into a row of an array it takes five times as long.
-        self._jacobian_numbers = self._jacobian.data.cast('B').cast('d')
-        self._inverse_numbers = self._inverse.data.cast('B').cast('d')
+        # Numbers are read and written through these: in a row of an array it takes five times as
+        # long. Of the covariance, from x or from VX on, eight a row.
+        self._jacobian_numbers = _numbers(self._jacobian)
+        self._inverse_numbers = _numbers(self._inverse)
+        self._error_numbers = _numbers(self._errors)
+        self.pose_covariance = _numbers(self.covariance)
+        self.twist_covariance = self.pose_covariance[8 * VX + VX :]
         self.reset()
 
     def reset(self, imu_yaw: float = 0.0) -> None:
         """Start again at the origin, heading along x whatever the IMU says."""
         self._state = [0.0] * 8
-        self.covariance: Array = np.eye(8) * INITIAL_VARIANCE
+        self.covariance[:] = np.eye(8) * INITIAL_VARIANCE
         self._imu_yaw = imu_yaw
         self._read_out()
 
@@ -93,44 +100,60 @@ class PlanarFilter:
         numbers[AX], numbers[AY] = half * cos, -half * sin
         numbers[8 + YAW], numbers[8 + VX], numbers[8 + VY] = dx, t * sin, t * cos
         numbers[8 + AX], numbers[8 + AY] = half * sin, half * cos
-        mujoco.mju_mulMatMat(self._product, jacobian, self.covariance)
-        mujoco.mju_mulMatMatT(self.covariance, self._product, jacobian)
-        self.covariance += self._noise
+        covariance = self.covariance
+        mujoco.mju_mulMatMat(self._product, jacobian, covariance)
+        mujoco.mju_mulMatMatT(covariance, self._product, jacobian)
+        covariance += self._noise
 
     def _correct(self, speed_m_s: float, sideways_m_s: float, rate_rad_s: float) -> None:
         """Take measurements of VX, VY and RATE, which stand side by side, at once."""
-        state, seen = self._state, self.covariance[VX : RATE + 1]
-        gain = self._gain(seen)
-        errors = speed_m_s - state[VX], sideways_m_s - state[VY], rate_rad_s - state[RATE]
-        mujoco.mju_mulMatTVec(self._change, gain, np.array(errors))
-        change = self._change.tolist()
-        self._state = [before + by for before, by in zip(state, change, strict=True)]
-        mujoco.mju_mulMatTMat(self._product, gain, seen)
-        self.covariance -= self._product
+        x, y, yaw, vx, vy, rate, ax, ay = self._state
+        errors, gain = self._error_numbers, self._gain()
+        errors[0], errors[1], errors[2] = speed_m_s - vx, sideways_m_s - vy, rate_rad_s - rate
+        mujoco.mju_mulMatTVec(self._change, gain, self._errors)
+        dx, dy, turn, dvx, dvy, dr, dax, day = self._change.tolist()
+        self._state = [
+            x + dx,
+            y + dy,
+            yaw + turn,
+            vx + dvx,
+            vy + dvy,
+            rate + dr,
+            ax + dax,
+            ay + day,
+        ]
+        mujoco.mju_mulMatTMat(self._product, gain, self._seen)
+        covariance = self.covariance
+        covariance -= self._product
 
-    def _gain(self, seen: Array) -> Array:
+    def _gain(self) -> Array:
         """
-        Return the inverse of the innovation's covariance, times the rows `seen`.
+        Return the inverse of the innovation's covariance, times the covariance's rows seen.
 
         The symmetric 3 x 3 matrix is inverted by its cofactors, in floats of Python. With
         numpy.linalg.solve an update takes 25 us instead of 16 us, and a control period 1.03 to
         1.11 times as long (benchmark/simulation_speed.py --filter).
         """
-        (a, b, c), (_, d, e), (_, _, f) = seen[:, VX : RATE + 1].tolist()
+        (a, b, c), (_, d, e), (_, _, f) = self._seen_variances.tolist()
         a, d, f = a + WHEEL_SPEED_VARIANCE, d + WHEEL_SPEED_VARIANCE, f + self._rate_variance
         aa, ab, ac = d * f - e * e, c * e - b * f, b * e - c * d
         bb, bc, cc = a * f - c * c, b * c - a * e, a * d - b * b
-        size = a * aa + b * ab + c * ac
-        numbers = self._inverse_numbers
+        numbers, gains = self._inverse_numbers, self._gains
         numbers[0], numbers[1], numbers[2] = aa, ab, ac
         numbers[3], numbers[4], numbers[5] = ab, bb, bc
         numbers[6], numbers[7], numbers[8] = ac, bc, cc
-        mujoco.mju_mulMatMat(self._gains, self._inverse, seen)
-        self._gains /= size
-        return self._gains
+        mujoco.mju_mulMatMat(gains, self._inverse, self._seen)
+        self._size[()] = a * aa + b * ab + c * ac
+        gains /= self._size  # an array: by a float of Python it takes twice as long
+        return gains
 
     def _read_out(self) -> None:
         self.x, self.y, yaw, self.speed_m_s, self.sideways_m_s, self.yaw_rate_rad_s, _, _ = (
             self._state
         )
         self.yaw = wrapped(yaw)
+
+
+def _numbers(values: Array) -> 'memoryview[float]':
+    """Return the numbers of a contiguous array, row after row; the two share them."""
+    return values.data.cast('B').cast('d')
