@@ -23,7 +23,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from husky_sim.simulation import Simulation
-from husky_sim.world.world import World
+from husky_sim.world.world import load_world, World
 
 TOPIC = '~/scene'
 RATE_HZ = 30.0
@@ -67,9 +67,12 @@ class SceneTopic:
         self._next_row_sec = 0.0
         self._last_row = -1
         self._message = Float64MultiArray()
+        world = simulation.world
+        # A viewer's world has what is only seen, which the simulation may lack.
+        whole = load_world(world.path, world.robots, husky=world.husky)
         self._message.layout.dim = [
             MultiArrayDimension(label='paused', size=1),
-            MultiArrayDimension(label=world_key(simulation.world), size=simulation.model.nq),
+            MultiArrayDimension(label=world_key(whole), size=simulation.model.nq),
             MultiArrayDimension(label=uuid4().hex[:_KEY], size=0),
         ]
         self._publisher = node.create_publisher(Float64MultiArray, TOPIC, QOS)

@@ -16,9 +16,9 @@ from husky_course.robot import RobotStart
 from husky_sim.errors import SettingError, StartPoseError, WorldError
 from husky_sim.ros.node import SimulatorNode
 from husky_sim.ros.pacing import CATCH_UP_SEC
+from husky_sim.scene_topic import origin_of, read_scene, world_key
 from husky_sim.scene_topic import QOS as SCENE_QOS
-from husky_sim.scene_topic import read_scene
-from husky_sim.world import default_worlds, urdf_of
+from husky_sim.world import default_worlds, load_world, urdf_of
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
@@ -244,6 +244,10 @@ def test_the_scene_of_a_fast_run_leaves_periods_out(
     assert (np.diff(times_sec) > 0.0).all()
     periods = round((times_sec[-1] - times_sec[0]) / CONTROL_PERIOD_SEC)
     assert len(times_sec) < periods, 'every period is in it'
+    world = run.simulator.simulation.world
+    seen = load_world(world.path, world.robots)
+    assert seen.model.ngeom > world.model.ngeom, 'nothing is left out that is only seen'
+    assert origin_of(received[0])[0] == world_key(seen), 'no viewer shows it'
 
 
 def test_it_stops_within_the_timeout_after_the_last_command(

@@ -108,6 +108,12 @@ def test_ten_robots_do_what_one_alone_does() -> None:
         assert end == pytest.approx(alone, abs=1e-4)
 
 
+def test_nothing_moves_otherwise_without_what_is_only_seen() -> None:
+    config = SimulationConfig(world=WORLD)
+    unseen = Simulation(config, visual=False)
+    assert trajectory(unseen) == trajectory(Simulation(config))
+
+
 def test_time_is_exact_whatever_its_length() -> None:
     simulation = new_simulation()
     simulation.periods = 12_345_678

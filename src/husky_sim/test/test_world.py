@@ -53,6 +53,20 @@ def test_obstacles_are_named_after_the_outermost_body(write: Callable[[str], str
     assert world.obstacles[2].size == pytest.approx((2.0, 2.0))
 
 
+def test_obstacles_have_the_same_names_without_what_is_only_seen(
+    write: Callable[[str], str],
+) -> None:
+    body = FLOOR + (
+        '<geom pos="0 0 9" size="0.3" contype="0" conaffinity="0"/>'
+        '<geom pos="0 3 0" size="0.3"/><geom name="stone" pos="-3 0 0" size="0.3"/>'
+        '<geom pos="3 0 0" size="0.3"/>'
+    )
+    path = write(mjcf(body))
+    for visual in (True, False):
+        names = load_world(path, [RobotStart()], visual=visual).names
+        assert names == ('husky', 'geom 2', 'stone', 'geom 4')
+
+
 def test_static_obstacles_keep_names_in_a_fused_world(
     write: Callable[[str], str],
 ) -> None:

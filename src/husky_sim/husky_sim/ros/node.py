@@ -65,7 +65,7 @@ class SimulatorNode(Node):
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)
-        self.simulation = Simulation(config)
+        self.simulation = Simulation(config, visual=config.sensors.see)
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         self.over: Future[None] = Future()
         self.paused = False  # time stands still

@@ -110,7 +110,9 @@ def load_world(
     model = _compiled(path, spec)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    names, owners = _owners(model, robots)
+    # In a model without what is only seen, geoms have other numbers.
+    numbers = [geom for geom in range(empty.ngeom) if _is_fixed_obstacle(empty, geom)]
+    names, owners = _owners(model, robots, numbers)
     _check_start(path, data, robots, names, owners)
     return World(
         path=path,
@@ -251,8 +253,21 @@ def _is_ground(model: mujoco.MjModel, geom: int) -> bool:
     return any(name.lower().startswith(GROUND_NAMES) for name in names)
 
 
-def _owners(model: mujoco.MjModel, robots: Sequence[RobotStart]) -> tuple[list[str], Indices]:
-    """Give every geom to a robot, an obstacle, the ground or nothing."""
+def _is_fixed_obstacle(model: mujoco.MjModel, geom: int) -> bool:
+    """Return whether a geom of a world without robots is an obstacle without a body."""
+    fixed = int(model.geom_bodyid[geom]) == 0
+    return fixed and _can_touch(model, geom) and not _is_ground(model, geom)
+
+
+def _owners(
+    model: mujoco.MjModel, robots: Sequence[RobotStart], numbers: Sequence[int]
+) -> tuple[list[str], Indices]:
+    """
+    Give every geom to a robot, an obstacle, the ground or nothing.
+
+    :param numbers: of the obstacles without a body, by which those without a name are called.
+    """
+    left = iter(numbers)
     names = [robot.name for robot in robots]
     bases = {model.body(f'{robot.name}/base_link').id: i for i, robot in enumerate(robots)}
     owners = np.full(model.ngeom, _NOTHING, dtype=np.int64)
@@ -267,7 +282,7 @@ def _owners(model: mujoco.MjModel, robots: Sequence[RobotStart]) -> tuple[list[s
         if _is_ground(model, geom):
             owners[geom] = _GROUND
             continue
-        key = ('body', root) if root else ('geom', geom)
+        key = ('body', root) if root else ('geom', next(left))
         if key not in obstacles:
             obstacles[key] = len(names)
             named = model.body(root) if root else model.geom(geom)
