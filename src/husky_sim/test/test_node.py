@@ -191,6 +191,17 @@ def test_scanner_and_receiver_speak_at_their_rates(bench: Callable[..., Bench]) 
     assert fixes[0].position_covariance[0] > 0.0
 
 
+def test_who_subscribes_later_is_heard(bench: Callable[..., Bench]) -> None:
+    run = bench(real_time_factor=0.0, lidar_rate_hz=10.0, robots=['a 0 0 0', 'b -3 1.5 0'])
+    run.until(lambda: run.simulator.time_sec > 0.5, 'half a second')
+    kinds = {'imu/data': Imu, 'navsat/fix': NavSatFix, 'front/scan': LaserScan}
+    heard: list[list[Any]] = []
+    for topic, kind in kinds.items():
+        heard.append([])
+        run.probe.create_subscription(kind, f'b/{topic}', heard[-1].append, 10)
+    run.until(lambda: all(heard), 'a message of each')
+
+
 def test_another_filter_may_take_the_place_of_ours(bench: Callable[..., Bench]) -> None:
     run = bench(real_time_factor=0.0, localization=False)
     run.until(lambda: run.probe.received['husky_velocity_controller/odom'], 'wheel odometry')

@@ -92,6 +92,7 @@ class SensorTopics:
             for names in every
             if config.navsat_rate_hz > 0.0
         ]
+        self._read_scans, self._read_fixes = self._scans, self._fixes
         self._images = [
             (names.camera_frame, node.create_publisher(Image, f'{namespace}{names.image}', qos))
             for names in every
@@ -115,19 +116,22 @@ class SensorTopics:
             if self._camera is not None
         ]
 
+    def count_subscriptions(self) -> None:
+        """Note which scans and fixes are read; `publish` leaves out the others."""
+        self._read_scans = [each for each in self._scans if each[1].get_subscription_count()]
+        self._read_fixes = [each for each in self._fixes if each[1].get_subscription_count()]
+
     def publish(self, stamp: Stamp) -> None:
         """Publish the measurements of the control period that ended at stamp."""
         sensors = self._robot.sensors
         if sensors.scan is not None:
-            for scan, publisher in self._scans:
-                if publisher.get_subscription_count():
-                    scan.pack(stamp, sensors.scan)
-                    publisher.publish(self._form(scan))
+            for scan, publisher in self._read_scans:
+                scan.pack(stamp, sensors.scan)
+                publisher.publish(self._form(scan))
         if sensors.fix is not None:
-            for fix, publisher in self._fixes:
-                if publisher.get_subscription_count():
-                    fix.pack(stamp, sensors.fix)
-                    publisher.publish(self._form(fix))
+            for fix, publisher in self._read_fixes:
+                fix.pack(stamp, sensors.fix)
+                publisher.publish(self._form(fix))
         if sensors.battery is not None:
             self._battery_message.pack(stamp, sensors.battery)
             for publisher in self._batteries:
