@@ -40,8 +40,9 @@ class BroadPhase:
 
     def __init__(self, world: World, data: mujoco.MjData) -> None:
         model = world.model
-        self._model, self._data, self._places = model, data, data.xpos
+        self._model, self._data = model, data
         self._bases = [model.body(f'{robot.name}/base_link').id for robot in world.robots]
+        self._places = [data.xpos[base] for base in self._bases]
         self._reach_m = [_reach_m(model, base) + AGAIN_M + SLACK_M for base in self._bases]
         solid = {
             int(body)
@@ -85,7 +86,7 @@ class BroadPhase:
 
         Afterwards `alone` tells whether each robot can meet nothing but the ground.
         """
-        places = [self._places[base].tolist() for base in self._bases]
+        places = [place.tolist() for place in self._places]
         gone_m = _farthest_m(places, self._before)
         self._before = places
         # Not `<`: what is not a number is no reason to leave something out.

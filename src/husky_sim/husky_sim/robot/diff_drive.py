@@ -15,7 +15,8 @@ from husky_sim.config import DriveConfig
 
 def limited(value: float, limit: float) -> float:
     """Cut a value to the range from -limit to limit."""
-    return max(-limit, min(limit, value))
+    below = value if value < limit else limit  # min and max take three times as long
+    return below if below > -limit else -limit
 
 
 def approached(current: float, target: float, step: float) -> float:

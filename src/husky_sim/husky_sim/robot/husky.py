@@ -80,6 +80,7 @@ class Husky:
         base = model.joint(f'{name}/base_joint')
         self._pose = data.qpos[int(base.qposadr[0]) :][:7]
         self._twist = data.qvel[int(base.dofadr[0]) :][:6]
+        self._orientation, self._velocity = self._pose[3:], self._twist[:3]
         joints = [model.joint(f'{name}/{joint}') for joint in JOINTS]
         self._angles = [int(joint.qposadr[0]) for joint in joints]
         self._speeds = [int(joint.dofadr[0]) for joint in joints]
@@ -92,7 +93,8 @@ class Husky:
         self._wheel_angles = _block(data.qpos, self._angles)
         self._wheel_speeds = _block(data.qvel, self._speeds)
         self._torques = _block(data.actuator_force, self._actuators)
-        self._control = _block(data.ctrl, self._actuators)
+        # Into an array, four numbers are written in four times the time.
+        self._control = _block(data.ctrl, self._actuators).data.cast('B').cast('d')
         servo = self._actuators[0]
         self._targets = _block(data.act, [int(model.actuator_actadr[i]) for i in self._actuators])
         self._stiffness = float(model.actuator_gainprm[servo, 0])
@@ -103,8 +105,11 @@ class Husky:
 
     def drive(self, left_rad_s: float, right_rad_s: float) -> None:
         """Set the speeds the servos of the wheels aim at."""
-        self._control[:] = (left_rad_s, right_rad_s, left_rad_s, right_rad_s)
-        if self._is_limited or max(map(abs, self._torques.tolist())) >= self._torque_limit:
+        control, limit = self._control, self._torque_limit
+        control[0] = control[2] = left_rad_s
+        control[1] = control[3] = right_rad_s
+        torques = self._torques.tolist()
+        if self._is_limited or max(torques) >= limit or min(torques) <= -limit:
             self._unwind()
 
     def limit(self, left: TorqueRange, right: TorqueRange) -> None:
@@ -168,7 +173,7 @@ class Husky:
 
     def world_velocity(self) -> Vector:
         """Return the velocity of base_link along the axes of the world, in m/s."""
-        vx, vy, vz = self._twist[:3].tolist()
+        vx, vy, vz = self._velocity.tolist()
         return vx, vy, vz
 
     def specific_force(self, before: Vector, after: Vector, period_sec: float) -> Vector:
@@ -179,7 +184,7 @@ class Husky:
         vibration of contacts out of samples 20 ms apart.
         """
         return into_body(
-            tuple(self._pose[3:].tolist()),  # type: ignore[arg-type]
+            tuple(self._orientation.tolist()),  # type: ignore[arg-type]
             (
                 (after[0] - before[0]) / period_sec,
                 (after[1] - before[1]) / period_sec,

@@ -15,7 +15,7 @@ import numpy as np
 
 from husky_sim.config import Floor
 from husky_sim.robot.husky import WHEELS
-from husky_sim.world.flat_ground import FlatGround, NEVER_M, pair_name
+from husky_sim.world.flat_ground import NEVER_M, pair_name
 from husky_sim.world.world import World
 
 REACH_M = 0.6
@@ -32,7 +32,9 @@ class Tyres:
 
     def __init__(self, world: World, data: mujoco.MjData, floor: Floor) -> None:
         model = world.model
-        self._model, self._faces = model, world.flat_ground
+        self._model = model
+        # Unpacked at once: every robot asks for all of them in every control period.
+        self._faces = [(face.middle, *face.axes, face.half_m) for face in world.flat_ground]
         names = [robot.name for robot in world.robots]
         joints = [model.joint(f'{name}/base_joint') for name in names]
         self._poses = [data.qpos[int(joint.qposadr[0]) :][:7] for joint in joints]
@@ -91,26 +93,22 @@ class Tyres:
         self, x: float, y: float, z: float, qw: float, qx: float, qy: float, qz: float
     ) -> tuple[int, ...] | None:
         """Return the faces that a robot is above with all wheels; None beside an edge."""
-        up = (2 * (qx * qz + qw * qy), 2 * (qy * qz - qw * qx), 1 - 2 * (qx * qx + qy * qy))
+        up_x, up_y = 2 * (qx * qz + qw * qy), 2 * (qy * qz - qw * qx)
+        up_z = 1 - 2 * (qx * qx + qy * qy)
         under = []
-        for number, face in enumerate(self._faces):
-            away = (x - face.middle[0], y - face.middle[1], z - face.middle[2])
-            if not -BELOW_M < _dot(away, face.axes[2]) < ABOVE_M:
+        for number, (middle, along, across, normal, half_m) in enumerate(self._faces):
+            (mx, my, mz), (nx, ny, nz) = middle, normal
+            dx, dy, dz = x - mx, y - my, z - mz
+            if not -BELOW_M < dx * nx + dy * ny + dz * nz < ABOVE_M:
                 continue
-            inside_m = _inside_m(face, away)
+            # How far inside the nearest edge; negative outside.
+            inside_m = min(
+                half_m[0] - abs(dx * along[0] + dy * along[1] + dz * along[2]),
+                half_m[1] - abs(dx * across[0] + dy * across[1] + dz * across[2]),
+            )
             if inside_m < -REACH_M:
                 continue
-            if inside_m < REACH_M or _dot(up, face.axes[2]) < UPRIGHT:
+            if inside_m < REACH_M or up_x * nx + up_y * ny + up_z * nz < UPRIGHT:
                 return None
             under.append(number)
         return tuple(under) or None
-
-
-def _inside_m(face: FlatGround, away: tuple[float, ...]) -> float:
-    """Return how far inside its nearest edge a place is; negative outside."""
-    x, y = abs(_dot(away, face.axes[0])), abs(_dot(away, face.axes[1]))
-    return min(face.half_m[0] - x, face.half_m[1] - y)
-
-
-def _dot(one: tuple[float, ...], other: tuple[float, ...]) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

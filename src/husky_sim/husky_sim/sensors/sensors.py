@@ -23,11 +23,8 @@ class Rate:
 
     def is_due(self, periods: int) -> bool:
         """Tell whether a measurement falls into the period that ends now."""
-        return _whole(periods * self._per_period) > _whole((periods - 1) * self._per_period)
-
-
-def _whole(value: float) -> int:
-    return math.floor(value + 1e-9)
+        before = math.floor((periods - 1) * self._per_period + 1e-9)  # rounding must not decide
+        return math.floor(periods * self._per_period + 1e-9) > before
 
 
 class Sensors:
