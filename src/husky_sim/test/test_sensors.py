@@ -183,6 +183,20 @@ def test_a_scan_is_the_same_as_with_every_geom(
     assert (model.geom_group == groups).all()
 
 
+@pytest.mark.parametrize('yaw', [0.0, 1.0, 2.5, -2.0])
+def test_beams_in_parts_measure_what_all_at_once_do(
+    worlds: Path, monkeypatch: pytest.MonkeyPatch, yaw: float
+) -> None:
+    robots = (RobotStart(yaw=yaw), RobotStart(name='other', x=-3.0, y=1.5))
+    simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml'), robots=robots))
+    model, data, (robot, _) = simulation.model, simulation.data, simulation.robots
+    in_parts = lidar.Lidar('husky', model, data, None).scan(robot.state, 0.1)
+    monkeypatch.setattr(lidar, '_PART', lidar.BEAMS)
+    at_once = lidar.Lidar('husky', model, data, None).scan(robot.state, 0.1)
+    assert in_parts.tobytes() == at_once.tobytes()
+    assert np.isfinite(at_once).sum() > lidar.BEAMS / 2
+
+
 def test_scans_come_at_their_rate_and_not_by_default(drive: Drive) -> None:
     simulation = simulate(lidar_rate_hz=10.0)
     count = 0

@@ -10,7 +10,7 @@ of the original's, which hangs upside down.
 import copy
 import math
 
-from husky_course.frames import Array
+from husky_course.frames import Array, Indices
 import mujoco
 import numpy as np
 import numpy.typing as npt
@@ -31,12 +31,40 @@ FRAME = 'front_laser'
 _SLACK_M = 1e-3
 """Around the boxes of geoms, many times what rounding adds up to."""
 
+_SLACK_RAD = 1e-6
+_PART = 240
+"""
+So many beams are cast at a time, at nothing but what stands in their angle.
+
+In the playpen that takes three quarters of the time of all 720 at once, and with ten robots 0.6 of
+it. With half as many beams it saves nothing.
+"""
+
 _LOOKED_AT = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)
 _WITHOUT_BOX = (
     mujoco.mjtGeom.mjGEOM_PLANE,
     mujoco.mjtGeom.mjGEOM_HFIELD,
     mujoco.mjtGeom.mjGEOM_SDF,
 )
+
+
+class _Part:
+    """
+    Beams side by side.
+
+    :param right_rad: the direction of the first of them, as of the last.
+    """
+
+    def __init__(self, beams: slice, right_rad: float, left_rad: float) -> None:
+        self.beams = beams
+        self._middle_rad = (right_rad + left_rad) / 2.0
+        self._half_rad = (left_rad - right_rad) / 2.0 + _SLACK_RAD
+
+    def meets(self, bearings_rad: Array, wide_rad: Array) -> npt.NDArray[np.bool_]:
+        """Tell for each place whether beams can meet what reaches so far around it."""
+        away_rad = np.remainder(bearings_rad - self._middle_rad + math.pi, math.tau) - math.pi
+        met: npt.NDArray[np.bool_] = np.abs(away_rad) <= self._half_rad + wide_rad
+        return met
 
 
 class Lidar:
@@ -56,14 +84,25 @@ class Lidar:
 
         :param beams: fewer than the scanner's are as evenly over the same angle, and cost less.
         """
-        # A copy, for its groups of geoms: they say here what beams can reach.
+        # A copy: its groups of geoms, and which geoms a body has, say here what beams can reach.
         self._model = copy.copy(model)
         self._data = data
+        self._groups = self._model.geom_group
+        self._first_geoms, self._geoms = self._model.body_geomadr, self._model.body_geomnum
+        self._spheres = self._model.body_bvhadr
+        self._all_spheres = model.body_bvhadr.copy()
+        self._bodies = model.geom_bodyid
         self._without_box = np.isin(model.geom_type, _WITHOUT_BOX)
         self._base = model.body(f'{name}/base_link').id
+        self._is_own = self._bodies == self._base
+        self._reach_m = model.geom_rbound + _SLACK_M
         apart_rad = 2.0 * HALF_ANGLE_RAD / max(beams - 1, 1)
         angles = -HALF_ANGLE_RAD + apart_rad * np.arange(beams)
         self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(beams)], axis=1)
+        self._parts = [
+            _Part(slice(part[0], part[-1] + 1), angles[part[0]], angles[part[-1]])
+            for part in np.array_split(np.arange(beams), max(beams // _PART, 1))
+        ]
         self._hits = np.zeros(beams, dtype=np.int32)
         self._distances = np.zeros(beams)
         self._noise = noise
@@ -78,27 +117,38 @@ class Lidar:
         mujoco.mju_quat2Mat(matrix, np.array(state.orientation))
         turn = matrix.reshape(3, 3)
         origin = np.array(state.position) + turn @ np.array(PLACE)
-        self._model.geom_group[:] = self._out_of_plane(origin, turn[:, 2])
-        mujoco.mj_multiRay(
-            self._model,
-            self._data,
-            origin,
-            (self._beams @ turn.T).ravel(),
-            _LOOKED_AT,
-            True,
-            self._base,
-            self._hits,
-            self._distances,
-            None,
-            len(self._beams),
-            RANGE_MAX_M,
-        )
+        self._groups[:] = out = self._out_of_plane(origin, turn[:, 2])
+        vectors = self._beams @ turn.T
+        if len(self._parts) == 1:
+            self._cast(origin, vectors, self._parts[0].beams)
+        else:
+            geoms = np.flatnonzero(~(out | self._is_own))
+            bearings_rad, wide_rad = self._seen_from(origin, turn, geoms)
+            for part in self._parts:
+                self._leave_only(geoms[part.meets(bearings_rad, wide_rad)])
+                self._cast(origin, vectors, part.beams)
         ranges = self._distances
         if self._noise is not None:
             ranges = ranges + self._noise.sample(period_sec)
         missed = np.logical_or(self._hits < 0, ranges > RANGE_MAX_M)
         ranges = np.where(ranges < RANGE_MIN_M, -math.inf, ranges)
         return np.where(missed, math.inf, ranges).astype(np.float32)
+
+    def _cast(self, origin: Array, vectors: Array, beams: slice) -> None:
+        mujoco.mj_multiRay(
+            self._model,
+            self._data,
+            origin,
+            vectors[beams].ravel(),
+            _LOOKED_AT,
+            True,
+            self._base,
+            self._hits[beams],
+            self._distances[beams],
+            None,
+            beams.stop - beams.start,
+            RANGE_MAX_M,
+        )
 
     def _out_of_plane(self, origin: Array, normal: Array) -> npt.NDArray[np.bool_]:
         """
@@ -114,6 +164,26 @@ class Lidar:
         half_m = np.einsum('nj,nj->n', np.abs(axes), boxes[:, 3:]) + _SLACK_M
         out: npt.NDArray[np.bool_] = (np.abs(middle_m) > half_m) & ~self._without_box
         return out
+
+    def _seen_from(self, origin: Array, turn: Array, geoms: Indices) -> tuple[Array, Array]:
+        """Return in which direction of the plane each geom lies, and half its width, in rad."""
+        places = (self._data.geom_xpos[geoms] - origin) @ turn
+        away_m, reach_m = np.hypot(places[:, 0], places[:, 1]), self._reach_m[geoms]
+        everywhere = (away_m <= reach_m) | self._without_box[geoms]
+        wide_rad = np.arcsin(reach_m / np.maximum(away_m, reach_m))
+        return np.arctan2(places[:, 1], places[:, 0]), np.where(everywhere, math.tau, wide_rad)
+
+    def _leave_only(self, geoms: Indices) -> None:
+        """
+        Let each body have its first of these geoms, its last, and those between; others none.
+
+        MuJoCo asks each beam about every geom of a body, and before about a sphere around them.
+        """
+        bodies = self._bodies[geoms]
+        self._geoms[:], self._spheres[:] = 0, -1
+        self._first_geoms[bodies[::-1]] = geoms[::-1]  # of one body, the last written stays
+        self._geoms[bodies] = geoms - self._first_geoms[bodies] + 1
+        self._spheres[bodies] = self._all_spheres[bodies]
 
 
 def new_noise(seed: list[int], beams: int = BEAMS) -> Noise:
