@@ -27,3 +27,21 @@ import interrupt_while_loading
 print(*set(sys.modules) - before)
 """
     assert run('-S', '-c', program).split() == ['interrupt_while_loading']
+
+
+def test_the_bootstrapper_is_not_loaded_where_it_has_nothing_to_do() -> None:
+    assert 'ros_wheels_bootstrapper' not in run('-c', 'import sys; print(*sys.modules)').split()
+
+
+def test_a_python_that_is_started_by_hand_finds_ros() -> None:
+    by_hand = {'HOME': os.environ['HOME'], 'PATH': '/usr/bin:/bin'}
+    program = 'import os, rclpy; print(os.environ["_ROS_WHEELS_BOOTSTRAP_COMPLETE"])'
+    assert run('-c', program, environment=by_hand) == '1\n'
+
+
+def test_one_folder_has_the_libraries_of_all_wheels() -> None:
+    lib = Path(sysconfig.get_path('data')) / 'lib'
+    libraries = list(SITE.glob('ros_*.libs/*'))
+    assert libraries
+    for library in libraries:
+        assert (lib / library.name).read_bytes() == library.read_bytes()

@@ -11,10 +11,7 @@ elif [ "${VIRTUAL_ENV:-}" != "$COLCON_CURRENT_PREFIX" ] || [ "${HUSKY_LAB_ROS:-}
     export ROS_VERSION=2 ROS_PYTHON_VERSION=3 ROS_DISTRO=jazzy
     export AMENT_PREFIX_PATH="$VIRTUAL_ENV${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}"
     # What the wheels would look up by executing Python a second time.
-    LD_LIBRARY_PATH="$VIRTUAL_ENV/lib$(
-        printf ':%s' "$VIRTUAL_ENV"/lib/python3.*/site-packages/ros_*.libs
-    )${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
-    export LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
+    export LD_LIBRARY_PATH="$VIRTUAL_ENV/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
     # File names and what stands in files are UTF-8, whatever the locale of the terminal.
     export PYTHONUTF8="${PYTHONUTF8:-1}"
     # Or `command.linear.x = 1` is sent as 5e-324; with it the error names field and line.

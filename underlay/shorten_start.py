@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Let programs start sooner: fewer folders to look for libraries in, fewer modules to load.
+
+The wheels put libraries into a dozen folders. Each program that starts where these stand in
+LD_LIBRARY_PATH, bash and git too, looks into all of them for each of its libraries. Links to all
+in lib, where the others are, make that one folder.
+
+ros_wheels_bootstrapper executes Python anew where LD_LIBRARY_PATH is not set yet. Every Python
+imports it, and with it pathlib, re and urllib; afterwards only one that has something to do.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import sysconfig
+
+_IMPORT = 'import ros_wheels_bootstrapper'
+# The condition is its own, and its first line of code.
+_IMPORT_WHERE_NEEDED = (
+    "import os; os.environ.get('_ROS_WHEELS_BOOTSTRAP_COMPLETE') or "
+    "__import__('ros_wheels_bootstrapper')"
+)
+
+
+def main() -> None:
+    site = Path(sysconfig.get_path('purelib'))
+    link_libraries(site, Path(sysconfig.get_path('data')) / 'lib')
+    load_where_needed(site / 'ros_wheels_bootstrapper.pth')
+
+
+def link_libraries(site: Path, lib: Path) -> None:
+    """Link in one folder to the libraries of all; part of each name is a hash of what it holds."""
+    for library in sorted(site.glob('ros_*.libs/*')):
+        link = lib / library.name
+        link.unlink(missing_ok=True)
+        link.symlink_to(os.path.relpath(library, lib))
+
+
+def load_where_needed(start: Path) -> None:
+    """Change the line by which Python imports the bootstrapper, if it is the one known here."""
+    if start.is_file() and start.read_text(encoding='utf-8').strip() == _IMPORT:
+        start.write_text(f'{_IMPORT_WHERE_NEEDED}\n', encoding='utf-8')
+
+
+if __name__ == '__main__':
+    main()
