@@ -42,7 +42,7 @@ def load(target: str) -> Any:
 def docstring(target: str) -> str:
     """Return the docstring of 'module:Class' from its source; import it only where that fails."""
     import ast  # only help needs it
-    import inspect
+    import textwrap
 
     module, _, name = target.partition(':')
     source = _source(module)
@@ -51,9 +51,12 @@ def docstring(target: str) -> str:
             tree = ast.parse(file.read())
         for node in tree.body:
             if isinstance(node, ast.ClassDef) and node.name == name:
-                text = ast.get_docstring(node)
+                text = (ast.get_docstring(node, clean=False) or '').strip()
+                first, _, others = text.partition('\n')
                 if text:
-                    return text
+                    return f'{first}\n{textwrap.dedent(others)}'.strip()
+    import inspect  # takes a tenth of the time of `ros2 --help`
+
     return inspect.getdoc(load(target)) or ''
 
 
