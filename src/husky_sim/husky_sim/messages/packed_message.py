@@ -30,27 +30,27 @@ Form = Callable[['PackedMessage'], Any]
 
 class PackedMessage:
     """
-    The bytes of one message, and the places of its fields.
+    The bytes of one message, `packed`, and the places of its fields.
 
     :param message: with everything that never changes, and every sequence at its length.
     """
 
     def __init__(self, message: Any) -> None:
         self.kind = type(message)
-        self._bytes, self.places = encode_with_places(message)
+        self.packed, self.places = encode_with_places(message)
 
     def __bytes__(self) -> bytes:
         """Return the serialized message."""
-        return bytes(self._bytes)
+        return bytes(self.packed)
 
     def unpacked(self) -> Any:
         """Return an ordinary message that says the same."""
-        return decode(self.kind, self._bytes)
+        return decode(self.kind, self.packed)
 
     def fields(self) -> list[tuple[str, bytes]]:
         """Return every number, row of numbers and text: its name and its bytes."""
         return [
-            (name, bytes(self._bytes[place.begin : place.begin + place.size]))
+            (name, bytes(self.packed[place.begin : place.begin + place.size]))
             for name, place in self.places.leaves()
         ]
 
@@ -68,15 +68,15 @@ class PackedMessage:
                 raise ValueError('only numbers can be packed; this field holds text')
             form += f'{leaf.begin - position}x{leaf.count}{leaf.code}'
             position = leaf.begin + leaf.size
-        return partial(struct.Struct(form).pack_into, self._bytes, begin)
+        return partial(struct.Struct(form).pack_into, self.packed, begin)
 
     def array(self, place: Place) -> npt.NDArray[Any]:
         """Return the numbers of a field of many as an array; what is written to it is packed."""
-        return np.frombuffer(self._bytes, f'<{place.code}', place.count, place.begin)
+        return np.frombuffer(self.packed, f'<{place.code}', place.count, place.begin)
 
     def numbers(self, place: Place) -> 'memoryview[float]':
         """Return the numbers of a field as `array` does; single ones are packed sooner so."""
-        packed = memoryview(self._bytes)[place.begin : place.begin + place.size]
+        packed = memoryview(self.packed)[place.begin : place.begin + place.size]
         return packed.cast(place.code)  # type: ignore[call-overload]
 
 

@@ -21,6 +21,7 @@ from husky_sim.robot.contacts import Collision
 from husky_sim.ros import clearpath
 from husky_sim.ros.command_topics import CommandTopics
 from husky_sim.ros.description import publish_description
+from husky_sim.ros.packed_topic import PackedTopic
 from husky_sim.ros.sensor_topics import SensorTopics
 from husky_sim.ros.transforms import create_transform_topics
 from husky_sim.simulation import SimulatedRobot, Simulation
@@ -63,14 +64,15 @@ class RobotTopics:
         as_real: bool,
     ) -> None:
         self.robot = robot
-        self._form = form
         controller = f'{namespace}husky_velocity_controller'
-        self._filtered = messages.FilteredOdometryMessage()
-        self._filtered_publishers: list[Publisher] = []
+        filtered = messages.FilteredOdometryMessage()
+        self._filtered: list[PackedTopic] = []
         as_clearpath = interface == clearpath.NAME
         if simulation.config.sensors.localization:
-            self._filtered_publishers = [
-                node.create_publisher(Odometry, f'{namespace}{topic}', QOS)
+            self._filtered = [
+                PackedTopic(
+                    filtered, node.create_publisher(Odometry, f'{namespace}{topic}', QOS), form
+                )
                 for topic in ('odometry/filtered', *([clearpath.FILTERED] if as_clearpath else []))
             ]
         rest: list[tuple[Any, Any, str]] = [
@@ -86,19 +88,24 @@ class RobotTopics:
             self._collision_publisher = node.create_publisher(
                 DiagnosticStatus, f'{namespace}collisions', QOS
             )
-        self._rest: list[tuple[Any, Publisher]] = [
-            (message, node.create_publisher(kind, topic, QOS)) for message, kind, topic in rest
+        self._rest = [
+            PackedTopic(message, node.create_publisher(kind, topic, QOS), form)
+            for message, kind, topic in rest
         ]
         if as_clearpath:
             self._rest += [
-                (each.message, node.create_publisher(each.kind, namespace + each.topic, each.qos))
+                PackedTopic(
+                    each.message,
+                    node.create_publisher(each.kind, namespace + each.topic, each.qos),
+                    form,
+                )
                 for each in clearpath.measured()
             ]
-        self._odometry: list[Publisher] = [
-            *self._filtered_publishers,
-            *(pair[1] for pair in self._rest if isinstance(pair[0], messages.OdometryMessage)),
+        self._odometry = [
+            *self._filtered,
+            *(each for each in self._rest if isinstance(each.message, messages.OdometryMessage)),
         ]
-        self.odometry_topics = [publisher.topic_name for publisher in self._odometry]
+        self.odometry_topics = [each.publisher.topic_name for each in self._odometry]
         self._read = self._rest  # those of them that have subscriptions
         self._count_sec = COUNT_SEC * len(simulation.robots)
         self._count_again_sec = 0.0
@@ -106,9 +113,10 @@ class RobotTopics:
             node, simulation, robot, namespace, QOS, form, interface=interface
         )
         fixed = FIXED_FRAMES | (CLEARPATH_FRAMES if as_clearpath else {})
-        self._rest += create_transform_topics(
-            node, namespace, localization=bool(self._filtered_publishers), fixed=fixed
+        moving = create_transform_topics(
+            node, namespace, localization=bool(self._filtered), fixed=fixed
         )
+        self._rest += [PackedTopic(message, publisher, form) for message, publisher in moving]
         publish_description(node, namespace, simulation.world.husky, fixed)
         self.commands = CommandTopics(
             node,
@@ -123,23 +131,20 @@ class RobotTopics:
 
     def publish_filtered(self, stamp: Stamp) -> None:
         """Publish the odometry for the driver: first, so that the driver works meanwhile."""
-        if not self._filtered_publishers:
-            return
-        self._filtered.pack(stamp, self.robot)
-        message = self._form(self._filtered)
-        for publisher in self._filtered_publishers:
-            publisher.publish(message)
+        for topic in self._filtered:
+            topic.pack(stamp, self.robot)
+            topic.publish()
 
     def publish_rest(self, stamp: Stamp) -> None:
         """Publish everything else of a control period that has subscriptions."""
         now_sec = time.monotonic()
         if now_sec >= self._count_again_sec:
             self._count_again_sec = now_sec + self._count_sec
-            self._read = [each for each in self._rest if each[1].get_subscription_count()]
+            self._read = [each for each in self._rest if each.is_read]
             self._sensors.count_subscriptions()
-        for message, publisher in self._read:
-            message.pack(stamp, self.robot)
-            publisher.publish(self._form(message))
+        for topic in self._read:
+            topic.pack(stamp, self.robot)
+            topic.publish()
         self._sensors.publish(stamp)
 
     def publish_collision(self, touch: Collision) -> None:
@@ -149,13 +154,11 @@ class RobotTopics:
 
     def has_driver(self) -> bool:
         """Return whether the odometry has a subscription and the commands have a publisher."""
-        return self.commands.is_commanded() and any(
-            publisher.get_subscription_count() for publisher in self._filtered_publishers
-        )
+        return self.commands.is_commanded() and any(topic.is_read for topic in self._filtered)
 
     def is_followed(self) -> bool:
         """Return whether any odometry has a subscription."""
-        return any(publisher.get_subscription_count() for publisher in self._odometry)
+        return any(topic.is_read for topic in self._odometry)
 
     def close(self) -> None:
         """Release what the node does not own; may be called twice."""

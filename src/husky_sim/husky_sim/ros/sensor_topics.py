@@ -21,6 +21,7 @@ from husky_sim.messages.messages import (
 )
 from husky_sim.messages.packed_message import Form
 from husky_sim.ros import clearpath
+from husky_sim.ros.packed_topic import PackedTopic
 from husky_sim.sensors import camera, lidar
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import SimulatedRobot, Simulation
@@ -70,24 +71,25 @@ class SensorTopics:
         config: SensorConfig = simulation.config.sensors
         self._robot = robot
         self._simulation = simulation
-        self._form = form
         self._camera: camera.Camera | None = None
         self._pictures = Rate(config.camera_rate_hz)
         if config.camera_rate_hz > 0.0:
             self._camera = camera.Camera(robot.name, simulation.model, simulation.data)
         every = [OF_LAB, *([OF_CLEARPATH] if interface == clearpath.NAME else [])]
         self._scans = [
-            (
+            PackedTopic(
                 ScanMessage(names.scan_frame, rate_hz=config.lidar_rate_hz),
                 node.create_publisher(LaserScan, f'{namespace}{names.scan}', qos),
+                form,
             )
             for names in every
             if config.lidar_rate_hz > 0.0
         ]
         self._fixes = [
-            (
+            PackedTopic(
                 FixMessage(names.fix_frame),
                 node.create_publisher(NavSatFix, f'{namespace}{names.fix}', qos),
+                form,
             )
             for names in every
             if config.navsat_rate_hz > 0.0
@@ -98,12 +100,14 @@ class SensorTopics:
             for names in every
             if self._camera is not None
         ]
-        self._battery_message = BatteryMessage()
+        battery = BatteryMessage()
         profiles = {'battery_state': qos}
         if interface == clearpath.NAME:
             profiles[clearpath.BATTERY] = qos_profile_sensor_data
         self._batteries = [
-            node.create_publisher(BatteryState, f'{namespace}{topic}', profile)
+            PackedTopic(
+                battery, node.create_publisher(BatteryState, f'{namespace}{topic}', profile), form
+            )
             for topic, profile in profiles.items()
             if robot.battery is not None
         ]
@@ -118,24 +122,24 @@ class SensorTopics:
 
     def count_subscriptions(self) -> None:
         """Note which scans and fixes are read; `publish` leaves out the others."""
-        self._read_scans = [each for each in self._scans if each[1].get_subscription_count()]
-        self._read_fixes = [each for each in self._fixes if each[1].get_subscription_count()]
+        self._read_scans = [each for each in self._scans if each.is_read]
+        self._read_fixes = [each for each in self._fixes if each.is_read]
 
     def publish(self, stamp: Stamp) -> None:
         """Publish the measurements of the control period that ended at stamp."""
         sensors = self._robot.sensors
         if sensors.scan is not None:
-            for scan, publisher in self._read_scans:
-                scan.pack(stamp, sensors.scan)
-                publisher.publish(self._form(scan))
+            for topic in self._read_scans:
+                topic.pack(stamp, sensors.scan)
+                topic.publish()
         if sensors.fix is not None:
-            for fix, publisher in self._read_fixes:
-                fix.pack(stamp, sensors.fix)
-                publisher.publish(self._form(fix))
+            for topic in self._read_fixes:
+                topic.pack(stamp, sensors.fix)
+                topic.publish()
         if sensors.battery is not None:
-            self._battery_message.pack(stamp, sensors.battery)
-            for publisher in self._batteries:
-                publisher.publish(self._form(self._battery_message))
+            for topic in self._batteries:
+                topic.pack(stamp, sensors.battery)
+                topic.publish()
         if self._camera is not None and self._pictures.is_due(self._simulation.periods):
             self._publish_picture(self._camera, time_message(stamp))
 

@@ -10,6 +10,7 @@ from rosgraph_msgs.msg import Clock
 from husky_sim.messages.layouts import packed_messages
 from husky_sim.messages.messages import ClockMessage
 from husky_sim.messages.packed_message import proven_form
+from husky_sim.ros.packed_topic import PackedTopic
 from husky_sim.ros.robot_topics import QOS, RobotTopics
 from husky_sim.simulation import Simulation
 
@@ -37,7 +38,7 @@ class SimulationTopics:
     ) -> None:
         self._node = node
         self._simulation = simulation
-        self._form = proven_form(packed_messages(), node.get_logger())
+        form = proven_form(packed_messages(), node.get_logger())
         many = len(simulation.robots) > 1
         self._robots = [
             RobotTopics(
@@ -46,7 +47,7 @@ class SimulationTopics:
                 robot,
                 f'{robot.name}/' if many else '',
                 on_command,
-                self._form,
+                form,
                 on_commander=on_commander,
                 interface=interface,
                 as_real=as_real,
@@ -54,14 +55,15 @@ class SimulationTopics:
             for robot in simulation.robots
         ]
         self._by_name = {topics.robot.name: topics for topics in self._robots}
-        self._clock = node.create_publisher(Clock, '/clock', QOS)
-        self._clock_message = ClockMessage()
+        self._clock = PackedTopic(
+            ClockMessage(), node.create_publisher(Clock, '/clock', QOS), form
+        )
 
     @property
     def own_topics(self) -> list[str]:
         """Return the topics that the simulator alone should publish."""
         odometry = [name for topics in self._robots for name in topics.odometry_topics]
-        return [self._clock.topic_name, *odometry]
+        return [self._clock.publisher.topic_name, *odometry]
 
     @property
     def command_topics(self) -> list[list[str]]:
@@ -95,8 +97,8 @@ class SimulationTopics:
 
     def publish_clock(self) -> None:
         """Tell the time on /clock."""
-        self._clock_message.pack(self._simulation.stamp)
-        self._clock.publish(self._form(self._clock_message))
+        self._clock.pack(self._simulation.stamp)
+        self._clock.publish()
 
     def publish(self, *, tells_time: bool = True) -> None:
         """
