@@ -129,7 +129,7 @@ class Process:
 
 
 class Processes:
-    """The children of one test, closed in reverse."""
+    """The children of one test, closed in reverse; of a test that failed, pytest shows all."""
 
     def __init__(self) -> None:
         self._started: list[Process] = []
@@ -155,3 +155,4 @@ class Processes:
     ) -> None:
         for process in reversed(self._started):
             process.close()
+            print(f'{" ".join(process.command)} printed:\n{process.output}')
