@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each sensor against the physics it measures."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import math
 from pathlib import Path
 import sys
@@ -183,18 +183,77 @@ def test_a_scan_is_the_same_as_with_every_geom(
     assert (model.geom_group == groups).all()
 
 
+def cast_at_every_geom(simulation: Simulation) -> np.ndarray:
+    """Return what a scan of the first robot says, by one call of MuJoCo on the world itself."""
+    model, state = simulation.model, simulation.robots[0].state
+    matrix = np.zeros(9)
+    mujoco.mju_quat2Mat(matrix, np.array(state.orientation))
+    turn = matrix.reshape(3, 3)
+    origin = np.array(state.position) + turn @ np.array(lidar.PLACE)
+    angles = -lidar.HALF_ANGLE_RAD + lidar.ANGLE_INCREMENT_RAD * np.arange(lidar.BEAMS)
+    beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(lidar.BEAMS)], axis=1) @ turn.T
+    base, hits = model.body('husky/base_link').id, np.zeros(lidar.BEAMS, dtype=np.int32)
+    ranges = np.zeros(lidar.BEAMS)
+    mujoco.mj_multiRay(
+        *(model, simulation.data, origin, beams.ravel(), None, True, base, hits, ranges, None),
+        *(lidar.BEAMS, lidar.RANGE_MAX_M),
+    )
+    ranges[ranges < lidar.RANGE_MIN_M] = -math.inf
+    ranges[(hits < 0) | (ranges > lidar.RANGE_MAX_M)] = math.inf
+    return ranges.astype(np.float32)
+
+
+def put_everything_ahead(simulation: Simulation, yaw: float) -> Iterator[str]:
+    """Put the first robot's surroundings 2 m before it, one after the other."""
+    model, data = simulation.model, simulation.data
+    own = model.joint('husky/base_joint').id
+    for joint in np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE):
+        if joint != own:
+            data.joint(joint).qpos[:2] = 2.0 * math.cos(yaw), 2.0 * math.sin(yaw)
+            mujoco.mj_kinematics(model, data)
+            yield f'body {model.body(model.jnt_bodyid[joint]).name}'
+
+
 @pytest.mark.parametrize('yaw', [0.0, 1.0, 2.5, -2.0])
-def test_beams_in_parts_measure_what_all_at_once_do(
-    worlds: Path, monkeypatch: pytest.MonkeyPatch, yaw: float
-) -> None:
+def test_a_scan_is_bit_for_bit_that_of_the_whole_playpen(worlds: Path, yaw: float) -> None:
     robots = (RobotStart(yaw=yaw), RobotStart(name='other', x=-3.0, y=1.5))
     simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml'), robots=robots))
-    model, data, (robot, _) = simulation.model, simulation.data, simulation.robots
-    in_parts = lidar.Lidar('husky', model, data, None).scan(robot.state, 0.1)
-    monkeypatch.setattr(lidar, '_PART', lidar.BEAMS)
-    at_once = lidar.Lidar('husky', model, data, None).scan(robot.state, 0.1)
-    assert in_parts.tobytes() == at_once.tobytes()
-    assert np.isfinite(at_once).sum() > lidar.BEAMS / 2
+    scanner = lidar.Lidar('husky', simulation.model, simulation.data, None)
+    state, expected = simulation.robots[0].state, cast_at_every_geom(simulation)
+    assert scanner.scan(state, 0.1).tobytes() == expected.tobytes()
+    assert np.isfinite(expected).sum() > lidar.BEAMS / 2
+    seen = set()
+    for what in put_everything_ahead(simulation, yaw):
+        moved = cast_at_every_geom(simulation)
+        assert scanner.scan(state, 0.1).tobytes() == moved.tobytes(), what
+        seen.add(moved.tobytes())
+    assert len(seen) > 3
+    simulation.reset()
+    mujoco.mj_kinematics(simulation.model, simulation.data)
+    assert scanner.scan(state, 0.1).tobytes() == cast_at_every_geom(simulation).tobytes()
+
+
+HIDDEN = """
+    <geom type="box" size="0.1 2 1" pos="3 0 0.5" rgba="1 1 1 {colour}" {material}/>
+    <geom type="box" size="0.1 2 1" pos="4 0 0.5"/>
+  </worldbody>
+  <asset><material name="glass" rgba="1 1 1 0"/></asset>
+  <worldbody>
+"""
+
+
+@pytest.mark.parametrize(
+    ('colour', 'material', 'seen'), [(1, '', 3.0), (0, '', 4.0), (1, 'material="glass"', 4.0)]
+)
+def test_what_is_invisible_is_not_scanned(
+    make_world: Callable[..., str], colour: int, material: str, seen: float
+) -> None:
+    world = make_world(HIDDEN.format(colour=colour, material=material))
+    simulation = Simulation(SimulationConfig(world=world))
+    simulation.advance()
+    scanner = lidar.Lidar('husky', simulation.model, simulation.data, None)
+    ahead = scanner.scan(simulation.robots[0].state, 0.1)[lidar.BEAMS // 2]
+    assert ahead == pytest.approx(seen - 0.1 - lidar.PLACE[0], abs=0.01)
 
 
 def test_scans_come_at_their_rate_and_not_by_default(drive: Drive) -> None:
