@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How much jailed programs use, of what the kernel limits only for each process by itself."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 import errno
 import os
@@ -15,7 +15,7 @@ import psutil
 from husky_grader.jail.limits import Limits, MB
 
 PROCESSES_SEC = 0.2  # between two looks at the processes
-FOLDER_SEC = 1.0  # and at the folder
+FOLDER_SEC = 1.0  # and at the folder, beside one at the processes
 _KIB, _BLOCK_BYTES = 1024, 512  # the units of proc(5) and stat(2)
 
 
@@ -26,20 +26,21 @@ class Usage:
         self._folder, self._limits = folder, limits
         self._processes_at_sec = self._folder_at_sec = time.monotonic()
 
-    def too_much(self, processes: Callable[[], Iterable[psutil.Process]]) -> str:
+    def too_much(self, processes: Callable[[], Sequence[psutil.Process]]) -> str:
         """Return in words which limit is exceeded; nothing if none is, or no look is due."""
         now = time.monotonic()
-        why = ''
-        if now >= self._processes_at_sec:
-            self._processes_at_sec = now + PROCESSES_SEC
-            why = _overuse(processes(), self._limits)
+        if now < self._processes_at_sec:
+            return ''
+        self._processes_at_sec = now + PROCESSES_SEC
+        found = processes()
+        why = _overuse(found, self._limits)
         if not why and now >= self._folder_at_sec:
             self._folder_at_sec = now + FOLDER_SEC
-            why = _overfull(self._folder, self._limits, processes())
+            why = _overfull(self._folder, self._limits, found)
         return why
 
 
-def _overuse(processes: Iterable[psutil.Process], limits: Limits) -> str:
+def _overuse(processes: Sequence[psutil.Process], limits: Limits) -> str:
     """Return in words what processes use too much of; nothing if they do not."""
     own, shared, tasks = 0, 0, 0
     nameless: dict[int, int] = {}
@@ -85,7 +86,7 @@ def _is_in_memory(link: Path) -> bool:
     return str(link.readlink()).startswith('/memfd:')
 
 
-def _overfull(folder: Path, limits: Limits, processes: Iterable[psutil.Process]) -> str:
+def _overfull(folder: Path, limits: Limits, processes: Sequence[psutil.Process]) -> str:
     """Return in words what a folder, or its disk, holds too much of; nothing if it does not."""
     disk = folder.stat().st_dev
     removed: dict[int, int] = {}

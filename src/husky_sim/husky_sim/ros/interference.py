@@ -88,9 +88,10 @@ class InterferenceWatch:
         :param at_the_end: do not wait for names.
         """
         for topics, ours in self._topics:
-            spoken = tuple(topic for topic in topics if self._node.count_publishers(topic))
-            if sum(map(self._node.count_publishers, spoken)) < 2:
+            counts = {topic: self._node.count_publishers(topic) for topic in topics}
+            if sum(counts.values()) < 2:
                 continue
+            spoken = tuple(topic for topic, count in counts.items() if count)
             others = _publishers(self._node, spoken)
             nameless = any(_UNKNOWN in name for name in others)
             if nameless and self._nameless_checks < NAME_CHECKS and not at_the_end:
