@@ -10,7 +10,7 @@ Names, types and QoS: Clearpath's Platform API and Sensors API for ROS 2 Jazzy
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from geometry_msgs.msg import Twist, TwistStamped
+from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.qos import qos_profile_sensor_data, QoSProfile
@@ -69,13 +69,13 @@ class StampedCommands:
     """
     Takes the commands whose stamp is not too old, as the robot's controller does.
 
-    :param take: is given the command.
+    :param take: is given the command: m/s forward, rad/s to the left.
     :param now_sec: returns the simulated time.
     """
 
     def __init__(
         self,
-        take: Callable[[Twist], None],
+        take: Callable[[float, float], None],
         now_sec: Callable[[], float],
         name: str,
         logger: RcutilsLogger,
@@ -99,4 +99,4 @@ class StampedCommands:
                 throttle_duration_sec=1.0,
             )
             return
-        self._take(message.twist)
+        self._take(message.twist.linear.x, message.twist.angular.z)

@@ -12,6 +12,7 @@ from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 from std_msgs.msg import Bool
 
+from husky_sim.messages.unpacked_numbers import reader_of
 from husky_sim.ros import clearpath
 from husky_sim.simulation import SimulatedRobot, Simulation
 
@@ -47,8 +48,9 @@ class CommandTopics:
         self._simulation = simulation
         self._on_command = on_command
         self._logger = node.get_logger()
+        self._read = reader_of(Twist, 'linear.x', 'angular.z')
         takes: list[tuple[Any, str, Callable[[Any], None]]] = [
-            (Twist, 'husky_velocity_controller/cmd_vel', self._take)
+            (Twist, 'husky_velocity_controller/cmd_vel', self._take_bytes)
         ]
         if interface == clearpath.NAME:
             stamped = clearpath.StampedCommands(
@@ -62,6 +64,7 @@ class CommandTopics:
                     f'{namespace}{topic}',
                     callback,
                     qos,
+                    raw=kind is Twist,
                     event_callbacks=_watch(
                         node.resolve_topic_name(f'{namespace}{topic}'), on_commander
                     ),
@@ -92,8 +95,18 @@ class CommandTopics:
         if robot.is_stopped:
             robot.controller.command(0.0, 0.0, time_sec=self._simulation.time_sec)
 
-    def _take(self, message: Twist) -> None:
-        speed, yaw_rate = message.linear.x, message.angular.z
+    def _take_bytes(self, data: bytes) -> None:
+        try:
+            speed, yaw_rate = self._read(data)
+        except RuntimeError as error:  # rclpy's RMWError
+            self._logger.error(
+                f'{self._robot.name}: bytes that are no {_NAMES[Twist]} were no command: {error}',
+                throttle_duration_sec=1.0,
+            )
+            return
+        self._take(speed, yaw_rate)
+
+    def _take(self, speed: float, yaw_rate: float) -> None:
         if self._robot.is_stopped:
             speed = yaw_rate = 0.0
         try:
