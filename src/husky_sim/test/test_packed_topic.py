@@ -16,6 +16,8 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
+DEPTH = 1000  # with less, of messages by turns those of one kind may be dropped each time
+
 
 class Elsewhere:
     """A publisher whose handle cannot send bytes, as that of another rclpy may not."""
@@ -45,9 +47,9 @@ def node(domain_id: int) -> Iterator[Node]:
 def test_what_is_packed_arrives(node: Node, form: Any, of: Any) -> None:
     heard: set[tuple[int, int]] = set()
     node.create_subscription(
-        Clock, '/told', lambda said: heard.add((said.clock.sec, said.clock.nanosec)), 10
+        Clock, '/told', lambda said: heard.add((said.clock.sec, said.clock.nanosec)), DEPTH
     )
-    topic = PackedTopic(ClockMessage(), of(node.create_publisher(Clock, '/told', 10)), form)
+    topic = PackedTopic(ClockMessage(), of(node.create_publisher(Clock, '/told', DEPTH)), form)
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     deadline = time.monotonic() + 20.0
