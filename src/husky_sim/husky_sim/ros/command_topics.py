@@ -49,14 +49,14 @@ class CommandTopics:
         self._on_command = on_command
         self._logger = node.get_logger()
         self._read = reader_of(Twist, 'linear.x', 'angular.z')
-        takes: list[tuple[Any, str, Callable[[Any], None]]] = [
-            (Twist, 'husky_velocity_controller/cmd_vel', self._take_bytes)
+        takes: list[tuple[Any, str, Callable[[Any], None], bool]] = [
+            (Twist, 'husky_velocity_controller/cmd_vel', self._take_bytes, True)
         ]
         if interface == clearpath.NAME:
             stamped = clearpath.StampedCommands(
                 self._take, lambda: simulation.time_sec, robot.name, self._logger
             )
-            takes.append((TwistStamped, clearpath.COMMANDS, stamped.on_message))
+            takes.append((TwistStamped, clearpath.COMMANDS, stamped.on_message, False))
         self._subscriptions: list[tuple[Subscription, str]] = [
             (
                 node.create_subscription(
@@ -64,14 +64,14 @@ class CommandTopics:
                     f'{namespace}{topic}',
                     callback,
                     qos,
-                    raw=kind is Twist,
+                    raw=raw,
                     event_callbacks=_watch(
                         node.resolve_topic_name(f'{namespace}{topic}'), on_commander
                     ),
                 ),
                 _NAMES[kind],
             )
-            for kind, topic, callback in takes
+            for kind, topic, callback, raw in takes
         ]
         # As the Husky's twist_mux has it: while true, no command reaches the wheels.
         node.create_subscription(Bool, f'{namespace}e_stop', self._on_e_stop, qos)

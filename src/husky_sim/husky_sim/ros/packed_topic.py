@@ -14,10 +14,10 @@ class PackedTopic:
     """
     A packed message and its publisher: `pack` what is new, then `publish`.
 
-    `Publisher.publish` asks for each message of which kind it is, and keeps another thread from
-    destroying the publisher meanwhile: a quarter of what a message costs here. All of a simulator
-    is one thread's, and its bytes are bytes; so they go where that method would send them. Where a
-    publisher is another, it is that method that sends them.
+    `Publisher.publish` asks of each message what kind it is, and keeps other threads from
+    destroying the publisher meanwhile: a quarter of what a message costs here. A simulator has one
+    thread, and knows its bytes; so they go straight to the publisher's handle, where that method
+    would send them. Where the handle takes no bytes, that method sends them.
 
     :param message: with a method `pack`.
     :param form: in which it is published; see `proven_form`.
