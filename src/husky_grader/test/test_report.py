@@ -72,6 +72,28 @@ def test_only_what_is_near_the_path_has_its_name_on_the_map(scene: Map) -> None:
     assert re.findall(r'<text class="name"[^>]*>(\w+)<', drawing) == ['near']
 
 
+@pytest.mark.parametrize(('y_m', 'side'), [(-10.0, 'beneath'), (-21.0, 'above')])
+def test_a_name_longer_than_its_obstacle_lies_beside_it(
+    scene: Map, y_m: float, side: str
+) -> None:
+    barrel = Outline(name='a barrel', x=2.0, y=y_m, yaw=0.0, size=(0.3,))
+    downwards = replace(scene, obstacles=(barrel,), given=[(2.0, 0.0), (2.0, -10.0), (2.0, -20.0)])
+    low_x, high_x, low_y, high_y = downwards.near_bounds()
+    assert low_y < y_m < low_y + 0.6 or side == 'beneath', 'at the border there is no room beneath'
+    a_metre = SIZE / max(high_x - low_x, high_y - low_y)
+    (y,) = re.findall(r'<text class="name" x="[\d.]+" y="([\d.]+)"', map_svg(downwards))
+    lower = float(y) - (high_y - y_m) * a_metre
+    assert (lower > 0.3 * a_metre) if side == 'beneath' else (lower < -0.3 * a_metre)
+
+
+def test_of_names_that_would_lie_over_each_other_the_nearest_is_shown(scene: Map) -> None:
+    row = [Outline(name=f'barrel_{k}', x=k / 4, y=1.0, yaw=0.0, size=(0.1,)) for k in range(3)]
+    apart = Outline(name='apart', x=1.0, y=-1.0, yaw=0.0, size=(0.1,))
+    scene = replace(scene, obstacles=(*row, apart), given=[(0.5, 0.5)], true=[])
+    drawing = map_svg(scene)
+    assert re.findall(r'<text class="name"[^>]*>(\w+)<', drawing) == ['barrel_2', 'apart']
+
+
 def test_the_axes_tell_where_the_path_is(scene: Map) -> None:
     drawing = map_svg(scene)
     found = re.findall(r'<text class="x axis" x="([\d.]+)"[^>]*>(-?\d+)<', drawing)

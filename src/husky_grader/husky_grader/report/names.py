@@ -16,36 +16,60 @@ from husky_grader.report.drawing import Drawing
 
 NAMED_M, MAX_NAMES = 1.5, 12
 LETTER = 10.0  # its width, in units of the drawing
+LINE = 12.0  # half a line of letters, and a gap
 
 
 def names(
     obstacles: Sequence[Outline], path: Sequence[Point], drawing: Drawing
 ) -> Iterator[str]:
-    """Yield the names of the obstacles that are nearest to the path, each along its longer side."""
+    """
+    Yield the names of the obstacles that are nearest to the path.
+
+    Each lies along the longer side of its obstacle, or beneath one that is shorter than the name.
+    Where two would lie over each other, the one that is nearer to the path is shown.
+    """
     points = np.array(path).reshape(-1, 2)
     away_m = {outline: _distance(outline, points) for outline in obstacles}
+    shown: list[tuple[float, float, float]] = []  # those that are level: place and length
     for outline in sorted(away_m, key=away_m.__getitem__)[:MAX_NAMES]:
         if away_m[outline] > NAMED_M:
             return
-        name = escape(printable(outline.name))
         x, y = drawing.at((outline.x, outline.y))
-        turn = _turn(outline)
+        length = LETTER * len(outline.name)
+        turn = 0.0
+        if outline.type == 'rect' and length <= drawing.scale * max(outline.size):
+            turn = _turn(outline)
+        else:
+            away = drawing.scale * _reach_m(outline) + LINE
+            y += away if y + away + LINE <= drawing.height else -away
         if turn == 0.0:  # whole, also at the border
-            half = LETTER * len(outline.name) / 2.0
-            x = min(max(x, half), drawing.width - half)
+            x = min(max(x, length / 2.0), drawing.width - length / 2.0)
+            if any(
+                abs(x - other_x) < (length + other_length) / 2.0 and abs(y - other_y) < 2.0 * LINE
+                for other_x, other_y, other_length in shown
+            ):
+                continue
+            shown.append((x, y, length))
         yield (
             f'<text class="name" x="{x:.1f}" y="{y:.1f}" '
-            f'transform="rotate({turn:.1f} {x:.1f} {y:.1f})">{name}</text>'
+            f'transform="rotate({turn:.1f} {x:.1f} {y:.1f})">{escape(printable(outline.name))}'
+            '</text>'
         )
 
 
 def _turn(outline: Outline) -> float:
-    """Return how far the name is turned to the right, in degrees; never upside down."""
-    if outline.type == 'circle':
-        return 0.0
+    """Return how far a rectangle's name is turned to the right, in degrees; never upside down."""
     is_upright = outline.size[1] > outline.size[0]
     turn = math.degrees(-outline.yaw) + (90.0 if is_upright else 0.0)
     return (turn + 90.0) % 180.0 - 90.0
+
+
+def _reach_m(outline: Outline) -> float:
+    """Return how far an outline reaches towards -y of the frame `world` from its middle."""
+    if outline.type == 'circle':
+        return outline.size[0]
+    length, width = outline.size
+    return (abs(length * math.sin(outline.yaw)) + abs(width * math.cos(outline.yaw))) / 2.0
 
 
 def _distance(outline: Outline, points: Array) -> float:
