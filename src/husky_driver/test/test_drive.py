@@ -132,6 +132,29 @@ def test_a_robot_that_does_not_move_is_given_up_with_a_message() -> None:
     assert 'the robot does not move: told to drive 0.50 m/s' in drive.failure
 
 
+def test_one_that_gave_up_is_stopped_until_it_stays_at_rest() -> None:
+    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
+    speeds = [0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.1] + 50 * [0.0]  # falls off what it climbed
+    drive.step(Odometry(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    drive.give_up('enough')
+    x_m, ended = 0.0, 0
+    for period, speed in enumerate(speeds, start=1):
+        x_m += 0.02 * speed
+        if drive.step(Odometry(period * 0.02, x_m, 0.0, 0.0, speed, 0.0)) is None:
+            ended = period
+            break
+    assert ended > 8 + 0.4 / 0.02, 'it ended between rolling forth and back'
+    assert ended < 8 + 0.6 / 0.02
+    # A simulation that is reset meanwhile is not waited for as long as it had run.
+    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
+    drive.step(Odometry(100.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    drive.give_up('enough')
+    times = [100.02, *(0.02 * k for k in range(50))]
+    commands = [drive.step(Odometry(time, 0.0, 0.0, 0.0, 0.0, 0.0)) for time in times]
+    assert commands[1] is not None
+    assert commands[-1] is None
+
+
 def test_a_waypoint_passed_too_far_away_counts_as_missed(
     drive_to_end: Callable[..., Any], make_plant: Any
 ) -> None:

@@ -23,6 +23,7 @@ from husky_driver.motion import AT_ORIGIN, Command, ImuReading, Odometry, STOP
 
 UNTRUSTED_STOPS = 50  # commands to stop a robot whose odometry cannot be true
 MAX_PERIOD_SEC = 0.1
+AT_REST_SEC = 0.5  # of one that gave up: between rolling forth and back it stands for a moment, too
 
 
 class Drive:
@@ -46,6 +47,7 @@ class Drive:
         # The last odometry that was plausible, corrected for slip; None before the first.
         self.odometry: Odometry | None = None
         self._gave_up_sec: float | None = None
+        self._moved_sec = 0.0  # when it moved last, after it gave up
         self._check = OdometryCheck()
         self._untrusted_stops = 0
         self._begin(route, AT_ORIGIN)
@@ -185,9 +187,12 @@ class Drive:
         self.failure = self.failure or why
 
     def _come_to_rest(self, odometry: Odometry) -> Command | None:
-        if self._gave_up_sec is None:
-            self._gave_up_sec = odometry.time_sec
-        self.finished = odometry.is_standing or odometry.time_sec - self._gave_up_sec > SETTLE_SEC
+        now = odometry.time_sec
+        if self._gave_up_sec is None or now < self._gave_up_sec:  # the simulation was reset
+            self._gave_up_sec = self._moved_sec = now
+        if not odometry.is_standing:
+            self._moved_sec = now
+        self.finished = now - self._moved_sec >= AT_REST_SEC or now - self._gave_up_sec > SETTLE_SEC
         return None if self.finished else STOP
 
     def _within_limits(self, wish: Command, period_sec: float) -> Command:
