@@ -19,7 +19,7 @@ import viser
 from websockets.asyncio import server as websockets_server
 from websockets.asyncio.server import serve, Server, ServerConnection
 from websockets.datastructures import Headers
-from websockets.frames import DATA_OPCODES, Frame
+from websockets.frames import DATA_OPCODES, Frame, Opcode
 from websockets.http11 import Request, Response
 from websockets.protocol import Event
 
@@ -33,6 +33,14 @@ MOST_BYTES = 4096
 
 MOST_FRAMES = 16
 """Of a message: a browser cuts one in two where a buffer of its own ends."""
+
+MOST_PINGS = 1000
+"""
+Whose answers wait to be read; a browser sends none.
+
+Since Python 3.12 asyncio adds up what waits whenever something is written, so that the time for
+the answers grows with their square.
+"""
 
 MOST_UNREAD_BYTES = 8_000_000
 """Kept for a tab that sends and does not read; twice the whole scene."""
@@ -143,6 +151,7 @@ class CheckedConnection(ServerConnection):
         super().__init__(protocol, server, **options)
         self._admits = admits
         self._frames = 0  # of a message that is not whole yet
+        self._pings = 0  # since nothing waited to be read
         self._free_sec = 0.0  # when all that was read would have been due
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -157,7 +166,13 @@ class CheckedConnection(ServerConnection):
         if isinstance(event, Frame) and event.opcode in DATA_OPCODES:
             self._frames = 0 if event.fin else self._frames + 1
         unread = self.transport.get_write_buffer_size()
-        if self._frames > MOST_FRAMES or unread > MOST_UNREAD_BYTES:
+        is_ping = isinstance(event, Frame) and event.opcode is Opcode.PING
+        self._pings = self._pings + is_ping if unread else 0
+        if (
+            self._frames > MOST_FRAMES
+            or self._pings > MOST_PINGS
+            or unread > MOST_UNREAD_BYTES
+        ):
             self.transport.abort()
 
     async def recv(self, decode: bool | None = None) -> str | bytes:  # type: ignore[override]
