@@ -73,9 +73,7 @@ def test_only_what_is_near_the_path_has_its_name_on_the_map(scene: Map) -> None:
 
 
 @pytest.mark.parametrize(('y_m', 'side'), [(-10.0, 'beneath'), (-21.0, 'above')])
-def test_a_name_longer_than_its_obstacle_lies_beside_it(
-    scene: Map, y_m: float, side: str
-) -> None:
+def test_a_name_longer_than_its_obstacle_lies_beside_it(scene: Map, y_m: float, side: str) -> None:
     barrel = Outline(name='a barrel', x=2.0, y=y_m, yaw=0.0, size=(0.3,))
     downwards = replace(scene, obstacles=(barrel,), given=[(2.0, 0.0), (2.0, -10.0), (2.0, -20.0)])
     low_x, high_x, low_y, high_y = downwards.near_bounds()

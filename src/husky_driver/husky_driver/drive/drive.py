@@ -23,7 +23,9 @@ from husky_driver.motion import AT_ORIGIN, Command, ImuReading, Odometry, STOP
 
 UNTRUSTED_STOPS = 50  # commands to stop a robot whose odometry cannot be true
 MAX_PERIOD_SEC = 0.1
-AT_REST_SEC = 0.5  # of one that gave up: between rolling forth and back it stands for a moment, too
+AT_REST_SEC = (
+    0.5  # of one that gave up: between rolling forth and back it stands for a moment, too
+)
 
 
 class Drive:
@@ -192,7 +194,9 @@ class Drive:
             self._gave_up_sec = self._moved_sec = now
         if not odometry.is_standing:
             self._moved_sec = now
-        self.finished = now - self._moved_sec >= AT_REST_SEC or now - self._gave_up_sec > SETTLE_SEC
+        self.finished = (
+            now - self._moved_sec >= AT_REST_SEC or now - self._gave_up_sec > SETTLE_SEC
+        )
         return None if self.finished else STOP
 
     def _within_limits(self, wish: Command, period_sec: float) -> Command:

@@ -168,11 +168,7 @@ class CheckedConnection(ServerConnection):
         unread = self.transport.get_write_buffer_size()
         is_ping = isinstance(event, Frame) and event.opcode is Opcode.PING
         self._pings = self._pings + is_ping if unread else 0
-        if (
-            self._frames > MOST_FRAMES
-            or self._pings > MOST_PINGS
-            or unread > MOST_UNREAD_BYTES
-        ):
+        if self._frames > MOST_FRAMES or self._pings > MOST_PINGS or unread > MOST_UNREAD_BYTES:
             self.transport.abort()
 
     async def recv(self, decode: bool | None = None) -> str | bytes:  # type: ignore[override]
