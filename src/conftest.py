@@ -126,6 +126,7 @@ def make_record() -> Callable[..., Record]:
             rows=np.array([table[column] for column in COLUMNS]).T[:, None, :],
             collisions=tuple(more.get('collisions', ())),
             disturbances=tuple(more.get('disturbances', ())),
+            overturns=tuple(more.get('overturns', ())),
             complete=more.get('complete', True),
         )
 

@@ -1,12 +1,21 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 from collections.abc import Callable
+from dataclasses import replace
 import hashlib
 from itertools import pairwise
 import math
 import struct
 
-from husky_course.record import Collision, COLUMNS, Disturbance, read_run, Record, RecordRefused
+from husky_course.record import (
+    Collision,
+    COLUMNS,
+    Disturbance,
+    Overturn,
+    read_run,
+    Record,
+    RecordRefused,
+)
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_grader.scoring.alignment import projected
@@ -98,6 +107,17 @@ def test_a_run_that_never_stops_is_not_completed(make_record: Make) -> None:
     assert report.waypoints_reached == 3
     assert not report.completed
     assert any('did not stop: still driving 0.50 m/s' in reason for reason in report.reasons)
+
+
+def test_one_that_turned_over_is_told_when_and_where(make_record: Make) -> None:
+    places = along((0, 0), (2.5, 0))
+    at = places.index(next(place for place in places if place[0] >= 1.0))
+    over = Overturn(robot='husky', time_sec=at * 0.02)
+    run = read_run(make_record(places, overturns=[over, replace(over, robot='other')]))
+    (said,) = [line for line in judge(run, STRAIGHT).reasons if 'turned' in line]
+    place = f'({run.x[at]:.2f}, 0.00)'
+    when_sec = over.time_sec - 0.02 * run.begin
+    assert said == f'turned over at {when_sec:.2f} s at {place}: it climbed what was in its way'
 
 
 def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make) -> None:

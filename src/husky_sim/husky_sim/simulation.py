@@ -69,6 +69,7 @@ class SimulatedRobot:
         self._imu.reset()
         self.sensors.reset()
         self.command_timed_out = self.battery_ran_empty = self._was_empty = False
+        self.turned_over = self._was_turned_over = False
         if self.motors is not None:
             self.motors.reset()
         self._measure()
@@ -85,6 +86,9 @@ class SimulatedRobot:
     def observe(self, periods: int) -> None:
         """Read the physics at the end of a period, and update the estimates."""
         self._measure()
+        is_turned_over = self.state.is_turned_over
+        self.turned_over = is_turned_over and not self._was_turned_over  # once, until a reset
+        self._was_turned_over |= is_turned_over
         if self.battery is not None:
             self.battery_ran_empty = self.battery.is_empty and not self._was_empty
             self._was_empty = self.battery.is_empty

@@ -2,7 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The record of a run: its format, its writer and its reader."""
 
-from husky_course.record.contents import Collision, COLUMNS, Disturbance, MAX_RATE, Row
+from husky_course.record.contents import (
+    Collision,
+    COLUMNS,
+    Disturbance,
+    MAX_RATE,
+    Overturn,
+    Row,
+)
 from husky_course.record.record import read_record, Record, RecordRefused
 from husky_course.record.run import read_run, Run
 from husky_course.record.writer import FILE_NAME, RecordWriter
@@ -13,6 +20,7 @@ __all__ = [
     'MAX_RATE',
     'Collision',
     'Disturbance',
+    'Overturn',
     'Record',
     'RecordRefused',
     'RecordWriter',

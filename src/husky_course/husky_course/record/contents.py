@@ -61,6 +61,14 @@ class Disturbance:
     nodes: tuple[str, ...]
 
 
+@dataclass(frozen=True, kw_only=True)
+class Overturn:
+    """A robot turned over: it lies on a side or on its top, until the end of the run."""
+
+    robot: str
+    time_sec: float
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Push:
     """Where a body went that was pushed."""

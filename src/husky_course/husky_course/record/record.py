@@ -13,7 +13,14 @@ import numpy as np
 from husky_course.frames import Array
 from husky_course.outline import least_clearance, Outline
 from husky_course.record.blocks import read_blocks
-from husky_course.record.contents import Collision, COLUMNS, Disturbance, MAX_RATE, Push
+from husky_course.record.contents import (
+    Collision,
+    COLUMNS,
+    Disturbance,
+    MAX_RATE,
+    Overturn,
+    Push,
+)
 from husky_course.record.writer import FILE_NAME, FORMAT, VERSION
 from husky_course.robot import RobotStart
 
@@ -50,6 +57,7 @@ class Record:
     collisions: tuple[Collision, ...] = ()
     pushed: Mapping[str, Push] = field(default_factory=dict)  # by the name of the body
     disturbances: tuple[Disturbance, ...] = ()
+    overturns: tuple[Overturn, ...] = ()
     complete: bool = True  # false: the simulator ended before it could say so
 
     @property
@@ -109,7 +117,14 @@ class Record:
             for name, push in self.pushed.items()
         }
         return replace(
-            self, rows=rows, collisions=collisions, pushed=pushed, disturbances=disturbances
+            self,
+            rows=rows,
+            collisions=collisions,
+            pushed=pushed,
+            disturbances=disturbances,
+            overturns=tuple(
+                replace(each, time_sec=each.time_sec - begin_sec) for each in self.overturns
+            ),
         )
 
     def events_since(
@@ -194,6 +209,7 @@ def _read(file: str, blocks: Iterator[Any], size: int) -> Record:
         collisions=events.collisions(float(rows[-1, 0, 0])),
         pushed=events.pushed(),
         disturbances=tuple(events.disturbances),
+        overturns=tuple(events.overturns),
         complete=events.complete,
     )
 
@@ -206,6 +222,7 @@ class _Events:
         self._touches: list[Collision] = []
         self._pushes: dict[str, tuple[list[float], list[list[float]]]] = {}
         self.disturbances: list[Disturbance] = []
+        self.overturns: list[Overturn] = []
         self.complete = False
 
     def take(self, events: Any) -> None:
@@ -219,6 +236,10 @@ class _Events:
                 poses.append([_number(value) for value in event['qpos']])
             elif kind == 'disturbance':
                 self.disturbances.append(_disturbance(event))
+            elif kind == 'overturn':
+                self.overturns.append(
+                    Overturn(robot=self._robot(event), time_sec=_number(event['time_sec']))
+                )
             elif kind == 'end':
                 self.complete = True
             else:
@@ -226,16 +247,20 @@ class _Events:
 
     def _touch(self, event: Mapping[str, Any]) -> Collision:
         x, y, z = (_number(value) for value in event['position'])
-        if event['robot'] not in self._robots:
-            raise ValueError(f'a collision of {event["robot"]!r}, which is no robot of the run')
         return Collision(
-            robot=event['robot'],
+            robot=self._robot(event),
             obstacle=_text(event['obstacle']),
             part=_text(event['part']),
             time_sec=_number(event['time_sec']),
             force_n=_number(event['force_n']),
             position=(x, y, z),
         )
+
+    def _robot(self, event: Mapping[str, Any]) -> str:
+        name = event['robot']
+        if name not in self._robots:
+            raise ValueError(f'{event["event"]} of {name!r}, which is no robot of the run')
+        return str(name)
 
     def collisions(self, end_sec: float) -> tuple[Collision, ...]:
         """Return them in order; of a record that was cut off, those that its rows reach."""

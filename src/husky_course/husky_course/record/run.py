@@ -32,6 +32,7 @@ class Run(Columns[Array]):
     conditions: tuple[str, ...]  # settings that are not the default, as NAME:=VALUE
     collisions: tuple[Collision, ...]
     disturbances: tuple[Disturbance, ...]
+    turned_over_sec: float | None
     obstacles: tuple[Outline, ...]
     min_clearance_m: float | None
     trajectory_sha256: str
@@ -80,6 +81,9 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         conditions=record.conditions,
         collisions=tuple(touch for touch in collisions if touch.robot == start.name),
         disturbances=disturbances,
+        turned_over_sec=next(
+            (e.time_sec - begin_sec for e in record.overturns if e.robot == start.name), None
+        ),
         obstacles=record.obstacles,
         min_clearance_m=record.min_clearance_m(place),
         trajectory_sha256=hashlib.sha256(poses).hexdigest(),

@@ -4,9 +4,9 @@
 Writes a record while the run goes on.
 
 A record is one file of blocks: a header (JSON: world, robots, obstacles, ...), then tables of one
-row a control period, and between them lists of events (JSON: collisions, pushed bodies,
-disturbances, the end). A block is written every BLOCK_PERIODS, so that memory stays the same
-however long the run is, and a simulator that is killed leaves all but its last moments.
+row a control period, and between them lists of events (JSON: collisions, robots that turn over,
+pushed bodies, disturbances, the end). A block is written every BLOCK_PERIODS, so that memory stays
+the same however long the run is, and a simulator that is killed leaves all but its last moments.
 """
 
 from array import array
@@ -23,7 +23,7 @@ import numpy as np
 
 from husky_course.outline import Outline
 from husky_course.record.blocks import block_of
-from husky_course.record.contents import Collision, COLUMNS, Disturbance, Row
+from husky_course.record.contents import Collision, COLUMNS, Disturbance, Overturn, Row
 from husky_course.robot import RobotStart
 
 FORMAT = 'husky_playpen_record'
@@ -98,6 +98,9 @@ class RecordWriter:
 
     def add_push(self, *, body: str, time_sec: float, qpos: Sequence[float]) -> None:
         self._add('pushed', body=body, time_sec=time_sec, qpos=qpos)
+
+    def add_overturn(self, overturn: Overturn) -> None:
+        self._add('overturn', **asdict(overturn))
 
     def add_disturbance(self, disturbance: Disturbance) -> None:
         self._add('disturbance', **asdict(disturbance))

@@ -41,7 +41,7 @@ def reasons_for(run: Run, route: Route, measured: Measurement) -> tuple[str, ...
     if not _moved(run):
         found = [_why_still(run)]
     else:
-        found = [*_collisions(run), *_missed(run, course, measured.visits)]
+        found = [*_collisions(run), *_overturn(run), *_missed(run, course, measured.visits)]
         found += _ending(run, course, all(measured.visits))
         wrong_way = _wrong_way(measured)
         found = [*wrong_way, *found] if measured.wrong_way > 0.5 else [*found, *wrong_way]
@@ -98,6 +98,16 @@ def _collisions(run: Run) -> list[str]:
         for touch in run.collisions
     ]
     return _shortened(lines, 'collisions')
+
+
+def _overturn(run: Run) -> list[str]:
+    if run.turned_over_sec is None:
+        return []
+    at = min(int(np.searchsorted(run.time_sec, run.turned_over_sec - 1e-9)), len(run.x) - 1)
+    return [
+        f'turned over at {run.turned_over_sec:.2f} s at ({run.x[at]:.2f}, {run.y[at]:.2f}): it '
+        'climbed what was in its way'
+    ]
 
 
 def _missed(run: Run, course: Course, reached: Sequence[bool]) -> list[str]:

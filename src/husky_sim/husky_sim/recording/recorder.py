@@ -7,7 +7,7 @@ from pathlib import Path
 from types import TracebackType
 
 from husky_course.frames import Indices
-from husky_course.record import Disturbance, MAX_RATE, RecordWriter, Row
+from husky_course.record import Disturbance, MAX_RATE, Overturn, RecordWriter, Row
 import numpy as np
 
 from husky_sim.config import CONTROL_PERIOD_SEC
@@ -115,6 +115,9 @@ class RunRecorder:
             self._writer.add_push(body=body, time_sec=time_sec, qpos=qpos)
         for touch in simulation.touches:
             self._writer.add_collision(touch)
+        for robot in simulation.robots:
+            if robot.turned_over:
+                self._writer.add_overturn(Overturn(robot=robot.name, time_sec=time_sec))
         self._writer.append(_row(robot, time_sec) for robot in simulation.robots)
         if simulation.touches:
             self._writer.flush()

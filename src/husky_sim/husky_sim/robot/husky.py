@@ -22,6 +22,10 @@ CHAIN_N_M_RAD, CHAIN_N_M_S_RAD = 1500.0, 40.0
 """Stiffness and damping between the wheels of a side: what physics steps of 4 ms bear."""
 
 
+_TURNED_OVER = math.sin(math.radians(75.0) / 2.0) ** 2
+"""x2 + y2 of the quaternion: of an inclination that it does not come back from."""
+
+
 class RobotState(NamedTuple):
     """
     The true state of a robot, in metres, radians and seconds.
@@ -40,6 +44,12 @@ class RobotState(NamedTuple):
         """Return the heading, from -pi to pi."""
         w, x, y, z = self.orientation
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+    @property
+    def is_turned_over(self) -> bool:
+        """Whether it lies on a side or on its top, where its wheels do not carry it."""
+        _, x, y, _ = self.orientation
+        return x * x + y * y > _TURNED_OVER
 
 
 class WheelState(NamedTuple):

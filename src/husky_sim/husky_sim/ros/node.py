@@ -178,6 +178,7 @@ class SimulatorNode(Node):
             self.end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
         self._topics.warn_of_timeouts()
         self._topics.warn_of_empty_batteries()
+        self._topics.warn_of_turned_over()
         self._on_period()
 
     def _show(self) -> None:

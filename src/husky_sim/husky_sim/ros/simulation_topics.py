@@ -135,6 +135,16 @@ class SimulationTopics:
                     'simulation, or start it with a greater battery_charge'
                 )
 
+    def warn_of_turned_over(self) -> None:
+        """Log which robots have just turned over."""
+        for robot in self._simulation.robots:
+            if robot.turned_over:
+                x, y, _ = robot.state.position
+                self._node.get_logger().warning(
+                    f'{robot.name}: turned over at ({x:.2f}, {y:.2f}): it climbed what was in its '
+                    'way, and its wheels carry it no more; reset the simulation'
+                )
+
     def warn_of_other_types(self) -> None:
         """Log which publishers of commands have another message type, each once."""
         for topics in self._robots:
