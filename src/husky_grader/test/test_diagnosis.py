@@ -179,28 +179,32 @@ def student(nodes: list[Node]) -> tuple[Node, Callable[[], Graph]]:
     return nodes[0], graph
 
 
+def take(_: object) -> None:
+    """Take a message; Python 3.10 does not tell rclpy the parameters of a built-in function."""
+
+
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 MISTAKES: dict[str, tuple[Callable[[Node], object], str]] = {
     'misspelt': (
-        lambda node: node.create_subscription(Odometry, 'odometry/filterd', print, 10),
+        lambda node: node.create_subscription(Odometry, 'odometry/filterd', take, 10),
         f'it listens to /odometry/filterd, which nobody publishes; did you mean {ODOMETRY}?',
     ),
     'without its namespace': (
-        lambda node: node.create_subscription(Odometry, 'filtered', print, 10),
+        lambda node: node.create_subscription(Odometry, 'filtered', take, 10),
         f'it listens to /filtered, which nobody publishes; did you mean {ODOMETRY}?',
     ),
     'transient local': (
-        lambda node: node.create_subscription(Odometry, 'odometry/filtered', print, LATCHED),
+        lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, LATCHED),
         f'it hears nothing of {ODOMETRY}: it asks for TRANSIENT_LOCAL, but that is published '
         'VOLATILE; leave the durability of its QoS profile out',
     ),
     'reliable': (
-        lambda node: node.create_subscription(Odometry, 'front/scan', print, 10),
+        lambda node: node.create_subscription(Odometry, 'front/scan', take, 10),
         'it hears nothing of /front/scan: it asks for RELIABLE, but that is published '
         'BEST_EFFORT; subscribe with qos_profile_sensor_data',
     ),
     'another type': (
-        lambda node: node.create_subscription(Twist, 'odometry/filtered', print, 10),
+        lambda node: node.create_subscription(Twist, 'odometry/filtered', take, 10),
         f'it listens to {ODOMETRY} as geometry_msgs/msg/Twist; that topic carries '
         'nav_msgs/msg/Odometry',
     ),
@@ -237,7 +241,7 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
 ) -> None:
     node, graph = student
     kept = [
-        node.create_subscription(Odometry, 'odometry/filtered', print, 10),
+        node.create_subscription(Odometry, 'odometry/filtered', take, 10),
         node.create_publisher(Twist, COMMAND_TOPIC, 10),
     ]
     wait_for(lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, 'the graph')
@@ -247,7 +251,7 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
 
 def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
     program, simulator, _ = nodes
-    subscription = program.create_subscription(Odometry, 'odometry/filterd', print, 10)
+    subscription = program.create_subscription(Odometry, 'odometry/filterd', take, 10)
     wait_for(lambda: simulator.count_publishers('/parameter_events') == len(nodes), 'all nodes')
     watcher = GraphWatcher(simulator, 'lab')
 
