@@ -30,31 +30,41 @@ def names(
     """
     points = np.array(path).reshape(-1, 2)
     away_m = {outline: _distance(outline, points) for outline in obstacles}
-    shown: list[tuple[float, float, float]] = []  # those that are level: place and length
+    level: list[tuple[float, float, float]] = []  # of those that are not turned
     for outline in sorted(away_m, key=away_m.__getitem__)[:MAX_NAMES]:
         if away_m[outline] > NAMED_M:
             return
-        x, y = drawing.at((outline.x, outline.y))
         length = LETTER * len(outline.name)
-        turn = 0.0
-        if outline.type == 'rect' and length <= drawing.scale * max(outline.size):
-            turn = _turn(outline)
-        else:
-            away = drawing.scale * _reach_m(outline) + LINE
-            y += away if y + away + LINE <= drawing.height else -away
-        if turn == 0.0:  # whole, also at the border
-            x = min(max(x, length / 2.0), drawing.width - length / 2.0)
-            if any(
-                abs(x - other_x) < (length + other_length) / 2.0 and abs(y - other_y) < 2.0 * LINE
-                for other_x, other_y, other_length in shown
-            ):
+        x, y, turn = _place(outline, length, drawing)
+        if turn == 0.0:
+            if any(_overlap((x, y, length), other) for other in level):
                 continue
-            shown.append((x, y, length))
+            level.append((x, y, length))
         yield (
             f'<text class="name" x="{x:.1f}" y="{y:.1f}" '
             f'transform="rotate({turn:.1f} {x:.1f} {y:.1f})">{escape(printable(outline.name))}'
             '</text>'
         )
+
+
+def _place(outline: Outline, length: float, drawing: Drawing) -> tuple[float, float, float]:
+    """Return where the middle of a name lies, and how far it is turned, in degrees."""
+    x, y = drawing.at((outline.x, outline.y))
+    turn = 0.0
+    if outline.type == 'rect' and length <= drawing.scale * max(outline.size):
+        turn = _turn(outline)
+    else:
+        away = drawing.scale * _reach_m(outline) + LINE
+        y += away if y + away + LINE <= drawing.height else -away
+    if turn == 0.0:  # whole, also at the border
+        x = min(max(x, length / 2.0), drawing.width - length / 2.0)
+    return x, y, turn
+
+
+def _overlap(name: tuple[float, float, float], other: tuple[float, float, float]) -> bool:
+    """Tell whether two level names, of x, y and length, lie over each other."""
+    (x, y, length), (other_x, other_y, other_length) = name, other
+    return abs(x - other_x) < (length + other_length) / 2.0 and abs(y - other_y) < 2.0 * LINE
 
 
 def _turn(outline: Outline) -> float:
