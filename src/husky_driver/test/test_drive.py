@@ -145,7 +145,9 @@ def test_one_that_gave_up_is_stopped_until_it_stays_at_rest() -> None:
             break
     assert ended > 8 + 0.4 / 0.02, 'it ended between rolling forth and back'
     assert ended < 8 + 0.6 / 0.02
-    # A simulation that is reset meanwhile is not waited for as long as it had run.
+
+
+def test_one_that_gave_up_ends_soon_also_where_the_simulation_is_reset() -> None:
     drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
     drive.step(Odometry(100.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     drive.give_up('enough')

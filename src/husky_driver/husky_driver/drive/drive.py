@@ -23,9 +23,8 @@ from husky_driver.motion import AT_ORIGIN, Command, ImuReading, Odometry, STOP
 
 UNTRUSTED_STOPS = 50  # commands to stop a robot whose odometry cannot be true
 MAX_PERIOD_SEC = 0.1
-AT_REST_SEC = (
-    0.5  # of one that gave up: between rolling forth and back it stands for a moment, too
-)
+AT_REST_SEC = 0.5
+"""Of one that gave up: between rolling forth and back it stands for a moment, too."""
 
 
 class Drive:
