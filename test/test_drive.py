@@ -134,7 +134,7 @@ def test_one_that_turns_over_on_the_barrier_is_told_so(
     (line,) = [line for line in said.splitlines() if 'turned over' in line]
     assert 'husky: turned over at (' in line
     assert line.endswith(
-        'it climbed what was in its way, and its wheels carry it no more; reset the simulation'
+        ', as when it climbs an obstacle; its wheels carry it no more: reset the simulation'
     )
     assert [over.robot for over in read_record(record).overturns] == ['husky']
 

@@ -117,7 +117,7 @@ def test_one_that_turned_over_is_told_when_and_where(make_record: Make) -> None:
     (said,) = [line for line in judge(run, STRAIGHT).reasons if 'turned' in line]
     place = f'({run.x[at]:.2f}, 0.00)'
     when_sec = over.time_sec - 0.02 * run.begin
-    assert said == f'turned over at {when_sec:.2f} s at {place}: it climbed what was in its way'
+    assert said == f'turned over at {when_sec:.2f} s at {place}, as when it climbs an obstacle'
 
 
 def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make) -> None:

@@ -111,7 +111,7 @@ class Record:
         begin_sec = float(self.time_sec[begin])
         rows = self.rows[begin:].copy()
         rows[:, :, 0] -= begin_sec
-        collisions, disturbances = self.events_since(begin_sec)
+        collisions, disturbances, overturns = self.events_since(begin_sec)
         pushed = {
             name: replace(push, time_sec=push.time_sec - begin_sec)
             for name, push in self.pushed.items()
@@ -122,14 +122,12 @@ class Record:
             collisions=collisions,
             pushed=pushed,
             disturbances=disturbances,
-            overturns=tuple(
-                replace(each, time_sec=each.time_sec - begin_sec) for each in self.overturns
-            ),
+            overturns=overturns,
         )
 
     def events_since(
         self, begin_sec: float
-    ) -> tuple[tuple[Collision, ...], tuple[Disturbance, ...]]:
+    ) -> tuple[tuple[Collision, ...], tuple[Disturbance, ...], tuple[Overturn, ...]]:
         """Return the events with times since the drive began; others were there by then."""
         return (
             tuple(replace(each, time_sec=each.time_sec - begin_sec) for each in self.collisions),
@@ -137,6 +135,7 @@ class Record:
                 replace(each, time_sec=max(each.time_sec - begin_sec, 0.0))
                 for each in self.disturbances
             ),
+            tuple(replace(each, time_sec=each.time_sec - begin_sec) for each in self.overturns),
         )
 
     def min_clearance_m(self, robot: int) -> float | None:

@@ -71,7 +71,7 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         'y': y,
         'yaw': yaw - 2 * math.pi * np.rint(yaw / (2 * math.pi)),
     }
-    collisions, disturbances = record.events_since(begin_sec)
+    collisions, disturbances, overturns = record.events_since(begin_sec)
     # Time and true pose of every period, as they are: four little-endian doubles each.
     poses = record.rows[:, place, :4].astype('<f8').tobytes()
     return Run(
@@ -81,9 +81,7 @@ def read_run(record: Record, robot: str | None = None) -> Run:
         conditions=record.conditions,
         collisions=tuple(touch for touch in collisions if touch.robot == start.name),
         disturbances=disturbances,
-        turned_over_sec=next(
-            (e.time_sec - begin_sec for e in record.overturns if e.robot == start.name), None
-        ),
+        turned_over_sec=next((e.time_sec for e in overturns if e.robot == start.name), None),
         obstacles=record.obstacles,
         min_clearance_m=record.min_clearance_m(place),
         trajectory_sha256=hashlib.sha256(poses).hexdigest(),

@@ -105,8 +105,8 @@ def _overturn(run: Run) -> list[str]:
         return []
     at = min(int(np.searchsorted(run.time_sec, run.turned_over_sec - 1e-9)), len(run.x) - 1)
     return [
-        f'turned over at {run.turned_over_sec:.2f} s at ({run.x[at]:.2f}, {run.y[at]:.2f}): it '
-        'climbed what was in its way'
+        f'turned over at {run.turned_over_sec:.2f} s at ({run.x[at]:.2f}, {run.y[at]:.2f}), '
+        'as when it climbs an obstacle'
     ]
 
 

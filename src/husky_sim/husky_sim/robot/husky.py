@@ -21,7 +21,6 @@ TorqueRange = tuple[float, float]
 CHAIN_N_M_RAD, CHAIN_N_M_S_RAD = 1500.0, 40.0
 """Stiffness and damping between the wheels of a side: what physics steps of 4 ms bear."""
 
-
 _TURNED_OVER = math.sin(math.radians(75.0) / 2.0) ** 2
 """x2 + y2 of the quaternion: of an inclination that it does not come back from."""
 

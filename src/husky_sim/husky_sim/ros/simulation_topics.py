@@ -141,8 +141,8 @@ class SimulationTopics:
             if robot.turned_over:
                 x, y, _ = robot.state.position
                 self._node.get_logger().warning(
-                    f'{robot.name}: turned over at ({x:.2f}, {y:.2f}): it climbed what was in its '
-                    'way, and its wheels carry it no more; reset the simulation'
+                    f'{robot.name}: turned over at ({x:.2f}, {y:.2f}), as when it climbs an '
+                    'obstacle; its wheels carry it no more: reset the simulation'
                 )
 
     def warn_of_other_types(self) -> None:
