@@ -12,7 +12,7 @@ from live_page import read_port
 from ros2cli.discovery import read_graph
 from ros2cli.errors import CommandError
 
-from rqt_graph.picture import draw_png, draw_svg
+from rqt_graph.picture import draw_png, draw_svg, load_graphviz
 from rqt_graph.selection import select, View
 
 PICTURES = {'.svg': draw_svg, '.png': draw_png}
@@ -50,6 +50,7 @@ def main(argv: list[str] | None = None) -> int:
     """Write the picture, or show it until Ctrl-C."""
     args = parse_arguments(sys.argv[1:] if argv is None else argv)
     try:
+        load_graphviz()
         if args.output is not None:
             return _write(args)
         return _show(args)

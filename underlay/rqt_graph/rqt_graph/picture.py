@@ -13,7 +13,7 @@ import functools
 import os
 from typing import Any
 
-import pygraphviz  # type: ignore[import-untyped]
+from ros2cli.errors import CommandError
 
 from rqt_graph.selection import Drawing, Kind, Shape
 
@@ -49,6 +49,22 @@ def draw_png(drawing: Drawing) -> bytes:
 
 
 @functools.cache
+def load_graphviz() -> Any:
+    """Return the module pygraphviz.
+
+    :raises CommandError: where the system lacks GLib, which no wheel of Python's brings along.
+    """
+    try:
+        import pygraphviz  # type: ignore[import-untyped]
+    except ImportError as error:
+        raise CommandError(
+            f'Graphviz, which draws the picture, cannot be loaded ({error}): install GLib '
+            '(Ubuntu, Debian: sudo apt install libglib2.0-0; Fedora: sudo dnf install glib2)'
+        ) from error
+    return pygraphviz
+
+
+@functools.cache
 def _load_fonts() -> None:
     """Let fontconfig read its files with stderr closed.
 
@@ -58,7 +74,7 @@ def _load_fonts() -> None:
     stderr, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 2)
     try:
-        pygraphviz.AGraph('graph { a }').draw(format='svg', prog='dot')
+        load_graphviz().AGraph('graph { a }').draw(format='svg', prog='dot')
     finally:
         os.dup2(stderr, 2)
         os.close(stderr)
@@ -76,7 +92,7 @@ def draw(graph: Any, picture_format: str) -> bytes:
 
 def draw_text(text: str, picture_format: str) -> bytes:
     """Draw what is written in Graphviz's language."""
-    return draw(pygraphviz.AGraph(string=text), picture_format)
+    return draw(load_graphviz().AGraph(string=text), picture_format)
 
 
 def empty_graph(empty: str, *, direction: str) -> Any:
@@ -85,7 +101,7 @@ def empty_graph(empty: str, *, direction: str) -> Any:
     :param empty: what to say as long as nothing is in it; '' once something is.
     :param direction: LR: from left to right; TB: from the top down.
     """
-    graph = pygraphviz.AGraph(
+    graph = load_graphviz().AGraph(
         directed=True,
         rankdir=direction,
         nodesep='0.35',

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from http.client import HTTPConnection
 import json
+import os
 from pathlib import Path
 import signal
 import subprocess
@@ -163,6 +164,28 @@ def test_bad_arguments_are_refused(arguments: tuple[str, ...], said: str) -> Non
 def test_a_domain_without_nodes_has_a_picture_that_says_so(tmp_path: Path) -> None:
     assert run('-o', 'empty.svg').returncode == 0
     assert 'No nodes are running' in (tmp_path / 'empty.svg').read_text()
+
+
+@pytest.mark.usefixtures('domain')
+@pytest.mark.parametrize(
+    'words', [('rqt_graph', 'rqt_graph', '-o', 'graph.svg'), ('tf2_tools', 'view_frames')]
+)
+def test_a_system_without_glib_is_told_what_to_install(
+    words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # What the dynamic loader says there.
+    why = 'libgobject-2.0.so.0: cannot open shared object file: No such file or directory'
+    without = tmp_path / 'without'
+    without.mkdir()
+    (without / 'pygraphviz.py').write_text(f'raise ImportError({why!r})')
+    monkeypatch.setenv('PYTHONPATH', str(without), prepend=os.pathsep)
+    answer = subprocess.run(['ros2', 'run', *words], capture_output=True, text=True, timeout=30)
+    assert answer.returncode == 1
+    assert answer.stderr == (
+        f'{words[1]}: Graphviz, which draws the picture, cannot be loaded ({why}): install GLib '
+        '(Ubuntu, Debian: sudo apt install libglib2.0-0; Fedora: sudo dnf install glib2)\n'
+    )
+    assert not list(tmp_path.glob('*.*'))
 
 
 @pytest.mark.usefixtures('domain')

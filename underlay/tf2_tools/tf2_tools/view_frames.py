@@ -18,7 +18,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from ros2cli.errors import CommandError
-from rqt_graph.picture import draw_text
+from rqt_graph.picture import draw_text, load_graphviz
 from tf2_msgs.srv import FrameGraph
 from tf2_ros import Buffer, TransformListener
 
@@ -34,6 +34,7 @@ def main() -> int:
     rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     node = Node('view_frames')
     try:
+        load_graphviz()
         return _show(node, args.port) if args.live else _write(node, args)
     except KeyboardInterrupt:
         return 0 if args.live else _INTERRUPTED
