@@ -158,6 +158,7 @@ def _restrict_files(readable: list[str], writable: list[str], *, needed: bool) -
 def _allow(ruleset: int, place: str, rights: int) -> None:
     class Beneath(ctypes.Structure):
         _pack_ = 1
+        _layout_ = 'ms'  # for a packed one Python 3.14 wants it said, and warns in the log if not
         _fields_ = [('rights', ctypes.c_uint64), ('place', ctypes.c_int32)]
 
     if not os.path.isdir(place):
