@@ -95,9 +95,11 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
 def _open_closed_streams() -> None:
     """Open what is closed (`>&-`): what is printed would go into the next file that is opened."""
     for number, name in enumerate(('stdin', 'stdout', 'stderr')):
-        if getattr(sys, name) is None and os.open(os.devnull, os.O_RDWR) == number:
-            os.set_inheritable(number, True)
-            setattr(sys, name, os.fdopen(number, 'w' if number else 'r', encoding='utf-8'))
+        if getattr(sys, name) is None:
+            # Another number if a library has taken this one: libffi keeps a file open.
+            opened = os.open(os.devnull, os.O_RDWR)
+            os.set_inheritable(opened, opened == number)
+            setattr(sys, name, os.fdopen(opened, 'w' if number else 'r', encoding='utf-8'))
 
 
 def _how_to_install(module: str | None) -> str:
