@@ -221,7 +221,7 @@ CASES: dict[str, tuple[Callable[[], bytes], str]] = {
         lambda: lzma.compress(tar_of(tar_member('ws/.git/a'), content=b'\0' * 2_000_000)),
         'more than 1 MB unpacked; leave out',
     ),
-    'overlapping': (overlapping_zip, rf'more than 1 MB unpacked|{BROKEN}'),
+    'overlapping': (overlapping_zip, r'broken or incomplete \(several of its files lie at one'),
     'encrypted': (
         encrypted_zip,
         'ws/src/pkg/package.xml is encrypted; pack it without a password',
@@ -233,7 +233,7 @@ CASES: dict[str, tuple[Callable[[], bytes], str]] = {
     ),
     'endless header': (
         lambda: raw_tar_header(b'a', b'77777777777\0', b'x') + b'1' * 100_000,
-        'a header of 8589934592 bytes; pack it again, with zip',
+        r'a header of \d+ bytes; pack it again, with zip',  # or what Python reads of it at once
     ),
     'rare method': (
         lambda: zip_of()[:0] + lzma_zip(),
