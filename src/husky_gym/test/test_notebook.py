@@ -22,10 +22,11 @@ def test_no_output_is_kept() -> None:
 
 @pytest.mark.timeout(120)
 def test_the_notebook_trains_a_policy_that_is_better(tmp_path: Path) -> None:
-    script = tmp_path / 'notebook.py'
-    script.write_text('\n'.join(''.join(cell['source']) for cell in CODE), encoding='utf-8')
+    # As in a notebook, its code is in no file that the processes of async could import.
     done = subprocess.run(
-        [sys.executable, '-W', 'error', str(script)],
+        [sys.executable, '-W', 'error', '-'],
+        input='\n'.join(''.join(cell['source']) for cell in CODE),
+        cwd=tmp_path,
         env={**os.environ, 'MPLBACKEND': 'Agg', 'HUSKY_TRAINING_SEC': '0.1'},
         capture_output=True,
         text=True,
