@@ -16,10 +16,12 @@ import ctypes.util
 import glob
 import io
 import os
+import pathlib
 from pathlib import Path
 import socket
 import sys
 import sysconfig
+from types import BuiltinFunctionType
 from typing import Any
 import urllib.request  # noqa: F401  on macOS it needs a module of that system, as ctypes.util does
 
@@ -56,12 +58,17 @@ class _Socket(socket.socket):
 
 
 def take_away() -> None:
-    builtins.open = io.open = _refusing(io.open)  # type: ignore[assignment]
-    for name in ('open', 'stat', 'lstat', 'scandir', 'listdir', 'readlink', 'access'):
-        setattr(os, name, _refusing(getattr(os, name)))
-    for each in vars(glob).values():  # by which pathlib searches, from Python 3.13 on
-        if isinstance(each, type) and 'scandir' in vars(each):
-            each.scandir = staticmethod(os.scandir)  # type: ignore[attr-defined]
+    names = ('open', 'stat', 'lstat', 'scandir', 'listdir', 'readlink', 'access')
+    refusing = {each: _refusing(each) for each in (io.open, *(getattr(os, n) for n in names))}
+    builtins.open = io.open = refusing[io.open]  # type: ignore[assignment]
+    for name in names:
+        setattr(os, name, refusing[getattr(os, name)])
+    # Some classes keep the functions: those of pathlib in Python 3.10, of glob from 3.13 on.
+    for kept in (each for module in (glob, pathlib) for each in vars(module).values()):
+        for name, value in [*vars(kept).items()] if isinstance(kept, type) else ():
+            function = getattr(value, '__func__', value)
+            if isinstance(function, BuiltinFunctionType) and function in refusing:
+                setattr(kept, name, staticmethod(refusing[function]))
     del os.sched_getaffinity
     ctypes.CDLL = _Library  # type: ignore[misc]
     socket.socket = _Socket  # type: ignore[misc]

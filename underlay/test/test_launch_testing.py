@@ -133,7 +133,7 @@ _PLAIN = """
     import sys
 
     def test_generate_test_description_is_only_a_word_here():
-        assert not {'asyncio', 'launch', 'rclpy'} & set(sys.modules)
+        assert not {'launch', 'launch_ros', 'rclpy'} & set(sys.modules)
 """
 
 

@@ -53,7 +53,7 @@ DRIVES = {
 # They get points for the half of the way that they drove.
 HALF_DRIVES = {
     'stops_midway': 'stopped at (0.4',
-    'crashes_midway': 'crashes_midway line 10: ZeroDivisionError: float division by zero',
+    'crashes_midway': 'crashes_midway line 10: ZeroDivisionError: ',
 }
 TALKS = {
     'says_nothing': 'nothing came on /topic_test within 4 s',
@@ -339,7 +339,9 @@ def test_who_does_it_right_among_them_gets_every_point(
 def test_no_program_reaches_what_is_not_its_own(
     graded: dict[str, StepGrade], reports: Path
 ) -> None:
-    logs = {path: path.read_text() for path in reports.rglob('*.log') if path.is_file()}
+    paths = [path for path in reports.rglob('*.log') if path.is_file()]
+    # A long one is cut in its middle, which may be amid a letter.
+    logs = {path: path.read_text(errors='replace') for path in paths}
     assert len(logs) > len(DRIVES)
     for said in ('wrote ', 'answered: ', 'found ', 'kept: '):
         assert [path for path, text in logs.items() if f'\n{said}' in f'\n{text}'] == [], said

@@ -318,8 +318,9 @@ def test_the_page_has_its_title_and_asks_for_no_other_file(page: Page) -> None:
     with urllib.request.urlopen(page.server.address, timeout=10.0) as answer:
         assert '<title>Tried &lt;here&gt;</title>' in answer.read().decode()
         assert answer.headers['Referrer-Policy'] == 'no-referrer'
-    with pytest.raises(urllib.error.HTTPError, match='404'):
+    with pytest.raises(urllib.error.HTTPError, match='404') as missing:
         urllib.request.urlopen(f'{page.server.address}../index.html/x', timeout=10.0)
+    missing.value.close()
     with pytest.raises(urllib.error.HTTPError, match='403') as refused:
         urllib.request.urlopen(f'http://127.0.0.1:{page.port}/', timeout=10.0)
     assert b'the terminal' in refused.value.read()
