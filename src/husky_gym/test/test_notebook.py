@@ -24,7 +24,7 @@ def test_no_output_is_kept() -> None:
 def test_the_notebook_trains_a_policy_that_is_better(tmp_path: Path) -> None:
     # As in a notebook, its code is in no file that the processes of async could import.
     done = subprocess.run(
-        [sys.executable, '-W', 'error', '-'],
+        [sys.executable, '-W', 'error', '-c', 'import sys; exec(sys.stdin.read())'],
         input='\n'.join(''.join(cell['source']) for cell in CODE),
         cwd=tmp_path,
         env={**os.environ, 'MPLBACKEND': 'Agg', 'HUSKY_TRAINING_SEC': '0.1'},

@@ -52,14 +52,16 @@ def draw_png(drawing: Drawing) -> bytes:
 def load_graphviz() -> Any:
     """Return the module pygraphviz.
 
-    :raises CommandError: where the system lacks GLib, which no wheel of Python's brings along.
+    :raises CommandError: where the system lacks a library that its wheel counts on, as all of
+        their kind do (PEP 513): GLib, libX11, libXext, libXrender.
     """
     try:
         import pygraphviz  # type: ignore[import-untyped]
     except ImportError as error:
         raise CommandError(
-            f'Graphviz, which draws the picture, cannot be loaded ({error}): install GLib '
-            '(Ubuntu, Debian: sudo apt install libglib2.0-0; Fedora: sudo dnf install glib2)'
+            f'Graphviz, which draws the picture, cannot be loaded ({error}): install what it '
+            'needs (Ubuntu, Debian: sudo apt install libglib2.0-0 libxext6 libxrender1; Fedora: '
+            'sudo dnf install glib2 libXext libXrender)'
         ) from error
     return pygraphviz
 

@@ -75,7 +75,6 @@ def test_the_help_imports_nothing_that_takes_long() -> None:
         'asyncio',
         'email',
         'importlib.metadata',
-        'inspect',
         'numpy',
         'rclpy',
         'subprocess',

@@ -170,7 +170,7 @@ def test_a_domain_without_nodes_has_a_picture_that_says_so(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     'words', [('rqt_graph', 'rqt_graph', '-o', 'graph.svg'), ('tf2_tools', 'view_frames')]
 )
-def test_a_system_without_glib_is_told_what_to_install(
+def test_a_system_without_a_library_is_told_what_to_install(
     words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # What the dynamic loader says there.
@@ -182,8 +182,9 @@ def test_a_system_without_glib_is_told_what_to_install(
     answer = subprocess.run(['ros2', 'run', *words], capture_output=True, text=True, timeout=30)
     assert answer.returncode == 1
     assert answer.stderr == (
-        f'{words[1]}: Graphviz, which draws the picture, cannot be loaded ({why}): install GLib '
-        '(Ubuntu, Debian: sudo apt install libglib2.0-0; Fedora: sudo dnf install glib2)\n'
+        f'{words[1]}: Graphviz, which draws the picture, cannot be loaded ({why}): install what '
+        'it needs (Ubuntu, Debian: sudo apt install libglib2.0-0 libxext6 libxrender1; Fedora: '
+        'sudo dnf install glib2 libXext libXrender)\n'
     )
     assert not list(tmp_path.glob('*.*'))
 
