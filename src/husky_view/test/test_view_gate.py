@@ -323,7 +323,8 @@ def test_the_page_has_its_title_and_asks_for_no_other_file(page: Page) -> None:
     missing.value.close()
     with pytest.raises(urllib.error.HTTPError, match='403') as refused:
         urllib.request.urlopen(f'http://127.0.0.1:{page.port}/', timeout=10.0)
-    assert b'the terminal' in refused.value.read()
+    with refused.value as answer:
+        assert b'the terminal' in answer.read()
 
 
 def test_no_request_at_all_says_nothing_in_the_terminal(
