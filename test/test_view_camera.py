@@ -31,7 +31,7 @@ class Scene:
 
     def __init__(self, server: viser.ViserServer, cameras: Cameras, page: Page) -> None:
         self.page = page
-        self.robot = np.zeros(3)
+        self.robot: Array = np.zeros(3)
         self.driving = False
         self._cameras = cameras
         self.client = next(iter(server.get_clients().values()))

@@ -10,6 +10,7 @@ import os
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 from PIL import Image
 from playwright.sync_api import Browser, expect, Locator, Page, sync_playwright
 
@@ -130,7 +131,8 @@ def screenshot(page: Page) -> bytes:
     return base64.b64decode(picture)
 
 
-def pixels_of(png: bytes) -> 'np.ndarray[tuple[int, int, int], np.dtype[np.int_]]':
+def pixels_of(png: bytes) -> npt.NDArray[np.int_]:
+    """Return rows, columns and the three colours of a picture."""
     return np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
 
 

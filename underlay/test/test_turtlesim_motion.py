@@ -11,6 +11,7 @@ import math
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
+import numpy.typing as npt
 import pytest
 from turtlesim.msg import Pose
 from turtlesim_programs.canvas import Canvas, NOTHING, to_pixels
@@ -133,7 +134,7 @@ def test_the_fastest_command_neither_fails_nor_leaves_the_picture(
     assert -math.pi <= turtle.theta <= math.pi
 
 
-def inside(start: complex, end: complex, width: int) -> np.ndarray:
+def inside(start: complex, end: complex, width: int) -> npt.NDArray[np.bool_]:
     """Return which pixels a wide line covers, each turned into the line's own direction."""
     covered = np.zeros((PIXELS, PIXELS), bool)
     way = (end - start) / abs(end - start)

@@ -16,7 +16,8 @@ def test_ahead_of_a_robot_that_faces_y_is_along_y() -> None:
 
 
 def test_arrays_give_the_same_bits_as_numbers() -> None:
-    x, y = np.linspace(-5.0, 5.0, 101), np.linspace(3.0, -7.0, 101)
+    x = np.linspace(-5.0, 5.0, 101, dtype=np.float64)
+    y = np.linspace(3.0, -7.0, 101, dtype=np.float64)
     start = (0.3, -1.7, 0.9)
     for convert in (to_world, to_odom):
         many = np.stack(convert(start, x, y), axis=1).tolist()

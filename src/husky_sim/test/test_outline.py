@@ -4,6 +4,7 @@
 
 import math
 
+from husky_course.frames import Array
 from husky_course.outline import clearances, least_clearance, Outline
 from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 from husky_sim.world.silhouette import outline_of
@@ -95,7 +96,7 @@ def test_it_is_the_distance_of_the_nearest_points(
         + [np.stack([np.full(41, side), edge], axis=1) for side in (-1.0, 1.0)]
     )
 
-    def placed(half: tuple[float, float], px: float, py: float, angle: float) -> np.ndarray:
+    def placed(half: tuple[float, float], px: float, py: float, angle: float) -> Array:
         cos, sin = math.cos(angle), math.sin(angle)
         return rim * half @ np.array([[cos, sin], [-sin, cos]]) + (px, py)
 

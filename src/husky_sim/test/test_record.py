@@ -15,6 +15,7 @@ import time
 import tracemalloc
 from typing import Any
 
+from husky_course.frames import Array
 from husky_course.record import (
     COLUMNS,
     FILE_NAME,
@@ -190,7 +191,7 @@ def test_memory_stays_the_same_and_the_end_is_soon_however_long(tmp_path: Path) 
     assert len(read_record(tmp_path).rows) == 61_001
 
 
-def damaged(blocks: list[Any], change: Callable[[np.ndarray], object]) -> list[Any]:
+def damaged(blocks: list[Any], change: Callable[[Array], object]) -> list[Any]:
     """Change the table of the second 100 rows."""
     tables = [block for block in blocks if isinstance(block, np.ndarray)]
     change(tables[1])
@@ -213,7 +214,7 @@ def damaged(blocks: list[Any], change: Callable[[np.ndarray], object]) -> list[A
     ],
 )
 def test_what_no_husky_can_have_done_is_refused(
-    path: Path, change: Callable[[np.ndarray], object], said: str
+    path: Path, change: Callable[[Array], object], said: str
 ) -> None:
     path.write_bytes(b''.join(map(block_of, damaged(content_of(path), change))))
     with pytest.raises(RecordRefused, match=said) as refused:

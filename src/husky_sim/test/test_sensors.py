@@ -9,6 +9,7 @@ import sys
 from types import ModuleType
 
 from builtin_interfaces.msg import Time
+from husky_course.frames import Array
 from husky_course.robot import RobotStart
 from husky_sim.errors import SettingError
 from husky_sim.ros.sensor_topics import new_camera_info, new_image
@@ -183,7 +184,7 @@ def test_a_scan_is_the_same_as_with_every_geom(
     assert (model.geom_group == groups).all()
 
 
-def cast_at_every_geom(simulation: Simulation) -> np.ndarray:
+def cast_at_every_geom(simulation: Simulation) -> Array:
     """Return what a scan of the first robot says, by one call of MuJoCo on the world itself."""
     model, state = simulation.model, simulation.robots[0].state
     matrix = np.zeros(9)

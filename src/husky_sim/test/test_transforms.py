@@ -9,6 +9,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
+from husky_course.frames import Array
 from husky_sim.messages.transforms import TransformsMessage
 from husky_sim.ros import transforms
 from husky_sim.simulation import Simulation
@@ -60,13 +61,13 @@ def place(transform: TransformStamped) -> list[float]:
     return [by.x, by.y, by.z]
 
 
-def turn(transform: TransformStamped) -> np.ndarray:
+def turn(transform: TransformStamped) -> Array:
     matrix, by = np.zeros(9), transform.transform.rotation
     mujoco.mju_quat2Mat(matrix, np.array([by.w, by.x, by.y, by.z]))
     return matrix.reshape(3, 3)
 
 
-def in_base(simulation: Simulation, position: np.ndarray, matrix: np.ndarray) -> Any:
+def in_base(simulation: Simulation, position: Array, matrix: Array) -> Any:
     """Return where something of the physics is in base_link: place and turn."""
     base = simulation.data.body('husky/base_link')
     into = base.xmat.reshape(3, 3).T

@@ -5,6 +5,7 @@
 from pathlib import Path
 from xml.etree import ElementTree
 
+from husky_course.frames import Array
 from husky_sim.world import default_worlds, FIXED_FRAMES, urdf_of
 import mujoco
 import numpy as np
@@ -31,7 +32,7 @@ def read_by_mujoco(robot: ElementTree.Element) -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_string(ElementTree.tostring(robot, encoding='unicode'))
 
 
-def inertia(model: mujoco.MjModel, body: str) -> np.ndarray:
+def inertia(model: mujoco.MjModel, body: str) -> Array:
     number, turn = model.body(body).id, np.zeros(9)
     mujoco.mju_quat2Mat(turn, model.body_iquat[number])
     axes = turn.reshape(3, 3)
@@ -55,7 +56,7 @@ def test_every_shape_stands_where_the_physics_has_it() -> None:
     ours = mujoco.MjModel.from_xml_path(str(HUSKY))
     read = read_by_mujoco(ElementTree.fromstring(urdf_of(HUSKY)))
 
-    def corners(model: mujoco.MjModel, geom: int) -> np.ndarray:
+    def corners(model: mujoco.MjModel, geom: int) -> Array:
         """Return the tips of a geom's three axes, from its middle, in its body."""
         turn, size = np.zeros(9), model.geom_size[geom]
         mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
@@ -63,8 +64,8 @@ def test_every_shape_stands_where_the_physics_has_it() -> None:
         tips = np.diag([size[0], size[0], size[1]] if long else size)
         return model.geom_pos[geom] + tips @ turn.reshape(3, 3).T
 
-    def shapes(model: mujoco.MjModel) -> dict[str, list[np.ndarray]]:
-        kept: dict[str, list[np.ndarray]] = {}
+    def shapes(model: mujoco.MjModel) -> dict[str, list[Array]]:
+        kept: dict[str, list[Array]] = {}
         for geom in range(model.ngeom):
             if model.geom(geom).name.endswith('_tread'):
                 continue  # of the physics alone: the same tyre once more

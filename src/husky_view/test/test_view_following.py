@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The camera that follows a robot."""
 
+from husky_course.frames import Array
 from husky_view.picture.camera import ChaseCamera, REPORT_TIMEOUT_SEC, USER_PAUSE_SEC
 import numpy as np
 
@@ -13,7 +14,7 @@ def test_a_following_camera_keeps_its_distance_to_the_robot() -> None:
     behind = np.array([-3.0, 0.0, 1.9])
     camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)
     camera.report(behind)
-    robot = np.zeros(3)
+    robot: Array = np.zeros(3)
     for frame in range(1, 91):
         robot = np.array([0.8 * frame / 30.0, 0.0, 0.0])
         assert camera.step(robot, now_sec=frame / 30.0)

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from husky_course.frames import Pose, to_world
+from husky_course.frames import Array, Indices, Pose, to_world
 from husky_course.outline import clearances, Outline
 from husky_course.route.legs import Leg
 from husky_course.route.route import Route
@@ -82,7 +82,7 @@ def survey_route(
 
 
 def _near_passes(
-    course: Course, poses: np.ndarray, numbers: np.ndarray, table: np.ndarray, names: list[str]
+    course: Course, poses: Array, numbers: Indices, table: Array, names: list[str]
 ) -> list[NearPass]:
     """Return the nearest place for each pair of waypoint and obstacle, in the order of the way."""
     passes = []
@@ -102,7 +102,7 @@ def _near_passes(
     return passes
 
 
-def _poses(route: Route, start: Pose) -> tuple[np.ndarray, np.ndarray]:
+def _poses(route: Route, start: Pose) -> tuple[Array, Indices]:
     """Return poses in the frame world, and the number of the waypoint each one leads to."""
     poses: list[Pose] = []
     numbers: list[int] = []

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import math
 from typing import NamedTuple
 
-from husky_course.frames import Pose
+from husky_course.frames import Array, Pose
 from husky_course.route import Curve
 import numpy as np
 
@@ -72,7 +72,7 @@ def look_along(
     return Sighting(ahead, x, y, _width_m(points, nearest))
 
 
-def _points(scan: Scan, pose: Pose, look_m: float) -> np.ndarray:
+def _points(scan: Scan, pose: Pose, look_m: float) -> Array:
     ranges = np.asarray(scan.ranges)
     near = np.isfinite(ranges) & (ranges > 0.0) & (ranges < look_m + HALF_WIDTH_M)
     angles = scan.first_angle_rad + scan.step_rad * np.nonzero(near)[0] + pose[2]
@@ -81,7 +81,7 @@ def _points(scan: Scan, pose: Pose, look_m: float) -> np.ndarray:
     return np.stack([x, y], axis=1)
 
 
-def _width_m(points: np.ndarray, one: int) -> float:
+def _width_m(points: Array, one: int) -> float:
     """Return how far apart the ends of the obstacle are that a point belongs to."""
     gaps = np.hypot(*np.diff(points, axis=0).T)
     begins = np.nonzero(gaps > EDGE_M)[0] + 1

@@ -134,7 +134,7 @@ class _Motion:
     def filtered(self) -> Messages:
         """Yield where odometry believed the robot, with the twist by which it came there."""
         x, y, yaw = self.columns('odom_x', 'odom_y', 'odom_yaw')
-        yaw = np.unwrap(yaw)
+        yaw = np.asarray(np.unwrap(yaw), dtype=np.float64)
         turn = np.diff(yaw, prepend=yaw[0])
         heading = yaw - turn / 2
         way = np.diff(x, prepend=x[0]) * np.cos(heading)

@@ -150,7 +150,7 @@ def _stays(boxes: Array, x: Array, y: Array, point: Waypoint, tolerance_m: float
     low_x, high_x, low_y, high_y = boxes
     close = (low_x <= point.x_m + tolerance_m) & (high_x >= point.x_m - tolerance_m)
     close &= (low_y <= point.y_m + tolerance_m) & (high_y >= point.y_m - tolerance_m)
-    entries = (np.flatnonzero(close)[:, None] * CHUNK + np.arange(CHUNK)).ravel()
+    entries: Indices = (np.flatnonzero(close)[:, None] * CHUNK + np.arange(CHUNK)).ravel()
     entries = entries[entries < len(x)]
     away_m = np.hypot(x[entries] - point.x_m, y[entries] - point.y_m)
     near = entries[away_m <= tolerance_m]

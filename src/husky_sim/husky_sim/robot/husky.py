@@ -5,6 +5,7 @@
 import math
 from typing import NamedTuple
 
+from husky_course.frames import Array
 import mujoco
 import numpy as np
 
@@ -209,7 +210,7 @@ def _shapes_of_tyre(model: mujoco.MjModel, wheel: str) -> set[int]:
     return found - {-1}
 
 
-def _block(values: np.ndarray, indices: list[int]) -> np.ndarray:
+def _block(values: Array, indices: list[int]) -> Array:
     """Return a view on consecutive entries."""
     if indices != list(range(indices[0], indices[0] + len(indices))):
         raise RuntimeError(f'the wheels lie apart in the model: {indices}')

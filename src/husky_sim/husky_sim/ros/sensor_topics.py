@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from builtin_interfaces.msg import Time
 import numpy as np
+import numpy.typing as npt
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data, QoSProfile
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, LaserScan, NavSatFix
@@ -173,7 +174,7 @@ def new_camera_info(frame: str, focal_length_px: float) -> CameraInfo:
     return message
 
 
-def new_image(frame: str, pixels: np.ndarray, stamp: Time) -> Image:
+def new_image(frame: str, pixels: npt.NDArray[np.uint8], stamp: Time) -> Image:
     """Make a picture."""
     message = Image(
         width=camera.WIDTH, height=camera.HEIGHT, encoding='rgb8', step=3 * camera.WIDTH

@@ -127,7 +127,7 @@ class Lidar:
             for part in self._parts:
                 self._leave_only(geoms[part.meets(bearings_rad, wide_rad)])
                 self._cast(origin, vectors, part.beams)
-        ranges = self._distances
+        ranges: Array = self._distances
         if self._noise is not None:
             ranges = ranges + self._noise.sample(period_sec)
         missed = np.logical_or(self._hits < 0, ranges > RANGE_MAX_M)

@@ -30,7 +30,7 @@ class History:
 
     def clear(self) -> None:
         """Begin a new run."""
-        self.points = np.zeros((0, 3))
+        self.points: Array = np.zeros((0, 3))
         self._step_sec = STEP_SEC
 
     def add(self, time_sec: Array, speed_m_s: Array, off_m: Callable[[int], float]) -> None:
