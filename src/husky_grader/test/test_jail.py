@@ -325,12 +325,22 @@ def test_an_unknown_sandbox_is_refused(tmp_path: Path) -> None:
         Limits(tasks=0)
 
 
+@pytest.mark.parametrize(
+    ('restricted', 'advice'),
+    [
+        ('0', 'install bubblewrap 0.8 or newer, or podman (Ubuntu, Debian: '),
+        ('1', 'install podman (sudo apt install podman), or allow namespaces to all programs: '),
+    ],
+)
 def test_a_machine_without_a_sandbox_is_told_what_to_install(
-    monkeypatch: pytest.MonkeyPatch,
+    restricted: str, advice: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    setting = tmp_path / 'apparmor_restrict_unprivileged_userns'
+    setting.write_text(f'{restricted}\n')
+    monkeypatch.setattr('husky_grader.jail.find._RESTRICTED', setting)
     monkeypatch.setenv('PATH', '')
     with pytest.raises(NoSandbox) as refused:
         find_sandbox()
     assert 'unshare' in str(refused.value)
-    assert 'sudo apt install' in str(refused.value)
+    assert f'); {advice}' in str(refused.value)
     assert '\n' not in str(refused.value)

@@ -70,5 +70,9 @@ def _advice() -> str:
         'install bubblewrap 0.8 or newer, or podman (Ubuntu, Debian: sudo apt install podman)'
     )
     if _RESTRICTED.is_file() and _RESTRICTED.read_text().strip() != '0':
-        install += f', or allow namespaces to all programs: echo 0 | sudo tee {_RESTRICTED}'
+        # Ubuntu 24.04 lets podman make namespaces, and bubblewrap not.
+        install = (
+            'install podman (sudo apt install podman), or allow namespaces to all programs: '
+            f'echo 0 | sudo tee {_RESTRICTED}'
+        )
     return f'{install}; --sandbox none runs what was handed in with all your rights'
