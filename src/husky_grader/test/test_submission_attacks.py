@@ -229,11 +229,13 @@ CASES: dict[str, tuple[Callable[[], bytes], str]] = {
     'wrong size': (zip_with_a_wrong_size, BROKEN),
     'size below 0': (
         lambda: tar_of()[:512] + raw_tar_header(b'a', b'\xff' * 10 + b'\0\0', b'0') + b'\0' * 2048,
-        BROKEN,  # since CVE-2025-8194 was mended, tarfile takes it for no header
+        # Since CVE-2025-8194 was mended, tarfile takes it for no header.
+        r'broken or incomplete( \(a size below 0\))?; pack and hand it in again',
     ),
     'endless header': (
         lambda: raw_tar_header(b'a', b'77777777777\0', b'x') + b'1' * 100_000,
-        r'a header of \d+ bytes; pack it again, with zip',  # or what Python reads of it at once
+        # Python 3.14 asks for no more than the second at once.
+        'a header of (8589934592|1048576) bytes; pack it again, with zip',
     ),
     'rare method': (
         lambda: zip_of()[:0] + lzma_zip(),
