@@ -11,9 +11,11 @@ import time
 
 from geometry_msgs.msg import Point, Pose, PoseArray, PoseStamped
 from husky_sim.scene_topic import QOS as SCENE_QOS
+from husky_view.gate.front_page import NO_WEBGL
 from husky_view.live.links import LATCHED
 from nav_msgs.msg import Path
-from playpen_testing.browser import button, errors, number, wait_for
+from playpen_testing import chromium
+from playpen_testing.browser import button, errors, FLAGS, launch, number, wait_for
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 from playwright.sync_api import Browser, Error, expect, Page
@@ -78,6 +80,15 @@ def test_the_first_picture_of_the_scene_is_whole_but_for_its_letters(lab: Lab) -
     assert drawn[0] >= max(drawn) - 3, f'{drawn}: parts came later'
     assert drawn[0] < 30, 'it takes long where a processor draws'
     page.close()
+
+
+@pytest.mark.timeout(120)
+def test_a_browser_that_draws_nothing_in_3d_is_told_what_to_do(lab: Lab) -> None:
+    program = chromium.find_or_install()
+    with launch(lab.browser.browser_type, program, [*FLAGS, '--disable-3d-apis']) as browser:
+        page = browser.new_page()
+        page.goto(lab.address, wait_until='commit')
+        expect(page.get_by_text(NO_WEBGL)).to_be_visible(timeout=30_000)
 
 
 @pytest.mark.timeout(120)

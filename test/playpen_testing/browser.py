@@ -3,7 +3,7 @@
 """The view's page in a real browser without a screen, driven by Playwright."""
 
 import base64
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 import io
 import os
@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
-from playwright.sync_api import Browser, expect, Locator, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserType, expect, Locator, Page, sync_playwright
 
 from playpen_testing.chromium import Program
 from playpen_testing.waiting import wait_until
@@ -62,15 +62,15 @@ Place = tuple[float, float]
 @contextmanager
 def start_browser(program: Program) -> Iterator[Browser]:
     """Start a browser; it ends with this process, however that ends."""
+    with sync_playwright() as playwright, launch(playwright.chromium, program, FLAGS) as browser:
+        yield browser
+
+
+def launch(chromium: BrowserType, program: Program, flags: Sequence[str]) -> Browser:
     # The libraries of the ROS wheels must not get into the browser.
     environment = {k: v for k, v in os.environ.items() if k != 'LD_LIBRARY_PATH'}
-    with (
-        sync_playwright() as playwright,
-        playwright.chromium.launch(
-            executable_path=program.path, env={**environment, **program.environment}, args=FLAGS
-        ) as browser,
-    ):
-        yield browser
+    environment.update(program.environment)
+    return chromium.launch(executable_path=program.path, env=environment, args=flags)
 
 
 def open_page(

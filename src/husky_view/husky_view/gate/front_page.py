@@ -10,6 +10,11 @@ import viser
 
 LOADING = 'Loading the scene ...'
 LATE = 'Nothing comes. Does the program that served this page still run? Its terminal says more.'
+NO_WEBGL = (
+    'This browser draws nothing in 3D here: it has no WebGL. Firefox has it on most desktops, '
+    'also without a graphics processor; Chrome and Chromium need one, or '
+    'chrome://flags/#ignore-gpu-blocklist set to Enabled.'
+)
 LOST = (
     'This has ended. If a replay of it follows, that opens here by itself; a new start has an '
     'address of its own.'
@@ -40,7 +45,12 @@ _STYLE = """
 _SCRIPT = """
 const cover = document.getElementById('husky-waiting'), words = cover.lastElementChild;
 const told = TOLD;
-let since = performance.now();
+let since = performance.now(), draws;
+const canDraw = () => {
+  const drawing = document.createElement('canvas').getContext('webgl2');
+  drawing?.getExtension('WEBGL_lose_context')?.loseContext();
+  return drawing !== null;
+};
 const say = (text, lost) => {
   cover.classList.toggle('lost', lost);
   cover.hidden = !text;
@@ -54,6 +64,8 @@ setInterval(() => {
   const waits = now - since;
   if (connected || (panel && waits < 1500)) say('', false);
   else if (panel) say(told.lost, true);
+  else if (waits < 2000) say(told.loading, false);
+  else if (!(draws ??= canDraw())) say(told.noWebgl, false);
   else say(waits < 10000 ? told.loading : told.late, false);
 }, 100);
 """
@@ -67,7 +79,7 @@ def front_page(title: str) -> bytes:
     gone, by which that is found out.
     """
     file = Path(viser.__file__).parent / 'client' / 'build' / 'index.html'
-    words = json.dumps({'loading': LOADING, 'late': LATE, 'lost': LOST})
+    words = json.dumps({'loading': LOADING, 'noWebgl': NO_WEBGL, 'late': LATE, 'lost': LOST})
     cover = (
         f'<div id="husky-waiting"><b>{escape(title)}</b><span>{LOADING}</span></div>'
         f'<script>(() => {{{_SCRIPT.replace("TOLD", words)}}})();</script>'
