@@ -69,8 +69,9 @@ def start_browser(program: Program) -> Iterator[Browser]:
 def launch(chromium: BrowserType, program: Program, flags: Sequence[str]) -> Browser:
     # The libraries of the ROS wheels must not get into the browser.
     environment = {k: v for k, v in os.environ.items() if k != 'LD_LIBRARY_PATH'}
-    environment.update(program.environment)
-    return chromium.launch(executable_path=program.path, env=environment, args=flags)
+    return chromium.launch(
+        executable_path=program.path, env={**environment, **program.environment}, args=flags
+    )
 
 
 def open_page(
