@@ -193,6 +193,23 @@ def test_odometry_that_ends_is_given_up_with_a_message(
     assert plant_node.received[-1] == (0.0, 0.0)
 
 
+def test_the_time_in_which_it_is_stopped_itself_is_no_silence(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    """As Ctrl-Z does it, or a computer that is put to sleep: its simulator sleeps, too."""
+    plant_node.answered = 50
+    process = follow_path('--waypoints', course, '--ros-args', '-p', 'odometry_timeout_sec:=2.0')
+    wait_until(lambda: len(plant_node.received) >= 50, timeout_sec=15, what='50 commands')
+    process.send_signal(signal.SIGSTOP)
+    time.sleep(2.5)
+    process.send_signal(signal.SIGCONT)
+    time.sleep(0.2)  # it looks whether it is late before it hears anything
+    plant_node.answered = math.inf
+    plant_node.publish()
+    output, _ = process.communicate(timeout=60)
+    assert process.returncode == 0, output
+
+
 def test_without_a_simulator_it_gives_up_with_a_reason(
     follow_path: Any, course: Path, domain: int
 ) -> None:

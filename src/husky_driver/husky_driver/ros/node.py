@@ -86,7 +86,7 @@ class FollowPath(Node):
         self._paused = False
         scan = self.settings.topics.scan
         self._obstacles = ObstacleStop(scan) if self.settings.scan else None
-        self._begun_sec = self._received_sec = time.monotonic()
+        self._silent_ticks = 0  # of the timer: while this process sleeps too, nothing is late
         self._imu: Subscription | None = None
         self._imu_wait = ImuWait()
         self._commands = Commands(self, self.settings.topics)
@@ -139,7 +139,7 @@ class FollowPath(Node):
             return
         self._pending = None
         self._last_stamp = stamp
-        self._received_sec = time.monotonic()
+        self._silent_ticks = 0
         odometry = self._relative(read_odometry(msg))
         if what := no_rotation(msg.pose.pose.orientation):
             self._drive.refuse_odometry(what)
@@ -273,21 +273,22 @@ class FollowPath(Node):
 
     def _on_tick(self) -> None:
         """Show progress, wait, and give up when no odometry comes."""
-        now = time.monotonic()
         if self.finished.done():
             return
+        self._silent_ticks += 1
         if self._pending is not None and self._exit_code is None:
             self._on_odometry(self._pending)
+        silent_sec = self._silent_ticks * TICK_SEC
         if self._exit_code is not None:
             gone = self._commands.publisher.get_subscription_count() == 0
-            if gone or now > self._stop_deadline_sec:
+            if gone or time.monotonic() > self._stop_deadline_sec:
                 self._finish(self._exit_code)
-            elif now - self._received_sec > TICK_SEC:
+            elif self._silent_ticks > 1:
                 self._publish(0.0, 0.0)
         elif self._last_stamp == NO_STAMP:
-            self._wait(now - self._begun_sec)
-        elif now - self._received_sec > self.settings.odometry_timeout_sec:
-            self.stop(GAVE_UP, f'gave up: {self._silence(now - self._received_sec)}')
+            self._wait(silent_sec)
+        elif silent_sec > self.settings.odometry_timeout_sec:
+            self.stop(GAVE_UP, f'gave up: {self._silence(silent_sec)}')
         else:
             drive = self._drive
             self._display.update()
