@@ -12,11 +12,18 @@ ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = ['src', 'underlay', 'test', 'benchmark']
 
 
-def python_files() -> list[Path]:
-    tracked = subprocess.run(
-        ['git', 'ls-files', '*.py'], cwd=ROOT, check=True, capture_output=True, text=True
+MOST_BYTES = 400_000  # the largest picture of docs has 330 000
+
+
+def tracked(*patterns: str) -> list[Path]:
+    listed = subprocess.run(
+        ['git', 'ls-files', *patterns], cwd=ROOT, check=True, capture_output=True, text=True
     )
-    return [ROOT / line for line in tracked.stdout.splitlines()]
+    return [ROOT / line for line in listed.stdout.splitlines()]
+
+
+def python_files() -> list[Path]:
+    return tracked('*.py')
 
 
 @pytest.mark.parametrize('command', ['check', 'format --check'])
@@ -65,3 +72,9 @@ def test_every_file_names_its_licence() -> None:
 def test_no_module_is_longer_than_500_lines() -> None:
     long = [str(path) for path in python_files() if len(path.read_text().splitlines()) > 500]
     assert long == []
+
+
+def test_the_repository_holds_no_archives_and_nothing_large() -> None:
+    archives = tracked('*.whl', '*.zip', '*.gz', '*.xz', '*.bz2', '*.deb')
+    large = [path for path in tracked() if path.is_file() and path.stat().st_size > MOST_BYTES]
+    assert [*archives, *large] == []
