@@ -12,7 +12,7 @@ import time
 
 from geometry_msgs.msg import Twist, TwistStamped
 from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons, reasons_of_graph
-from husky_grader.run.graph import read_graph
+from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
 from husky_grader.run.watcher import GraphWatcher
 from husky_runtime.children import ChildProcess
@@ -247,6 +247,23 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
     wait_for(lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, 'the graph')
     assert tuple(reasons_of_graph(graph())) == ()
     del kept
+
+
+def test_fields_are_compared_with_what_the_node_itself_listens_to(nodes: list[Node]) -> None:
+    program, simulator, grader = nodes
+    kept = [
+        program.create_publisher(Twist, COMMAND_TOPIC, 10),
+        simulator.create_subscription(Odometry, COMMAND_TOPIC, take, 10),
+    ]
+    wait_for(lambda: grader.count_publishers(COMMAND_TOPIC), 'the publisher')
+    wait_for(lambda: grader.count_subscribers(COMMAND_TOPIC), 'a subscription of another')
+    twist = 'geometry_msgs/msg/Twist'
+    assert not has_other_fields(grader, COMMAND_TOPIC, twist), 'it listens to nothing yet'
+    kept.append(grader.create_subscription(Odometry, COMMAND_TOPIC, take, 10))
+    wait_for(lambda: has_other_fields(grader, COMMAND_TOPIC, twist), 'the fields of Odometry')
+    grader.destroy_subscription(kept.pop())
+    kept.append(grader.create_subscription(Twist, COMMAND_TOPIC, take, 10))
+    wait_for(lambda: not has_other_fields(grader, COMMAND_TOPIC, twist), 'the same fields')
 
 
 def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:

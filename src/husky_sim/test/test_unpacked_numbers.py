@@ -42,7 +42,13 @@ def test_of_another_byte_order_too(values: list[float]) -> None:
     assert [*map(repr, READ(data))] == [repr(values[0]), repr(values[5])]
 
 
-@given(data=st.binary(max_size=60))
+@pytest.mark.parametrize('count', range(4))
+def test_less_than_a_header_is_refused(count: int) -> None:
+    with pytest.raises(RuntimeError):
+        READ(bytes(count))
+
+
+@given(data=st.binary(min_size=4, max_size=60))
 def test_what_the_middleware_refuses_is_refused(data: bytes) -> None:
     try:
         message = deserialize_message(data, Twist)

@@ -26,7 +26,6 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
-from rclpy.type_hash import TypeHash
 from rosidl_runtime_py.utilities import get_message, get_service
 
 from husky_grader.lab.file_steps import asked
@@ -44,7 +43,7 @@ from husky_grader.rubric.steps import (
     SubscriberStep,
 )
 from husky_grader.run.diagnosis import Graph, nearest, unheard_topics
-from husky_grader.run.graph import read_graph
+from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import limit_memory
 
@@ -64,7 +63,6 @@ HEARD_BY_ALL = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 
-_NO_HASH = str(TypeHash())  # of a publisher whose DDS tells none
 _LOGGED_AT = re.compile(r'\[\d+\.\d+\] ')  # the time of a logger's line
 
 Over = Callable[[], bool]
@@ -222,17 +220,11 @@ def _driven(robot: Robot, observer: _Observer) -> str:
 
 def _other_fields(step: PublisherStep, node: Node) -> str:
     """Return that a publisher's type has the name that is asked for, and other fields."""
-    fitting = {_NO_HASH} | {
-        str(each.topic_type_hash)
-        for each in node.get_subscriptions_info_by_topic(step.topic)
-        if each.node_name == NAME
-    }
-    for each in node.get_publishers_info_by_topic(step.topic):
-        if each.topic_type == step.type and str(each.topic_type_hash) not in fitting:
-            fields = get_message(step.type).get_fields_and_field_types().items()
-            asked_for = ', '.join(f'{name} ({kind})' for name, kind in fields)
-            return f'its {step.type} has other fields; {asked(asked_for)}'
-    return ''
+    if not has_other_fields(node, step.topic, step.type):
+        return ''
+    fields = get_message(step.type).get_fields_and_field_types().items()
+    asked_for = ', '.join(f'{name} ({kind})' for name, kind in fields)
+    return f'its {step.type} has other fields; {asked(asked_for)}'
 
 
 def _why_silent(step: PublisherStep, graph: Graph) -> str:

@@ -7,8 +7,11 @@ from typing import Any
 
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.type_hash import TypeHash
 
 from husky_grader.run.diagnosis import Endpoint, Graph
+
+_NO_HASH = str(TypeHash())  # of a publisher whose DDS tells none
 
 
 def read_graph(node: Node, ours: Collection[str]) -> Graph:
@@ -27,6 +30,24 @@ def read_graph(node: Node, ours: Collection[str]) -> Graph:
             if info.node_name not in ours:
                 subscriptions.append(_endpoint(topic, info))
     return Graph(tuple(publishers), tuple(subscriptions), tuple(others))
+
+
+def has_other_fields(node: Node, topic: str, type_name: str) -> bool:
+    """
+    Tell whether a publisher's type has the name of a type, and other fields.
+
+    It is compared with what the node itself listens to. A middleware may show a node its own new
+    subscription after the publishers of others (Cyclone DDS does): so long, nothing is told.
+    """
+    hashes_here = {
+        str(each.topic_type_hash)
+        for each in node.get_subscriptions_info_by_topic(topic)
+        if each.node_name == node.get_name()
+    }
+    return bool(hashes_here) and any(
+        each.topic_type == type_name and str(each.topic_type_hash) not in {_NO_HASH, *hashes_here}
+        for each in node.get_publishers_info_by_topic(topic)
+    )
 
 
 def _endpoint(topic: str, info: Any) -> Endpoint:

@@ -45,6 +45,8 @@ def reader_of(kind: Any, *paths: str) -> Callable[[bytes], Numbers]:
     def read(data: bytes) -> Numbers:
         if len(data) == layout.size and data[:2] == HEADER[:2]:
             return layout.unpack(data)
+        if len(data) < len(HEADER):  # Cyclone DDS reads on behind the end
+            raise RuntimeError(f'{len(data)} bytes are no message')
         message = deserialize_message(data, kind)
         return tuple(number_of(message) for number_of in numbers_of)
 
