@@ -250,6 +250,7 @@ def _grade_record(options: argparse.Namespace) -> int:
 def _grade_controller(options: argparse.Namespace) -> int:
     from husky_grader.jail import find_sandbox, Jail
     from husky_grader.run.live import drive_live  # rclpy and the simulator take their time
+    from husky_grader.run.standstill import undisturbed
 
     begun, folder = time.monotonic(), Path(options.report)
     waypoints = options.waypoints or str(default_course())
@@ -259,18 +260,20 @@ def _grade_controller(options: argparse.Namespace) -> int:
         Jail(find_sandbox('none'), folder / 'controller') as jail,
         WaypointTally(len(route.course.stops) - 1) as tally,
     ):
-        live = drive_live(
-            options.controller,
-            waypoints,
-            folder,
-            jail,
-            world=options.world,
-            interface=options.interface,
-            answers=_answer_lines(options.answers),
-            environment=os.environ,
-            start_in=Path.cwd(),
-            real_time_factor=options.real_time_factor,
-            on_progress=tally.show,
+        live = undisturbed(
+            lambda: drive_live(
+                options.controller,
+                waypoints,
+                folder,
+                jail,
+                world=options.world,
+                interface=options.interface,
+                answers=_answer_lines(options.answers),
+                environment=os.environ,
+                start_in=Path.cwd(),
+                real_time_factor=options.real_time_factor,
+                on_progress=tally.show,
+            )
         )
     run = read_run(live.record)
     report = live.with_notes(judge(run, route, wall_time_sec=time.monotonic() - begun))

@@ -5,10 +5,9 @@ Which odometry has to wait for the IMU.
 
 What is learned from the IMU changes the commands. So that the same run gives the same commands,
 however late a reading is delivered, an odometry is answered when the readings have come that count
-for it. Where a robot has no IMU, or has lost a reading, nobody waits for long.
+for it. Where a robot has no IMU, or has lost a reading, nobody waits for long. Time is counted in
+ticks of the node's timer, which stands still when the computer does.
 """
-
-from time import monotonic
 
 from husky_driver.drive.motion_estimate import LAG_SEC, SAME_SEC
 
@@ -18,12 +17,22 @@ LOST_SEC = 0.2  # later: then a reading is lost
 
 
 class ImuWait:
-    """Says for each odometry whether to wait; times are those of stamps, in seconds."""
+    """
+    Says for each odometry whether to wait; times are those of stamps, in seconds.
 
-    def __init__(self) -> None:
+    :param tick_sec: wall time between two calls of `tick`.
+    """
+
+    def __init__(self, tick_sec: float) -> None:
+        self._tick_sec = tick_sec
         self._newest_sec: float | None = None
         self._given_up = False
-        self._since_sec: float | None = None  # wall time
+        self._ticks: int | None = None  # since it waits; None: it does not
+
+    def tick(self) -> None:
+        """Take note of the passing of time."""
+        if self._ticks is not None:
+            self._ticks += 1
 
     def saw(self, time_sec: float) -> None:
         """Take note of a reading; after a reset its time may lie before the last."""
@@ -40,12 +49,11 @@ class ImuWait:
         counting_sec = time_sec - (0.0 if first else LAG_SEC) - SAME_SEC
         come = self._newest_sec is not None and self._newest_sec >= counting_sec
         if come or self._given_up:
-            self._since_sec = None
+            self._ticks = None
             return False
-        now = monotonic()
-        self._since_sec = now if self._since_sec is None else self._since_sec
+        self._ticks = 0 if self._ticks is None else self._ticks
         limit_sec = (START_SEC if publishers else NOBODY_SEC) if first else LOST_SEC
-        self._given_up = now - self._since_sec > limit_sec
+        self._given_up = self._ticks * self._tick_sec >= limit_sec
         return not self._given_up
 
     @property

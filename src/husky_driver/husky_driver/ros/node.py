@@ -88,7 +88,7 @@ class FollowPath(Node):
         self._obstacles = ObstacleStop(scan) if self.settings.scan else None
         self._silent_ticks = 0  # of the timer: while this process sleeps too, nothing is late
         self._imu: Subscription | None = None
-        self._imu_wait = ImuWait()
+        self._imu_wait = ImuWait(TICK_SEC)
         self._commands = Commands(self, self.settings.topics)
         self._odometry = self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -276,6 +276,7 @@ class FollowPath(Node):
         if self.finished.done():
             return
         self._silent_ticks += 1
+        self._imu_wait.tick()
         if self._pending is not None and self._exit_code is None:
             self._on_odometry(self._pending)
         silent_sec = self._silent_ticks * TICK_SEC

@@ -29,6 +29,7 @@ from husky_grader.rubric.steps import (
 )
 from husky_grader.run.diagnosis import shortened
 from husky_grader.run.printed import read_printed, shown
+from husky_grader.run.standstill import undisturbed
 
 BUILT = 'built'
 MAX_WHY = 1000  # characters
@@ -103,8 +104,8 @@ class _Grading:
     def find(self, step: Step) -> Finding:
         """Return the finding on a step, with what was printed meanwhile."""
         log = self._folder / f'{step.file_name}.log'
-        log.unlink(missing_ok=True)  # that of a former grading
-        found, printed = self._found(step, log), shown(read_printed(log))
+        found = undisturbed(lambda: self._found(step, log))
+        printed = shown(read_printed(log))
         # Where the grader keeps what was handed in is nobody's business, and nowhere the same.
         place = f'{self._folder}/'
         defects = {name: why.replace(place, '') for name, why in found.defects.items()}
@@ -112,6 +113,7 @@ class _Grading:
         return replace(found, why=why, defects=defects, printed=printed.replace(place, ''))
 
     def _found(self, step: Step, log: Path) -> Finding:
+        log.unlink(missing_ok=True)  # that of a former try
         if isinstance(step, WorkspaceStep):
             return workspace_step(step, self._workspace)
         if isinstance(step, PackageStep):

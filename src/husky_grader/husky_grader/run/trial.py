@@ -36,7 +36,7 @@ from husky_grader.run.trusted import limit_memory
 from husky_grader.run.watcher import GraphWatcher
 
 LOOK_SEC = 0.5  # wall time between two looks at the graph, and two times of telling
-HOPELESS_SEC = 3.0  # wall time: so long a mistake on the graph must be seen
+HOPELESS_LOOKS = 7  # so many in a row must see a mistake on the graph
 
 
 class TrialRun:
@@ -101,7 +101,7 @@ class TrialRun:
 
     def _on_look(self) -> None:
         self._graph.look()
-        if not self._referee.started and self._graph.unheard_sec() > HOPELESS_SEC:
+        if not self._referee.started and self._graph.unheard_looks >= HOPELESS_LOOKS:
             self._end('its commands cannot be heard')
         self._tell()
 

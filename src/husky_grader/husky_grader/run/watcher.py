@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Watches the graph of a live run for why the controller cannot hear, or be heard."""
 
-import time
-
 from rclpy.node import Node
 
 from husky_grader.run.diagnosis import Endpoint, Graph, reasons_of_graph, unheard_commands
@@ -16,7 +14,7 @@ class GraphWatcher:
     def __init__(self, node: Node, interface: str) -> None:
         self._node = node
         self._interface = interface
-        self._unheard_since_sec: float | None = None
+        self.unheard_looks = 0  # so many of the last ones have found commands that are not heard
         self._there: set[tuple[str, Endpoint]] = set()
         self.reasons: list[str] = []
 
@@ -32,15 +30,8 @@ class GraphWatcher:
         if not self._there or self._there < before:
             return
         self.reasons = reasons_of_graph(graph, self._interface)
-        if not any(unheard_commands(graph, self._interface)):
-            self._unheard_since_sec = None
-        elif self._unheard_since_sec is None:
-            self._unheard_since_sec = time.monotonic()
-
-    def unheard_sec(self) -> float:
-        """Return for how long every look has found commands that cannot be heard."""
-        since = self._unheard_since_sec
-        return 0.0 if since is None else time.monotonic() - since
+        unheard = any(unheard_commands(graph, self._interface))
+        self.unheard_looks = self.unheard_looks + 1 if unheard else 0
 
 
 def _program_in(graph: Graph) -> set[tuple[str, Endpoint]]:
