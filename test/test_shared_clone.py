@@ -1,0 +1,53 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A clone that its users may only read, as one that is there for all of a computer."""
+
+from pathlib import Path
+import shutil
+
+from playpen_testing.processes import Process, Processes
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+# Shown to these processes alone, and not to be written, not even by root.
+READ_ONLY = 'mount --bind "$0" "$0" && mount -o remount,ro,bind "$0" && exec "$@"'
+
+
+def start_reading(processes: Processes, clone: Path, *words: str) -> Process:
+    mounted = ('unshare', '--mount', 'bash', '-c', READ_ONLY, str(clone))
+    return processes.start(*mounted, str(clone / 'lab'), *words)
+
+
+def test_a_student_drives_and_grades(processes: Processes, short_course: Path, home: Path) -> None:
+    drive = ('drive', str(short_course), '--fast', '--no-view')
+    drives = start_reading(processes, ROOT, *drive)
+    assert drives.wait(timeout_sec=60.0) == 0, drives.output
+    assert (home / 'report' / 'report.html').is_file()
+    grades = start_reading(processes, ROOT, 'grade', str(short_course), '--report', 'graded')
+    assert grades.wait(timeout_sec=60.0) == 0, grades.output
+
+
+@pytest.mark.usefixtures('home')
+def test_a_student_builds_a_package_and_runs_it(processes: Processes) -> None:
+    steps = (
+        'ros2 pkg create small --build-type ament_python --node-name hello',
+        'colcon build',
+        'source install/setup.bash',
+        'ros2 run small hello',
+    )
+    built = start_reading(processes, ROOT, 'exec', 'bash', '-c', ' && '.join(steps))
+    assert built.wait(timeout_sec=60.0) == 0, built.output
+    assert 'Hi from small.' in built.lines
+
+
+def test_what_it_lacks_is_left_to_its_owner(processes: Processes, tmp_path: Path) -> None:
+    clone = tmp_path / 'clone'
+    for folder in ('requirements', 'underlay'):
+        shutil.copytree(ROOT / folder, clone / folder)
+    shutil.copy(ROOT / 'lab', clone)
+    (clone / '.lab.lock').touch()
+    refused = start_reading(processes, clone, 'exec', 'true')
+    assert refused.wait() == 2, refused.output
+    (line,) = refused.lines
+    assert line.startswith(f'lab: cannot write in {clone}, and it is not set up for this (ROS: ')
+    assert f"let its owner call '{clone}/lab exec true', or clone the lab" in line
