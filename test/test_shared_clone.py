@@ -45,7 +45,6 @@ def test_what_it_lacks_is_left_to_its_owner(processes: Processes, tmp_path: Path
     for folder in ('requirements', 'underlay'):
         shutil.copytree(ROOT / folder, clone / folder)
     shutil.copy(ROOT / 'lab', clone)
-    (clone / '.lab.lock').touch()
     refused = start_reading(processes, clone, 'exec', 'true')
     assert refused.wait() == 2, refused.output
     (line,) = refused.lines
