@@ -152,6 +152,17 @@ def test_a_pause_of_a_publisher_does_not_change_its_rate(
     assert set(found.defects) == defects, found
 
 
+def test_the_largest_float32_is_heard(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('ROS_PYTHON_CHECK_FIELDS', '1')
+    assert isinstance(PUBLISHES, PublisherStep)
+    program = PUBLISHER % (sys.executable, 'topic_test', 0.1)
+    program = program.replace('String', 'Float32').replace(
+        "f'hello world {time.time()}'", '3.4028234e38'
+    )
+    step = replace(PUBLISHES, type='std_msgs/msg/Float32', content=())
+    assert found_of(step, tmp_path, program).score == 100.0
+
+
 def test_a_rate_in_doubt_is_listened_to_for_longer(tmp_path: Path) -> None:
     assert isinstance(PUBLISHES, PublisherStep)
     program = PUBLISHER % (sys.executable, 'topic_test', 0.1)

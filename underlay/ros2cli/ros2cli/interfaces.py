@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import os
 from typing import Any
 
 from ros2_diagnosis import nearest, packages
@@ -14,6 +16,7 @@ import yaml
 
 from ros2cli.errors import CommandError
 
+_CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
 _EXAMPLES = {'message': ', as std_msgs/msg/String', 'service': ', as std_srvs/srv/Empty'}
 
 
@@ -85,10 +88,29 @@ def populate(
         raise CommandError(f'Failed to populate {told}: {error}') from None
 
 
+@contextmanager
+def unchecked() -> Iterator[None]:
+    """Import messages that do not check their fields.
+
+    The check refuses the largest float32, which may well be received. What is sent is checked by
+    `populate`.
+    """
+    before = os.environ.get(_CHECK_FIELDS)
+    os.environ[_CHECK_FIELDS] = '0'
+    try:
+        yield
+    finally:  # what a verb starts, a node as any, has its own check
+        if before is None:
+            del os.environ[_CHECK_FIELDS]
+        else:
+            os.environ[_CHECK_FIELDS] = before
+
+
 def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> Any:
     package, last = name.partition('/')[0], name.rpartition('/')[2]
     try:
-        return get(name)
+        with unchecked():
+            return get(name)
     except ValueError as error:
         example = _EXAMPLES.get(what, '')
         raise CommandError(f'The passed {what} type is invalid: {error}{example}') from None

@@ -22,6 +22,8 @@ from rosidl_runtime_py.import_message import import_message_from_namespaced_type
 _SEQUENCES = (list, tuple, array.array, numpy.ndarray, bytes, bytearray)
 _HEADER = (('std_msgs', 'msg'), 'Header')
 _TIME = (('builtin_interfaces', 'msg'), 'Time')
+_FLOAT32_END = 3.402823466e38
+"""Where the check that rosidl generates ends: below the largest float32, by rounding."""
 
 
 def set_message_fields(
@@ -183,9 +185,14 @@ def _float(value: Any, typename: str, path: str) -> float:
         raise _refusal(value)(f"{path}: '{value}' is refused, expected a number")
     if typename == 'float' and math.isfinite(number):
         try:
-            struct.pack('<f', number)
+            sent: float = struct.unpack('<f', struct.pack('<f', number))[0]
         except OverflowError:
             raise ValueError(f'{path}: {number} does not fit a float32') from None
+        if abs(sent) > _FLOAT32_END:
+            raise ValueError(
+                f'{path}: {number} is refused: a node that checks fields fails on a float32 '
+                f'beyond {_FLOAT32_END}'
+            )
     return number
 
 

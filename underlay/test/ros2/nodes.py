@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import struct
 import sys
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
+import numpy
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -17,7 +19,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.service_introspection import ServiceIntrospectionState
 from rosgraph_msgs.msg import Clock
-from std_msgs.msg import String
+from std_msgs.msg import Float32, String
 from std_srvs.srv import SetBool
 
 BEST_EFFORT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -43,6 +45,11 @@ def listener(node: Node) -> None:
 
 def latched(node: Node) -> None:
     node.create_publisher(String, 'latched', LATCHED).publish(String(data='once'))
+
+
+def widest(node: Node) -> None:
+    largest = b'\x00\x01\x00\x00' + struct.pack('<f', numpy.finfo(numpy.float32).max)
+    node.create_publisher(Float32, 'widest', LATCHED).publish(largest)
 
 
 def best_effort(node: Node) -> None:

@@ -18,6 +18,7 @@ def world(shared_processes: Any) -> Any:
     shared_processes.node('talker', 'talker')
     shared_processes.node('latched', 'latched')
     shared_processes.node('stamped', 'stamped')
+    shared_processes.node('widest', 'widest')
     return shared_processes
 
 
@@ -32,6 +33,13 @@ def test_echo_prints_messages_as_yaml(ros2: Callable[..., Any]) -> None:
 @pytest.mark.usefixtures('world')
 def test_echo_hears_what_was_said_before_it_came(ros2: Callable[..., Any]) -> None:
     assert ros2('topic', 'echo', '--once', '/latched').lines == ['data: once', '---']
+
+
+@pytest.mark.usefixtures('world')
+@pytest.mark.parametrize('kind', [[], ['std_msgs/msg/Float32']])
+def test_echo_shows_the_largest_float32(ros2: Callable[..., Any], kind: list[str]) -> None:
+    answer = ros2('topic', 'echo', '--once', '/widest', *kind)
+    assert answer.lines == ['data: 3.4028234663852886e+38', '---']
 
 
 @pytest.mark.usefixtures('world')
@@ -161,6 +169,8 @@ def test_a_header_gets_the_time_when_it_asks_for_it(ros2: Callable[..., Any]) ->
         (('std_msgs/msg/String', 'data: [1'), 1, 'is no YAML'),
         (('std_msgs/msg/String', '5'), 1, 'needs to be a dictionary in YAML format'),
         (('std_msgs/msg/String', 'text: x'), 1, "no attribute 'text'; its fields are data"),
+        (('std_msgs/msg/Float32', 'data: 1e39'), 1, '1e+39 does not fit a float32'),
+        (('std_msgs/msg/Float32', 'data: 3.4028235e38'), 1, '3.4028235e+38 is refused: a node'),
         (('std_msgs/msg/Int8', 'data: 300'), 1, '300 does not fit int8 (-128 to 127)'),
         (('std_msgs/msg/Bool', 'data: maybe'), 1, 'expected true or false'),
         (('geometry_msgs/msg/Twist', 'linear: 3'), 1, 'expected to be a dictionary'),

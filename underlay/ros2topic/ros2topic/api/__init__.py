@@ -7,7 +7,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from ros2cli import completion
+from ros2cli import completion, interfaces
 from ros2cli.arguments import positive_float, positive_int
 from rtps_graph.names import is_hidden
 
@@ -88,7 +88,8 @@ def _msg_class(node: Any, topic: str, *, include_hidden: bool) -> Any:
     if len(types) > 1:
         raise RuntimeError(f"topic '{topic}' has more than one type: {', '.join(types)}")
     try:
-        return get_message(types[0])
+        with interfaces.unchecked():
+            return get_message(types[0])
     except (AttributeError, ModuleNotFoundError, ValueError):
         raise RuntimeError(f"the type '{types[0]}' is not installed") from None
 
