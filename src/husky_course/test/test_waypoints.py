@@ -115,6 +115,22 @@ def test_a_mistake_is_refused_with_place_and_allowed_values(text: str, expected:
     assert any(expected in line for line in problems(text))
 
 
+@pytest.mark.parametrize('line_break', ['\n', '\r\n', '\r', '\x85', '\u2028', '\u2029'])
+@pytest.mark.parametrize(
+    ('lines', 'expected'),
+    [
+        (['speed: 0.5', 'loop true', 'waypoints:'], 'line 2, column 5: a colon is missing'),
+        (['speed: 0.5', 'waypoints: [[0, 0], [1, 0]', 'a: 1'], 'line 2, column 12: the [ has no'),
+        (['a:', 'b'], 'line 2, column 2: not valid YAML'),
+        (['speed: 0.5', 'title: \x07'], 'line 2, column 8: character U+0007 is not allowed'),
+    ],
+)
+def test_a_mistake_has_the_same_place_with_any_line_break(
+    line_break: str, lines: list[str], expected: str
+) -> None:
+    assert expected in problems(line_break.join(lines))[0]
+
+
 ITEMS = '  - [0, 0]\n  - [1, 0]\n'
 COURSE = f'waypoints:\n{ITEMS}'
 SAME = 'write both in the same column'
@@ -316,6 +332,9 @@ enormous = st.one_of(
 )
 documents = st.one_of(
     likely_courses,
+    st.tuples(likely_courses, st.sampled_from(['\r', '\x85', '\u2028']), st.text(max_size=4)).map(
+        lambda course: course[0].replace('\n', course[1]) + course[2]
+    ),
     enormous,
     st.text(),
     st.binary(),

@@ -26,6 +26,8 @@ ODD_SPACES = {
 }
 """Characters that look like a space, or like nothing, and are none to YAML."""
 
+_LINE_BREAK = re.compile('\r\n|[\n\r\x85\u2028\u2029]')  # YAML 1.1, 4.2: as the parser counts
+
 _FIELD = re.compile(r'([A-Za-z_]\w*)\s*:(?:\s|$)')
 _NO_SPACE = re.compile(r'([A-Za-z_]\w*):([^\s:/][^:]*)$')
 _NO_COLON = re.compile(r'([A-Za-z_]\w*)(?: *= *| +)([^\s:=][^:=]*)$')
@@ -78,9 +80,14 @@ def explain(error: yaml.MarkedYAMLError, text: str) -> Found | None:
     )
 
 
+def lines_of(text: str) -> list[str]:
+    """Return the lines as YAML has them; texts copied from elsewhere have odd line breaks."""
+    return _LINE_BREAK.split(text)
+
+
 def _lines(text: str) -> Iterator[Line]:
-    for number, line in enumerate(text.split('\n'), 1):
-        content = re.sub(r'(^|\s)#.*', '', line).strip(' \r')
+    for number, line in enumerate(lines_of(text), 1):
+        content = re.sub(r'(^|\s)#.*', '', line).strip(' ')
         if content:
             yield Line(number, len(line) - len(line.lstrip(' ')) + 1, content)
 
@@ -98,7 +105,7 @@ def odd_space(text: str) -> tuple[int, str] | None:
 
 
 def _odd_space(near: list[Line], text: str) -> Found | None:
-    all_lines = text.split('\n')
+    all_lines = lines_of(text)
     for line in near:
         if found := odd_space(all_lines[line.number - 1]):
             return line.number, found[0] + 1, f'{found[1]}; write plain spaces'
@@ -111,7 +118,7 @@ def _unclosed(error: yaml.MarkedYAMLError, text: str) -> Found | None:
     if error.context_mark is None or error.problem_mark is None:
         return None
     begin, end = error.context_mark, error.problem_mark
-    opened = text.split('\n')[begin.line][begin.column : begin.column + 1]
+    opened = lines_of(text)[begin.line][begin.column : begin.column + 1]
     if 'quoted scalar' in context:
         return begin.line + 1, begin.column + 1, f'the {opened} that begins here has no end'
     if opened in ('[', '{') and 'flow' in context:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import yaml
 
-from husky_course.checked_yaml.layout import explain
+from husky_course.checked_yaml.layout import explain, lines_of
 from husky_course.printable import printable
 
 MAX_BYTES = 100_000
@@ -124,7 +124,7 @@ def parse_yaml(text: str, name: str) -> Value:
     try:
         return _Builder(name).document(yaml.parse(text, Loader=yaml.SafeLoader))
     except yaml.reader.ReaderError as error:
-        lines = text[: error.position].split('\n')
+        lines = lines_of(text[: error.position])
         code = error.character if isinstance(error.character, int) else ord(error.character)
         message = f'character U+{code:04X} is not allowed; remove it'
         raise FileRefused(name, [Problem(len(lines), len(lines[-1]) + 1, '', message)]) from None
