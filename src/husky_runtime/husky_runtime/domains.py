@@ -156,12 +156,15 @@ def _holder(name: str) -> str:
         # struct ucred of socket(7): process, user, group.
         answer = asking.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize('3i'))
     process = struct.unpack('3i', answer)[0]
+    folder = Path('/proc', str(process))
     try:
-        words = Path(f'/proc/{process}/cmdline').read_bytes().split(b'\0')
+        words = (folder / 'cmdline').read_bytes().split(b'\0')
+        state = (folder / 'stat').read_bytes().rpartition(b') ')[2][:1]
     except OSError:
-        words = []
+        words, state = [], b''
     command = ' '.join(Path(word.decode(errors='replace')).name for word in words[:2])
-    return f'process {process} ({command})' if command else f'process {process}'
+    named = f'process {process} ({command})' if command else f'process {process}'
+    return f'{named}, stopped as by Ctrl-Z (`fg` continues it)' if state == b'T' else named
 
 
 def _has_participants(domain: int) -> bool:

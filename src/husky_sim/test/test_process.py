@@ -83,10 +83,15 @@ def test_a_second_simulator_is_refused_by_name(domain_id: int) -> None:
     try:
         find_line(first.stdout, 'real time')
         second = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
+        first.send_signal(signal.SIGSTOP)
+        third = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
     finally:
+        first.send_signal(signal.SIGCONT)
         first.send_signal(signal.SIGINT)
         first.communicate(timeout=10.0)
     assert second.returncode == 2
     (line,) = second.stderr.splitlines()
     assert f'another simulator runs in ROS domain {domain_id}: process {first.pid} ' in line
     assert 'export ROS_DOMAIN_ID=' in line
+    assert 'Ctrl-Z' not in line
+    assert 'stopped as by Ctrl-Z (`fg` continues it)' in third.stderr
