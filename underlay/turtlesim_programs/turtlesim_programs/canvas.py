@@ -48,7 +48,7 @@ class Canvas:
         than the line by half its width at each end, so that a way of many short lines has no gaps.
         A thin one has its ends and a pixel for each column, or for each row where it is steep.
         """
-        start, end = to_pixels(line.start), to_pixels(line.end)
+        start, end = _ordered(to_pixels(line.start), to_pixels(line.end))
         draw = self._draw_thin if line.pen.width == _THIN else self._draw_wide
         red, green, blue = line.pen.colour
         draw(start, end, line.pen.width, np.uint32(_OPAQUE | red << 16 | green << 8 | blue))
@@ -77,14 +77,18 @@ class Canvas:
         cos, sin = (
             ((end[0] - start[0]) / length, (end[1] - start[1]) / length) if length else (1.0, 0.0)
         )
-        along = x * cos + y * sin
-        # Downwards or to the right, and the one edge in and the other out: a line between two
-        # rows is as wide as any, and the same drawn back.
-        side = 1.0 if (cos > 0 if abs(cos) >= abs(sin) else sin < 0) else -1.0
-        across = (y * cos - x * sin) * side
+        along, across = x * cos + y * sin, y * cos - x * sin
         inside = (along >= -width / 2) & (along <= length + width / 2)
+        # The one edge in and the other out: a line between two rows is as wide as any.
         inside &= (across > -width / 2) & (across <= width / 2)
         self.pixels[top:bottom, left:right][inside] = value
+
+
+def _ordered(start: Point, end: Point) -> tuple[Point, Point]:
+    """Return the left end first, of a steep line the lower: drawn back, it is the same."""
+    right, down = end[0] - start[0], end[1] - start[1]
+    is_forward = right > 0 if abs(right) >= abs(down) else down < 0
+    return (start, end) if is_forward else (end, start)
 
 
 def _inside(first: int, last: int) -> tuple[int, int]:
