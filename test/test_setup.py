@@ -153,6 +153,75 @@ def test_a_folder_that_no_tool_can_name_is_refused(clone: Path, char: str) -> No
     refused(lab(other, 'exec', 'true'), f"a '{char}' in a folder's name", 'rename it')
 
 
+@pytest.mark.parametrize('char', ['"', '`', '*'])
+def test_a_folder_that_colcon_cannot_build_in_is_refused(clone: Path, char: str) -> None:
+    other = clone.rename(clone.with_name(f'a{char}b'))
+    refused(lab(other, 'exec', 'true'), 'colcon cannot build in a folder with a "', 'rename it')
+
+
+@pytest.mark.parametrize(
+    ('before', 'said'),
+    [
+        ('ulimit -n 32', "a program may open only 32 files here: 'ulimit -n 256' allows more"),
+        ('ulimit -v 900000', "only 900 MB of addresses here, the simulator needs 1500: 'ulimit"),
+        ('rmdir "$PWD"', 'is gone: cd to another'),
+    ],
+)
+def test_a_terminal_in_which_no_program_can_run_is_refused(
+    clone: Path, tmp_path: Path, before: str, said: str
+) -> None:
+    (tmp_path / 'here').mkdir()
+    done = subprocess.run(
+        ['bash', '-c', f'{before}; exec "$0" exec true', clone / 'lab'],
+        cwd=tmp_path / 'here',
+        env=plain_environment(),
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, said in done.stderr.splitlines()[-1]) == (2, True), done.stderr
+
+
+def sourced(function: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Call functions of ./lab, which are not yet in the environment of the wheels."""
+    return subprocess.run(
+        ['bash', '-c', f'source "$0" help >/dev/null; venv=/no/venv; {function}', ROOT / 'lab'],
+        env={**plain_environment(), **environment},
+        capture_output=True,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize('file', ['numpy.py', 'mujoco/__init__.py'])
+def test_packages_that_would_take_the_place_of_the_labs_are_refused(
+    tmp_path: Path, file: str
+) -> None:
+    (tmp_path / file).parent.mkdir(exist_ok=True)
+    (tmp_path / file).touch()
+    done = sourced('enter_venv pip', PYTHONPATH=f'/none:{tmp_path}')
+    refused(done, f'PYTHONPATH has a {file.split("/")[0].split(".")[0]} in {tmp_path}')
+
+
+def test_what_another_ros_chose_is_left_where_there_are_wheels() -> None:
+    script = 'enter_venv pip; echo "${RMW_IMPLEMENTATION-none}"'
+    assert sourced(script, RMW_IMPLEMENTATION='rmw_cyclonedds_cpp').stdout == 'none\n'
+
+
+def test_what_a_cluster_sets_for_pip_leads_nothing_out_of_the_environment(tmp_path: Path) -> None:
+    program(
+        tmp_path / 'bin',
+        'python',
+        'env | grep -E "^(PIP_(TARGET|PREFIX|USER)|PYTHONWARNINGS)=" >&2',
+    )
+    script = f'venv={tmp_path}; with_progress() {{ "${{@:4}}"; }}; pip_install 1 two'
+    theirs = {'PIP_TARGET': '/a', 'PIP_PREFIX': '/b', 'PIP_USER': '1', 'PYTHONWARNINGS': 'error'}
+    assert sourced(script, **theirs).stderr == 'PIP_USER=0\n'
+
+
+def test_a_folder_of_logs_that_cannot_be_written_is_refused() -> None:
+    refused(sourced('choose_log_folder', ROS_LOG_DIR='/proc/none'), 'logs in /proc/none, which')
+    refused(sourced('choose_log_folder', ROS_HOME='/proc/none'), 'logs in /proc/none/log, which')
+
+
 def test_a_folder_in_place_of_the_link_to_a_clone_is_left(tmp_path: Path) -> None:
     root, cache = tmp_path / 'a clone', tmp_path / 'cache'
     root.mkdir()
