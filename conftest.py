@@ -22,7 +22,7 @@ def _leave(*_: object) -> None:
     os._exit(pytest.ExitCode.INTERRUPTED)
 
 
-os.environ.setdefault('MUJOCO_GL', 'disabled')  # as in the lab's programs, see husky_runtime.start
+os.environ['MUJOCO_GL'] = 'disabled'  # as in the lab's programs, see husky_runtime.start
 
 # Until a test runs there is nothing to tell of, but from amid which import pytest was torn.
 signal.signal(signal.SIGINT, _leave)

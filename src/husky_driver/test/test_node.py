@@ -105,9 +105,10 @@ def follow_path(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
     """Start the node as a process; what is still running at the end of the test is killed."""
     running: list[subprocess.Popen[str]] = []
 
-    def start(*arguments: str | Path) -> subprocess.Popen[str]:
+    def start(*arguments: str | Path, **more: str) -> subprocess.Popen[str]:
         environment = dict(os.environ, ROS_DOMAIN_ID=str(domain), PYTHONWARNINGS='default')
         environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+        environment |= more
         environment['PYTHONPATH'] = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
         process = subprocess.Popen(
             [sys.executable, '-m', 'husky_driver.follow_path', *map(str, arguments), *NO_SLIP],
@@ -219,6 +220,21 @@ def test_without_a_simulator_it_gives_up_with_a_reason(
     assert 'nobody publishes /odometry/filtered' in output
     assert f'ROS_DOMAIN_ID={domain}' in output
     assert 'Traceback' not in output
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'said'),
+    [
+        ('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF', 'nodes do not find each other: `export'),
+        ('ROS_DISCOVERY_SERVER', '127.0.0.1:11899', 'is the discovery server running, as ROS_D'),
+    ],
+)
+def test_a_variable_that_parts_nodes_is_the_reason(
+    follow_path: Any, course: Path, name: str, value: str, said: str
+) -> None:
+    words = ('--waypoints', course, '--ros-args', '-p', 'startup_timeout_sec:=0.5')
+    output, _ = follow_path(*words, **{name: value}).communicate(timeout=10)
+    assert said in output
 
 
 @pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])

@@ -16,7 +16,7 @@ from husky_course.record import FILE_NAME
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, run_printing
-from husky_runtime.domains import DomainError, OwnDomain
+from husky_runtime.domains import check_loopback, OwnDomain
 from husky_runtime.settings import refuse_unknown, Setting, settings_of
 from husky_runtime.supervise import run_to_end
 from husky_runtime.web_address import AddressError
@@ -97,7 +97,7 @@ def _drive(options: argparse.Namespace, conditions: Mapping[str, str]) -> int:
         page = None if options.no_view else drive_page(options.open)
         with alone_in(folder):
             status = _run(options, folder, page, conditions)
-    except (ValueError, DomainError, AddressError) as error:
+    except (ValueError, AddressError) as error:
         print(f'lab drive: {printable(str(error))}', file=sys.stderr)
         return BAD_INPUT
     if status in (PASSED, NOT_PASSED):
@@ -186,11 +186,13 @@ def _environment(stack: ExitStack, page: DrivePage | None) -> Mapping[str, str]:
     """Put the run into a domain of its own, unless the user has chosen one."""
     environment = {**os.environ, **(page.environment if page is not None else {})}
     if os.environ.get('ROS_DOMAIN_ID'):
+        check_loopback()
         return environment
-    number = stack.enter_context(OwnDomain()).number
+    domain = stack.enter_context(OwnDomain())
+    number = domain.number
     print(f'ROS domain {number}, of this run alone; to look in: export ROS_DOMAIN_ID={number}')
     sys.stdout.flush()
-    return {**environment, 'ROS_DOMAIN_ID': str(number)}
+    return {**environment, **domain.environment}
 
 
 def _launch(

@@ -117,9 +117,14 @@ def busy_machine() -> Iterator[None]:
 
 
 def drive_in_jail(
-    program: str, course: str, folder: Path, on_progress: Progress = lambda _: None
+    program: str,
+    course: str,
+    folder: Path,
+    on_progress: Progress = lambda _: None,
+    *,
+    sandbox: str = 'auto',
 ) -> LiveRun:
-    """Drive in the sandbox that a teaching assistant gets here."""
+    """Drive in a sandbox; when left out, in that which a teaching assistant gets here."""
     theirs = folder / 'theirs'
     theirs.mkdir(parents=True)
     (theirs / 'student.py').write_text(program)
@@ -128,7 +133,7 @@ def drive_in_jail(
     # The lab's own driver, which is not there for students, as one that answers.
     ours = [path for path in map(Path, sys.path) if path.is_dir()] + [ROOT / 'src']
     environment = {'PYTHONPATH': os.environ['PYTHONPATH']}
-    with Jail(find_sandbox('auto'), theirs, readable=ours) as jail:
+    with Jail(find_sandbox(sandbox), theirs, readable=ours) as jail:
         return drive_live(
             command, course, folder, jail, environment=environment, on_progress=on_progress
         )
@@ -143,6 +148,24 @@ def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_pat
     assert quiet.record.rows.tobytes() == busy.record.rows.tobytes()
     assert quiet.ending == busy.ending
     assert told[-1].waypoints_left == 0, 'its progress should be told'
+
+
+@pytest.mark.parametrize('sandbox', ['auto', 'none'])
+@pytest.mark.parametrize(
+    ('name', 'value'),
+    [('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF'), ('ROS_DISCOVERY_SERVER', '127.0.0.1:11811')],
+)
+def test_it_finds_the_robot_whatever_network_its_terminal_is_for(
+    course: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    name: str,
+    value: str,
+    sandbox: str,
+) -> None:
+    monkeypatch.setenv(name, value)
+    run = drive_in_jail(FOLLOWS, course, tmp_path, sandbox=sandbox)
+    assert run.ending == 'the controller has ended', run.notes
 
 
 def test_one_on_simulated_time_is_waited_for(course: str, tmp_path: Path) -> None:

@@ -24,14 +24,18 @@ import weakref
 # are those that Linux gives to any program (ip_local_port_range).
 DOMAINS = range(30, 102)
 
-_VARIABLE = 'ROS_DOMAIN_ID'
+NO_OTHER_WAY = {'ROS_DISCOVERY_SERVER': '', 'ROS_STATIC_PEERS': '', 'ROS_LOCALHOST_ONLY': ''}
+"""Variables of a run whose nodes find each other by themselves, and nobody elsewhere."""
+
+_LOOPBACK = '127.0.0.1'
+_VARIABLE, _RANGE = 'ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.2, 9.6.1.1: PB, DG
 _MOST_PARTICIPANTS = 20  # of a domain that are looked for
 _BACKLOG = 4096  # connections, never accepted, of those that ask for the holder
 
 
-class DomainError(Exception):
-    """A DDS domain is taken, or all are; the message is one line for a person."""
+class DomainError(ValueError):
+    """No DDS domain can be used, or not this one; the message is one line for a person."""
 
 
 class Lock:
@@ -61,8 +65,9 @@ class OwnDomain:
         """
         Take one.
 
-        :raises DomainError: if every domain is taken.
+        :raises DomainError: if every domain is taken, or nodes of this computer cannot meet.
         """
+        check_loopback()
         # Not the domain of the run before: its processes may still be ending.
         first = os.getpid() % len(DOMAINS)
         for number in (*DOMAINS[first:], *DOMAINS[:first]):
@@ -79,6 +84,13 @@ class OwnDomain:
             'left over, or set ROS_DOMAIN_ID to a domain in which nobody is'
         )
 
+    @property
+    def environment(self) -> dict[str, str]:
+        """Return the variables by which nodes are in it, and find each other."""
+        wanted = os.environ.get(_RANGE) or 'LOCALHOST'
+        found = 'LOCALHOST' if wanted == 'OFF' else wanted
+        return {_VARIABLE: str(self.number), _RANGE: found, **NO_OTHER_WAY}
+
     def close(self) -> None:
         """Release the domain; may be called twice."""
         self._lock.close()
@@ -88,6 +100,23 @@ class OwnDomain:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def check_loopback() -> None:
+    """
+    Check that processes of this computer reach each other by UDP, as DDS does.
+
+    :raises DomainError: if they do not: in some containers and sandboxes nobody has set it up.
+    """
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+        try:
+            own.bind((_LOOPBACK, 0))
+            own.connect(own.getsockname())
+        except OSError as error:
+            raise DomainError(
+                f'processes of this computer cannot meet at {_LOOPBACK} ({error.strerror}): its '
+                'loopback interface is not set up; on Linux `ip link set lo up` does it'
+            ) from None
 
 
 @contextmanager

@@ -47,8 +47,9 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
         os._exit(interrupted)  # an exception would be raised inside an import
 
     _open_closed_streams()
-    # MuJoCo would start a second Python to find out whether it can open a window.
-    os.environ.setdefault('MUJOCO_GL', 'disabled')
+    # MuJoCo would start a second Python to find out whether it can open a window, and fail for
+    # lack of what a variable names. The camera takes what there is, see husky_sim.sensors.camera.
+    os.environ['MUJOCO_GL'] = 'disabled'
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         if _is_importing(frame):
@@ -150,9 +151,20 @@ def run_node(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
         if wrong := _wrong_of_ros_arguments():
             print(wrong, file=sys.stderr)
             return lambda: _BAD_INPUT
-        return main
+        return lambda: _refused_in_one_line(main)
 
     return run(checked, interrupted=interrupted, catches=catches)
+
+
+def _refused_in_one_line(main: Callable[[], int]) -> int:
+    """Run it; what ROS itself refuses, as a variable of the environment, is one line."""
+    from rclpy.impl.implementation_singleton import rclpy_implementation
+
+    try:
+        return main()
+    except rclpy_implementation.RCLError as error:
+        print(f'{Path(sys.argv[0]).name}: {" ".join(str(error).split())}', file=sys.stderr)
+        return _BAD_INPUT
 
 
 def _wrong_of_ros_arguments() -> str:

@@ -75,6 +75,23 @@ def test_a_domain_with_another_participant_is_not_taken(
     context.try_shutdown()
 
 
+@pytest.mark.parametrize(
+    ('wanted', 'found'), [('', 'LOCALHOST'), ('OFF', 'LOCALHOST'), ('SUBNET', 'SUBNET')]
+)
+def test_nodes_of_a_run_find_each_other(
+    monkeypatch: pytest.MonkeyPatch, wanted: str, found: str
+) -> None:
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', wanted)
+    with OwnDomain() as domain:
+        assert domain.environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] == found
+
+
+def test_a_computer_whose_processes_cannot_meet_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(domains, '_LOOPBACK', '192.0.2.1')  # an address that nobody has: RFC 5737
+    with pytest.raises(DomainError, match='its loopback interface is not set up; on Linux `ip'):
+        OwnDomain()
+
+
 def test_other_domains_have_simulators_of_their_own() -> None:
     first, second = lock_simulator(1001), lock_simulator(1002)
     with pytest.raises(DomainError, match='another simulator runs in ROS domain 1001'):

@@ -82,6 +82,20 @@ def test_wrong_ros_arguments_are_refused_in_one_line(
     assert said in line
 
 
+def test_what_ros_refuses_at_a_start_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_LOG_DIR', '/proc/none')
+    program = (
+        'import sys, rclpy; from husky_runtime.start import run_node; '
+        'sys.exit(run_node(lambda: rclpy.init))'
+    )
+    ended = started(tmp_path, program)
+    assert ended.returncode == 2
+    assert 'Failed to create log directory' in ended.stderr.splitlines()[-1]
+    assert 'Traceback' not in ended.stderr
+
+
 def test_an_interrupt_in_a_weakref_callback_is_not_lost(tmp_path: Path) -> None:
     (tmp_path / 'forgetful.py').write_text(FORGETFUL)
     program = (

@@ -12,6 +12,13 @@ def what_is_missing(odometry: Subscription, commands: Publisher) -> str:
     """Return who is not there, and what to look at."""
     domain = os.environ.get('ROS_DOMAIN_ID', '0')
     where = f'is the simulator running, with ROS_DOMAIN_ID={domain} as here?'
+    if os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE') == 'OFF':
+        where = (
+            'by ROS_AUTOMATIC_DISCOVERY_RANGE=OFF nodes do not find each other: '
+            '`export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`'
+        )
+    elif server := os.environ.get('ROS_DISCOVERY_SERVER'):
+        where = f'is the discovery server running, as ROS_DISCOVERY_SERVER={server} has it?'
     if odometry.get_publisher_count() == 0:
         return f'nobody publishes {odometry.topic_name}; {where}'
     if commands.get_subscription_count() == 0:

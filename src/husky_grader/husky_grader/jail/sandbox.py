@@ -12,16 +12,18 @@ from typing import Protocol
 
 from husky_runtime.children import ChildProcess
 from husky_runtime.descendants import descendants_ended
-from husky_runtime.domains import OwnDomain
+from husky_runtime.domains import NO_OTHER_WAY, OwnDomain
 import psutil
 
 from husky_grader.jail.folders import INSIDE, Mount, PYTHON
 from husky_grader.jail.limits import Limits
 
-_RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 # Where there is only the loopback interface, SUBNET is nobody else. With LOCALHOST rmw_fastrtps
 # adds shared memory, by which data is lost between two that have a /dev/shm each.
-OWN_NETWORK = {'ROS_DOMAIN_ID': '0', _RANGE: 'SUBNET', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}
+OWN_NETWORK = {
+    **{'ROS_DOMAIN_ID': '0', 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET', **NO_OTHER_WAY},
+    'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4',
+}
 # What starts a jail gets nothing of the grader's environment: a jailed program may read it.
 CLEAN = {'PATH': '/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin', 'LC_ALL': 'C'}
 FIRST_USER = 2**30  # above it no system gives numbers to people or services
@@ -146,8 +148,7 @@ class Nothing:
     @contextmanager
     def open(self) -> Iterator[Cell]:
         with OwnDomain() as domain, descendants_ended():
-            discovery = os.environ.get(_RANGE, 'LOCALHOST')
-            yield _Open({'ROS_DOMAIN_ID': str(domain.number), _RANGE: discovery})
+            yield _Open(domain.environment)
 
 
 @dataclass(frozen=True)

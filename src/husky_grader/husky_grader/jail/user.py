@@ -20,7 +20,7 @@ import shutil
 import stat
 import sys
 
-from husky_runtime.domains import OwnDomain
+from husky_runtime.domains import NO_OTHER_WAY, OwnDomain
 
 from husky_grader.jail.folders import home_of, PYTHON
 from husky_grader.jail.sandbox import (
@@ -59,6 +59,7 @@ class _Cell:
             # Left alone by ROS, Fast DDS does what the profile says. With LOCALHOST it would add
             # shared memory, which two users do not share, and all data would be lost.
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SYSTEM_DEFAULT',
+            **NO_OTHER_WAY,
             'FASTRTPS_DEFAULT_PROFILES_FILE': str(_PROFILE),
         }
 
