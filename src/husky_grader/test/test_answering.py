@@ -7,6 +7,8 @@ from __future__ import annotations
 import time
 
 from husky_grader.run.answering import (
+    _BRIEF,
+    _BRIEF_SPELLS,
     ANSWER_TICKS,
     Answering,
     MEET_TICKS,
@@ -193,6 +195,37 @@ def test_one_that_fell_silent_is_waited_for_again_when_it_speaks() -> None:
     periods = robot.periods
     robot.tick(100)
     assert (robot.pace.mode, robot.periods) == (Mode.ANSWERS, periods)
+
+
+def test_one_that_hears_only_some_messages_gets_time() -> None:
+    robot = Robot()
+    robot.tick(1)
+    robot.pace.on_command()
+    robot.tick(QUIET_TICKS)
+    for _ in range(_BRIEF_SPELLS):
+        assert robot.pace.mode is Mode.ANSWERS
+        robot.tick(2)
+        robot.pace.on_command()
+        robot.tick(TAKEN_TICKS + ANSWER_TICKS)
+        robot.pace.on_command()
+    assert str(robot.pace) == Mode.MISSES.value.format(factor=1000)
+    robot.tick_to(robot.periods + 5)
+
+
+def test_one_that_falls_silent_now_and_then_answers_still() -> None:
+    robot = Robot()
+    robot.tick(1)
+    robot.pace.on_command()
+    robot.tick(QUIET_TICKS)
+    for _ in range(3 * _BRIEF_SPELLS):
+        for _ in range(_BRIEF):
+            robot.tick(2)
+            robot.pace.on_command()
+            robot.tick(TAKEN_TICKS)
+        robot.tick(ANSWER_TICKS)
+        assert str(robot.pace) == Mode.SILENT.value
+        robot.pace.on_command()
+        assert str(robot.pace) == Mode.ANSWERS.value
 
 
 def test_a_controller_that_has_ended_is_not_waited_for() -> None:

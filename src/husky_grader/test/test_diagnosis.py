@@ -19,8 +19,14 @@ from husky_runtime.children import ChildProcess
 from nav_msgs.msg import Odometry
 import pytest
 import rclpy
+from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
+from rclpy.qos import (
+    DurabilityPolicy,
+    LivelinessPolicy,
+    qos_profile_sensor_data,
+    QoSProfile,
+)
 from rclpy.signals import SignalHandlerOptions
 
 ODOMETRY = '/odometry/filtered'
@@ -184,6 +190,10 @@ def take(_: object) -> None:
 
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+DEADLINE = QoSProfile(depth=10, deadline=Duration(nanoseconds=10_000_000))
+MANUAL = QoSProfile(depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC)
+LEASE = QoSProfile(depth=10, liveliness_lease_duration=Duration(nanoseconds=500_000_000))
+HEARS_NOTHING = f'it hears nothing of {ODOMETRY}: it asks for'
 MISTAKES: dict[str, tuple[Callable[[Node], object], str]] = {
     'misspelt': (
         lambda node: node.create_subscription(Odometry, 'odometry/filterd', take, 10),
@@ -202,6 +212,21 @@ MISTAKES: dict[str, tuple[Callable[[Node], object], str]] = {
         lambda node: node.create_subscription(Odometry, 'front/scan', take, 10),
         'it hears nothing of /front/scan: it asks for RELIABLE, but that is published '
         'BEST_EFFORT; subscribe with qos_profile_sensor_data',
+    ),
+    'a deadline': (
+        lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, DEADLINE),
+        f'{HEARS_NOTHING} a deadline of 0.01 s, which nobody offers; leave the deadline of its '
+        'QoS profile out',
+    ),
+    'liveliness': (
+        lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, MANUAL),
+        f'{HEARS_NOTHING} MANUAL_BY_TOPIC, but that is published AUTOMATIC; leave the liveliness '
+        'of its QoS profile out',
+    ),
+    'a lease': (
+        lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, LEASE),
+        f'{HEARS_NOTHING} a liveliness lease of 0.5 s, which nobody offers; leave the lease of '
+        'its QoS profile out',
     ),
     'another type': (
         lambda node: node.create_subscription(Twist, 'odometry/filtered', take, 10),

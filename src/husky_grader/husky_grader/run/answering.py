@@ -57,6 +57,14 @@ So a control period takes five ticks at least, and real time can be had twice as
 OVERDUE_TICKS = round(0.5 / TICK_SEC)
 """For a command that is due from a controller that is never at rest."""
 
+_BRIEF, _BRIEF_SPELLS = 10, 3
+"""
+Who has answered fewer times in a row, and that so often, hears only some messages.
+
+So one does that subscribes anew for each, as `rclpy.wait_for_message`: each that it misses would
+be waited for in vain.
+"""
+
 _ALONE_TURN = 10
 """Control periods a tick when there is nobody to wait for."""
 
@@ -78,6 +86,10 @@ class Mode(Enum):
     OTHER_CLOCK = (
         'at {factor:g} x real time at most; the controller goes by another clock: runs may differ'
     )
+    MISSES = (
+        'at {factor:g} x real time at most; the controller misses messages, as one does that '
+        'subscribes anew for each (wait_for_message): runs may differ'
+    )
     RESTLESS = (
         'at {factor:g} x real time at most; the controller is never at rest: runs may differ'
     )
@@ -95,12 +107,13 @@ class Answering(Pace):
         super().__init__(periods, factor)
         self.mode = Mode.STARTING
         self.alone = False
+        self.has_heard = False  # a command
         self._at_rest = at_rest
         self._ticks = 0  # since the last step, or since the start
         self._rest_ticks = 0  # since it came to rest in this control period
         self._met_ticks = 0  # since there is a subscription or a publisher
         self._unanswered = 0  # first odometry messages that may be answered yet
-        self._answers = 0
+        self._answers = self._answers_in_a_row = self._brief_spells = 0
         self._is_answered = False  # in this control period
         self._to_prove = PROVE_PERIODS
         self._is_timed = True  # whether /clock has told this control period
@@ -128,7 +141,7 @@ class Answering(Pace):
             if self._is_answered:
                 self._prove()
             elif self._ticks >= ANSWER_TICKS:
-                self._change(Mode.SILENT if self._answers else Mode.CLOCKED)
+                self._fall_silent()
         elif self.mode is Mode.RESTLESS:
             if self._is_awaited():
                 self.pacer.restart()  # what it is waited for is not made up for
@@ -140,6 +153,7 @@ class Answering(Pace):
             self._change(Mode.RESTLESS)
 
     def on_command(self) -> None:
+        self.has_heard = True
         if self.alone:
             return
         if self.mode in (Mode.STARTING, Mode.FIRST):
@@ -147,6 +161,7 @@ class Answering(Pace):
             self._change(Mode.FIRST if self._unanswered >= 0 else Mode.CLOCKED)
         elif self.mode in (Mode.ANSWERS, Mode.SILENT):
             self._answers += 1
+            self._answers_in_a_row += 1
             self._change(Mode.CLOCKED if self._is_answered else Mode.ANSWERS)
             self._is_answered = True
             if not self._to_prove:
@@ -183,6 +198,14 @@ class Answering(Pace):
 
     def _change(self, mode: Mode) -> None:
         self.mode, self._ticks, self._rest_ticks = mode, 0, 0
+
+    def _fall_silent(self) -> None:
+        self._brief_spells += self._answers_in_a_row < _BRIEF
+        self._answers_in_a_row = 0
+        if self._brief_spells == _BRIEF_SPELLS:
+            self._change(Mode.MISSES)
+        else:
+            self._change(Mode.SILENT if self._answers else Mode.CLOCKED)
 
     def _prove(self) -> None:
         """Advance when the controller is at rest, and an answer was all that it has sent."""

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import takewhile
+import math
 from pathlib import PurePath
 import re
 from signal import Signals
@@ -49,6 +50,9 @@ class Endpoint:
     type: str
     reliable: bool = True
     transient_local: bool = False
+    deadline_sec: float = math.inf
+    manual_liveliness: bool = False
+    lease_sec: float = math.inf  # of its liveliness
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,11 @@ class Graph:
 
 
 def reasons(
-    printed: str, simulator_log: str, graph_reasons: Iterable[str], exit_code: int | None
+    printed: str,
+    simulator_log: str,
+    graph_reasons: Iterable[str],
+    exit_code: int | None,
+    unsent: Iterable[str] = (),
 ) -> tuple[str, ...]:
     """
     Return why a controller did not drive, the most telling first.
@@ -69,6 +77,7 @@ def reasons(
     :param printed: what it has printed until it was ended.
     :param graph_reasons: what its place in the graph says, see `reasons_of_graph`.
     :param exit_code: with which it has ended by itself; None where it was ended.
+    :param unsent: what is told where nothing else is, see `unsent_commands`.
     """
     crashed = crash(printed)
     if exit_code:
@@ -81,6 +90,7 @@ def reasons(
             'a finite number'
         )
     found += graph_reasons
+    found = found or list(unsent)
     return tuple(dict.fromkeys(map(printable, found)))
 
 
@@ -182,6 +192,21 @@ def _wrong_qos(wanted: Endpoint, offered: Sequence[Endpoint]) -> Iterator[str]:
             f'{hears} RELIABLE, but that is published BEST_EFFORT; '
             'subscribe with qos_profile_sensor_data'
         )
+    if wanted.deadline_sec < min(each.deadline_sec for each in offered):
+        yield (
+            f'{hears} a deadline of {wanted.deadline_sec:g} s, which nobody offers; '
+            'leave the deadline of its QoS profile out'
+        )
+    if wanted.manual_liveliness and not any(each.manual_liveliness for each in offered):
+        yield (
+            f'{hears} MANUAL_BY_TOPIC, but that is published AUTOMATIC; '
+            'leave the liveliness of its QoS profile out'
+        )
+    if wanted.lease_sec < min(each.lease_sec for each in offered):
+        yield (
+            f'{hears} a liveliness lease of {wanted.lease_sec:g} s, which nobody offers; '
+            'leave the lease of its QoS profile out'
+        )
 
 
 def unheard_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
@@ -203,6 +228,16 @@ def unheard_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
                     f'it publishes {each.type} on {each.topic}; the Husky listens on '
                     f'{next(reversed(taken))}'
                 )
+
+
+def unsent_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
+    """Yield what stops a program that could be heard, and has never sent a command."""
+    for each in graph.publishers:
+        if TAKEN[interface].get(each.topic) == each.type and each.reliable:
+            yield (
+                f'it has a publisher on {each.topic}, and never sent a command: does it spin, and '
+                'does no callback wait for an answer (client.call) or for time (Rate.sleep)?'
+            )
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -3,14 +3,17 @@
 """The graph around a program, as `diagnosis` takes it, from what a node of the grader sees."""
 
 from collections.abc import Collection
+import math
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 from rclpy.type_hash import TypeHash
 
 from husky_grader.run.diagnosis import Endpoint, Graph
 
+_NEVER_NS = 2**31 * 10**9  # DDS counts seconds in 32 bits, and has the largest for never
 _NO_HASH = str(TypeHash())  # of a publisher whose DDS tells none
 
 
@@ -56,4 +59,12 @@ def _endpoint(topic: str, info: Any) -> Endpoint:
         info.topic_type,
         reliable=info.qos_profile.reliability == ReliabilityPolicy.RELIABLE,
         transient_local=info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL,
+        deadline_sec=_seconds(info.qos_profile.deadline),
+        manual_liveliness=info.qos_profile.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC,
+        lease_sec=_seconds(info.qos_profile.liveliness_lease_duration),
     )
+
+
+def _seconds(duration: Duration) -> float:
+    """Return a time; none that was set is as long as the middleware can say."""
+    return duration.nanoseconds / 1e9 if 0 < duration.nanoseconds < _NEVER_NS else math.inf

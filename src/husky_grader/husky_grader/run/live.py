@@ -118,7 +118,9 @@ def drive_live(
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder.name}/simulator.log')
     printed = read_printed(folder / 'controller.log')
-    notes = reasons(printed, read_printed(folder / 'simulator.log'), last.notes, exit_code)
+    notes = reasons(
+        printed, read_printed(folder / 'simulator.log'), last.notes, exit_code, last.unsent
+    )
     return LiveRun(read_record(record), last.ending, last.pace, notes, shown(printed))
 
 

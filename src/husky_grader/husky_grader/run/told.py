@@ -20,6 +20,7 @@ class Told:
     ending: str = ''  # why the run is over; empty while it runs
     failure: str = ''  # why there is no run at all
     notes: list[str] = field(default_factory=list)  # what the graph says about the controller
+    unsent: list[str] = field(default_factory=list)  # and of one that has sent no command
 
 
 def tell(file: Path, told: Told) -> None:

@@ -126,6 +126,7 @@ class TrialRun:
                 pace=str(self._pace),
                 ending=ending,
                 notes=self._graph.reasons,
+                unsent=[] if self._pace.has_heard else self._graph.unsent,
             ),
         )
 

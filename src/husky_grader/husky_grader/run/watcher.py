@@ -4,7 +4,13 @@
 
 from rclpy.node import Node
 
-from husky_grader.run.diagnosis import Endpoint, Graph, reasons_of_graph, unheard_commands
+from husky_grader.run.diagnosis import (
+    Endpoint,
+    Graph,
+    reasons_of_graph,
+    unheard_commands,
+    unsent_commands,
+)
 from husky_grader.run.graph import read_graph
 
 
@@ -17,6 +23,7 @@ class GraphWatcher:
         self.unheard_looks = 0  # so many of the last ones have found commands that are not heard
         self._there: set[tuple[str, Endpoint]] = set()
         self.reasons: list[str] = []
+        self.unsent: list[str] = []
 
     def look(self) -> None:
         """
@@ -30,6 +37,7 @@ class GraphWatcher:
         if not self._there or self._there < before:
             return
         self.reasons = reasons_of_graph(graph, self._interface)
+        self.unsent = list(unsent_commands(graph, self._interface))
         unheard = any(unheard_commands(graph, self._interface))
         self.unheard_looks = self.unheard_looks + 1 if unheard else 0
 
