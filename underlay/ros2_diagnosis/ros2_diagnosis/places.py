@@ -19,6 +19,7 @@ from ros2_diagnosis.finding import Finding
 
 _LAST_DOMAIN = 101  # Beyond it lie the ports that Linux gives to anybody.
 _LISTEN_SEC = 0.6
+_LOOPBACK = '127.0.0.1'
 
 
 def check_domains(settings: Settings, *, here: int) -> Iterator[Finding]:
@@ -90,7 +91,7 @@ def on_other_hosts(participants: Iterable[Participant], own: set[str]) -> list[s
 
 
 def own_addresses() -> set[str]:
-    found = {'127.0.0.1'}
+    found = {_LOOPBACK}
     with contextlib.suppress(OSError):  # A host that cannot resolve its own name.
         found |= {str(info[4][0]) for info in socket.getaddrinfo(socket.gethostname(), None)}
     return found | set(_routed_addresses())
@@ -127,7 +128,30 @@ def check_environment(settings: Settings) -> Iterator[Finding]:
             'no node finds another one',
             '`export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`',
         )
+    if server := os.environ.get('ROS_DISCOVERY_SERVER'):
+        yield Finding(
+            f'ROS_DISCOVERY_SERVER={server}',
+            'nodes of this terminal are found by that server alone',
+            '`unset ROS_DISCOVERY_SERVER`, unless it runs and all nodes are to use it',
+            serious=False,
+        )
+    if why := _why_no_loopback():
+        yield Finding(
+            f'address {_LOOPBACK}',
+            f'processes of this computer cannot meet there: {why}',
+            'set the loopback interface up: `ip link set lo up`, as root',
+        )
     for name in ('FASTRTPS_DEFAULT_PROFILES_FILE', 'FASTDDS_DEFAULT_PROFILES_FILE'):
         path = os.environ.get(name)
         if path and not Path(path).is_file():
             yield Finding(name, f"names '{path}', which does not exist", f'`unset {name}`')
+
+
+def _why_no_loopback() -> str:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+        try:
+            own.bind((_LOOPBACK, 0))
+            own.connect(own.getsockname())
+        except OSError as error:
+            return error.strerror or str(error)
+    return ''

@@ -120,6 +120,22 @@ def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., An
     assert 'publish at least 6 times a second' in line
 
 
+def test_processes_that_cannot_meet(monkeypatch: pytest.MonkeyPatch) -> None:
+    from ros2_diagnosis import places
+    from rtps_graph.settings import Settings
+
+    monkeypatch.setattr(places, '_LOOPBACK', '192.0.2.1')  # nobody has it: RFC 5737
+    (finding,) = places.check_environment(Settings(0, 'LOCALHOST', ()))
+    assert 'address 192.0.2.1: processes of this computer cannot meet there' in str(finding)
+
+
+def test_a_discovery_server_is_noted(
+    ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_DISCOVERY_SERVER', '127.0.0.1:11899')
+    assert 'ROS_DISCOVERY_SERVER=127.0.0.1:11899: nodes of' in _line(ros2('doctor'), 'environment')
+
+
 def test_nodes_in_another_domain(
     processes: Any, ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
