@@ -4,15 +4,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+import os
+import signal
 import struct
 import sys
 from typing import Any
 
+from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 import numpy
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.executors import ExternalShutdownException
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
@@ -107,6 +112,60 @@ def parameters(node: Node) -> None:
     node.declare_parameter('names', ['x', 'y'])
     node.declare_parameter('fixed', 'z', ParameterDescriptor(read_only=True))
     node.declare_parameter('loose', 1, ParameterDescriptor(dynamic_typing=True))
+
+
+class _NextSpin:
+    def __await__(self) -> Generator[None, None, None]:
+        yield
+
+
+def count(
+    node: Node,
+    *,
+    stops_at: str = '',
+    goal: GoalResponse = GoalResponse.ACCEPT,
+    cancel: CancelResponse = CancelResponse.ACCEPT,
+) -> None:
+    """Offer an action that lasts until it is cancelled; the process stops when it is asked."""
+
+    def reached(what: str) -> None:
+        print(what, flush=True)
+        if what == stops_at:
+            os.kill(os.getpid(), signal.SIGSTOP)
+
+    def on_goal(_: Any) -> GoalResponse:
+        reached('goal')
+        return goal
+
+    def on_cancel(_: Any) -> CancelResponse:
+        reached('cancel')
+        return cancel
+
+    async def execute(handle: Any) -> Any:
+        while not handle.is_cancel_requested:
+            await _NextSpin()
+        handle.canceled()
+        return Fibonacci.Result(sequence=[7])
+
+    ActionServer(
+        node, Fibonacci, 'count', execute, goal_callback=on_goal, cancel_callback=on_cancel
+    )
+
+
+def count_that_stops_at_goal(node: Node) -> None:
+    count(node, stops_at='goal')
+
+
+def count_that_stops_at_cancel(node: Node) -> None:
+    count(node, stops_at='cancel')
+
+
+def count_that_rejects(node: Node) -> None:
+    count(node, stops_at='goal', goal=GoalResponse.REJECT)
+
+
+def count_that_goes_on(node: Node) -> None:
+    count(node, cancel=CancelResponse.REJECT)
 
 
 def plain(node: Node) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import argparse
 import sys
+import time
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from action_msgs.srv import CancelGoal
 from rclpy.action import ActionClient
 from ros2cli import arguments, interfaces
 from ros2cli.errors import CommandError
@@ -24,7 +26,7 @@ _STATUS = {
     GoalStatus.STATUS_CANCELED: 'CANCELED',
     GoalStatus.STATUS_ABORTED: 'ABORTED',
 }
-_CANCEL_TIMEOUT_SEC = 5.0
+_CANCEL_TIMEOUT_SEC = 1.5  # for all of it: a command ends within 2 s of Ctrl-C
 
 
 class SendGoalVerb(VerbExtension):
@@ -59,7 +61,7 @@ class SendGoalVerb(VerbExtension):
         goal = action_class.Goal()
         text = sys.stdin.read() if args.stdin else args.goal
         interfaces.populate(goal, interfaces.yaml_mapping(text), told='message fields')
-        with command_node(args) as node:
+        with command_node(args, may_spin_when_interrupted=True) as node:
             client = ActionClient(node.node, action_class, topics.checked_name(args.action_name))
             try:
                 _send(node, client, goal, args)
@@ -72,35 +74,64 @@ def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Nam
     if not node.spin_until(client.server_is_ready, args.timeout):
         raise CommandError(f"No action server for '{args.action_name}' within {args.timeout:g} s")
     print(f'Sending goal:\n     {message_to_yaml(goal)}')
-    future = client.send_goal_async(goal, _print_feedback if args.feedback else None)
+    sending = client.send_goal_async(goal, _print_feedback if args.feedback else None)
+    try:
+        done = _follow(node, sending, args)
+    except KeyboardInterrupt:
+        _cancel(node, sending)
+        raise
+    if not done:
+        _cancel(node, sending)
+        raise CommandError(f'No result within {args.timeout:g} s: the goal was canceled')
+
+
+def _follow(node: CommandNode, sending: Any, args: argparse.Namespace) -> bool:
+    """Print the goal's way to its end; False where the time is over before."""
     action = topics.checked_name(args.action_name)
-    node.spin_until_answered(future, f'{action}/_action/send_goal')
-    handle = future.result()
+    node.spin_until_answered(sending, f'{action}/_action/send_goal')
+    handle = sending.result()
+    if not handle.accepted:
+        print('Goal was rejected.')
+        return True
+    print(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
+    getting = handle.get_result_async()
+    if not node.spin_until(getting.done, args.timeout):
+        return False
+    _print_result(getting.result())
+    return True
+
+
+def _cancel(node: CommandNode, sending: Any) -> None:
+    """Cancel a goal that has been sent, whether or not the server has answered yet."""
+    print('Canceling goal...')
+    end = time.monotonic() + _CANCEL_TIMEOUT_SEC
+
+    def answer(future: Any) -> Any:
+        if not node.spin_until(future.done, end - time.monotonic()):
+            raise CommandError(
+                'Failed to cancel goal: the server does not answer, and may still carry it out'
+            )
+        return future.result()
+
+    handle = answer(sending)
     if not handle.accepted:
         print('Goal was rejected.')
         return
-    print(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
-    result = handle.get_result_async()
-    try:
-        done = node.spin_until(result.done, args.timeout)
-    except KeyboardInterrupt:
-        _cancel(node, handle)
-        raise
-    if not done:
-        _cancel(node, handle)
-        raise CommandError(f'No result within {args.timeout:g} s: the goal was canceled')
-    print(f'Result:\n    {message_to_yaml(result.result().result)}')
-    print(f'Goal finished with status: {_STATUS.get(result.result().status, "UNKNOWN")}')
+    canceling = answer(handle.cancel_goal_async())
+    if canceling.goals_canceling:
+        print('Goal canceled.')
+    elif canceling.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED:
+        print('The goal had already ended.')
+    else:
+        raise CommandError('Failed to cancel goal: the server refuses, and carries it out')
+    getting = handle.get_result_async()
+    if node.spin_until(getting.done, end - time.monotonic()):
+        _print_result(getting.result())
 
 
-def _cancel(node: CommandNode, handle: Any) -> None:
-    print('Canceling goal...')
-    canceling = handle.cancel_goal_async()
-    if not node.spin_until(canceling.done, _CANCEL_TIMEOUT_SEC):
-        raise CommandError('Failed to cancel goal: the server does not answer')
-    if not canceling.result().goals_canceling:
-        raise CommandError('Failed to cancel goal')
-    print('Goal canceled.')
+def _print_result(answer: Any) -> None:
+    print(f'Result:\n    {message_to_yaml(answer.result)}')
+    print(f'Goal finished with status: {_STATUS.get(answer.status, "UNKNOWN")}')
 
 
 def _print_feedback(feedback: Any) -> None:

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 import os
+import signal
 import sys
+import threading
 import time
 from typing import Any
 
@@ -18,6 +20,7 @@ from rclpy.exceptions import InvalidNodeNameException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
 from rtps_graph import names
 
 from ros2cli import discovery
@@ -31,11 +34,24 @@ DEFAULT_TIMEOUT = discovery.DEFAULT_SPIN_TIME_SEC
 
 
 class CommandNode:
-    """A node with its executor."""
+    """A node with its executor.
 
-    def __init__(self, args: Any, *, node_name: str | None = None, **options: Any) -> None:
+    :param interrupted: where it is set, the next spin raises KeyboardInterrupt; None: rclpy
+        handles the signals, and shuts ROS down at once.
+    """
+
+    def __init__(
+        self,
+        args: Any,
+        *,
+        node_name: str | None = None,
+        interrupted: threading.Event | None = None,
+        **options: Any,
+    ) -> None:
         discovery.settings_from_environment()
-        rclpy.init(args=getattr(args, 'argv', []))
+        handled = SignalHandlerOptions.ALL if interrupted is None else SignalHandlerOptions.NO
+        rclpy.init(args=getattr(args, 'argv', []), signal_handler_options=handled)
+        self._interrupted = interrupted or threading.Event()
         use_sim_time = Parameter('use_sim_time', value=bool(getattr(args, 'use_sim_time', False)))
         overrides = [use_sim_time, *options.pop('parameter_overrides', ())]
         options = {'enable_rosout': False, 'start_parameter_services': False, **options}
@@ -61,6 +77,9 @@ class CommandNode:
         while not done():
             if end is not None and time.monotonic() >= end:
                 return False
+            if self._interrupted.is_set():
+                self._interrupted.clear()
+                raise KeyboardInterrupt
             self._executor.spin_once(0.02 if end is None else min(0.02, end - time.monotonic()))
         return True
 
@@ -132,13 +151,43 @@ class DirectNode(CommandNode):
 
 @contextmanager
 def command_node(
-    args: argparse.Namespace | None = None, *, name: str | None = None
+    args: argparse.Namespace | None = None,
+    *,
+    name: str | None = None,
+    may_spin_when_interrupted: bool = False,
 ) -> Iterator[CommandNode]:
-    """Give a node for the time of a command; Ctrl-C and SIGTERM end it cleanly."""
-    node = CommandNode(args, node_name=name)
+    """Give a node for the time of a command; Ctrl-C and SIGTERM end it cleanly.
+
+    :param may_spin_when_interrupted: a signal comes as KeyboardInterrupt from
+        `CommandNode.spin_until`, once: the node may still be used then, and further signals are
+        ignored, so that the command must end soon.
+    """
+    with _first_signal() if may_spin_when_interrupted else nullcontext() as interrupted:
+        node = CommandNode(args, node_name=name, interrupted=interrupted)
+        try:
+            yield node
+        except ExternalShutdownException:
+            raise KeyboardInterrupt from None
+        finally:
+            node.destroy()
+
+
+@contextmanager
+def _first_signal() -> Iterator[threading.Event]:
+    """Give an event that SIGINT or SIGTERM sets; ignore those that come after it."""
+    first = threading.Event()
+    ends = (signal.SIGINT, signal.SIGTERM)
+    # A shell's background job ignores SIGINT.
+    handled = [number for number in ends if signal.getsignal(number) is not signal.SIG_IGN]
+
+    def on_signal(*_: object) -> None:
+        for number in handled:
+            signal.signal(number, signal.SIG_IGN)
+        first.set()
+
+    before = {number: signal.signal(number, on_signal) for number in handled}
     try:
-        yield node
-    except ExternalShutdownException:
-        raise KeyboardInterrupt from None
+        yield first
     finally:
-        node.destroy()
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,98 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C in `ros2 action send_goal` cancels the goal, and ends it soon."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import time
+from typing import Any
+
+from playpen_testing.processes import find_line
+import pytest
+
+GOAL = ('action', 'send_goal', '/count', 'example_interfaces/action/Fibonacci', '{order: 9}')
+END_WITHIN_SEC = 2.0
+
+
+def _rest(client: subprocess.Popen[str]) -> str:
+    """Return what is printed after an interrupt, within the time that one may take."""
+    start = time.monotonic()
+    out, _ = client.communicate(timeout=10)
+    assert time.monotonic() - start < END_WITHIN_SEC, out
+    return out
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_cancels_the_goal(processes: Any, number: int) -> None:
+    server = processes.node('count', 'server')
+    client = processes.ros2(*GOAL, ready='Goal accepted')
+    client.send_signal(number)
+    out = _rest(client)
+    find_line(server.stdout, '^cancel$')
+    assert out.startswith('Canceling goal...\nGoal canceled.\nResult:\n    sequence:\n')
+    assert out.endswith('Goal finished with status: CANCELED\n')
+    assert client.returncode == signal.SIGINT
+
+
+def test_a_second_interrupt_does_not_spoil_it(processes: Any) -> None:
+    processes.node('count', 'server')
+    client = processes.ros2(*GOAL, ready='Goal accepted')
+    client.send_signal(signal.SIGINT)
+    find_line(client.stdout, '^Canceling goal')
+    client.send_signal(signal.SIGINT)
+    assert _rest(client).startswith('Goal canceled.')
+    assert client.returncode == signal.SIGINT
+
+
+@pytest.mark.parametrize(
+    ('kind', 'printed'),
+    [('count_that_stops_at_goal', 'Goal canceled.'), ('count_that_rejects', 'Goal was rejected.')],
+)
+def test_a_goal_without_an_answer_is_canceled_too(processes: Any, kind: str, printed: str) -> None:
+    server = processes.node(kind, 'server')
+    client = processes.ros2(*GOAL, ready='Sending goal')
+    find_line(server.stdout, '^goal$')
+    client.send_signal(signal.SIGINT)
+    find_line(client.stdout, '^Canceling goal')
+    server.send_signal(signal.SIGCONT)
+    assert _rest(client).startswith(printed)
+    assert client.returncode == signal.SIGINT
+
+
+@pytest.mark.parametrize(
+    ('kind', 'last', 'printed'),
+    [
+        ('count_that_stops_at_goal', 'Sending goal', 'the server does not answer'),
+        ('count_that_stops_at_cancel', 'Goal accepted', 'the server does not answer'),
+        ('count_that_goes_on', 'Goal accepted', 'the server refuses'),
+    ],
+)
+def test_a_goal_that_is_not_canceled_is_told(
+    processes: Any, kind: str, last: str, printed: str
+) -> None:
+    server = processes.node(kind, 'server')
+    client = processes.ros2(*GOAL, ready=last)
+    find_line(server.stdout, '^goal$')
+    client.send_signal(signal.SIGINT)
+    out = _rest(client)
+    assert f'Failed to cancel goal: {printed}' in out
+    assert 'Traceback' not in out
+    assert client.returncode == 1
+
+
+@pytest.mark.usefixtures('processes')
+def test_an_interrupt_ends_the_wait_for_a_server(processes: Any) -> None:
+    client = processes.ros2(*GOAL, ready='Waiting for an action server')
+    client.send_signal(signal.SIGINT)
+    assert _rest(client) == ''
+    assert client.returncode == signal.SIGINT
+
+
+def test_a_goal_that_takes_too_long_is_canceled(processes: Any, ros2: Any) -> None:
+    processes.node('count', 'server')
+    answer = ros2(*GOAL, '--timeout', '1')
+    assert 'Goal canceled.' in answer.lines
+    assert answer.err == 'No result within 1 s: the goal was canceled\n'
+    assert answer.status == 1
