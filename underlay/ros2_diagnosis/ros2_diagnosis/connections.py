@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Publishers and subscriptions of one topic that never connect."""
+"""Publishers and subscriptions of one topic, servers and clients of one service, kept apart."""
 
 from __future__ import annotations
 
@@ -41,6 +41,22 @@ def check_types(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
                 f'has several types: {", ".join(types)}',
                 'give the topics different names, or use one type',
             )
+
+
+def check_service_types(graph: Graph, service: str | None = None) -> Iterator[Finding]:
+    """Find services whose servers and clients have different types."""
+    for name, types in graph.services().items():
+        if len(types) < 2 or service not in (None, name):
+            continue
+        servers = graph.with_role(Role.SERVER, name)
+        for server, client in _pairs(servers, graph.with_role(Role.CLIENT, name)):
+            if server.type != client.type:
+                yield Finding(
+                    name,
+                    f'{_node(graph, server)} offers {server.type}, but {_node(graph, client)} '
+                    f'calls {client.type}, so that no call arrives',
+                    'use one type in both, or another service name',
+                )
 
 
 def check_qos(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
@@ -101,17 +117,15 @@ def incompatibilities(offered: Qos, requested: Qos) -> Iterator[tuple[str, str, 
         )
 
 
-def _pairs(
-    publishers: list[Endpoint], subscriptions: list[Endpoint]
-) -> Iterator[tuple[Endpoint, Endpoint]]:
+def _pairs(offering: list[Endpoint], using: list[Endpoint]) -> Iterator[tuple[Endpoint, Endpoint]]:
     """Yield every pair of different kinds once: twenty equal subscribers have one fault."""
     seen = set()
-    for publisher in publishers:
-        for subscription in subscriptions:
-            kind = (publisher.type, publisher.qos, subscription.type, subscription.qos)
+    for offer in offering:
+        for use in using:
+            kind = (offer.type, offer.qos, use.type, use.qos)
             if kind not in seen:
                 seen.add(kind)
-                yield publisher, subscription
+                yield offer, use
 
 
 def _node(graph: Graph, endpoint: Endpoint) -> str:

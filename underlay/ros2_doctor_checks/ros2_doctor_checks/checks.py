@@ -41,6 +41,13 @@ class _Check(DoctorCheck):
         return result
 
 
+def _types() -> Iterable[Finding]:
+    yield from connections.check_types(graph())
+    for finding in connections.check_service_types(graph()):
+        if '/_action/' not in finding.where:  # its feedback, a topic, tells the same
+            yield finding
+
+
 def _commands() -> Iterable[Finding]:
     from ros2_doctor_checks import commands  # rclpy is loaded for this check alone.
 
@@ -69,7 +76,7 @@ Silent = partial(
 )
 Names = partial(_Check, 'names', lambda: nodes.check_names(graph()))
 Publishers = partial(_Check, 'publishers', lambda: nodes.check_publishers(graph()))
-Types = partial(_Check, 'types', lambda: connections.check_types(graph()))
+Types = partial(_Check, 'types', _types)
 QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')
 Clock = partial(_Check, 'clock', lambda: nodes.check_clock(graph()))
 Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))

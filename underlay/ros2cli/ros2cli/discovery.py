@@ -97,6 +97,18 @@ def hint_near(message: str, name: str, known: Iterable[str]) -> None:
         print(f'hint: {message}{clause}', file=sys.stderr)
 
 
+def hint_when_not_offered(service: str) -> None:
+    """Print why a client finds no server: it has another type, or another name."""
+    from ros2_diagnosis import connections
+
+    found = read_graph(quiet=True)
+    for finding in connections.check_service_types(found, service):
+        print(f'hint: {finding}', file=sys.stderr)
+    offered = {each.name for each in found.endpoints if each.role is graph.Role.SERVER}
+    if service not in offered:
+        hint_near(f"nobody offers '{service}'", service, offered)
+
+
 def why_unanswered(services: Iterable[str]) -> dict[str, str]:
     """Return for each service that is there and will never answer, why."""
     from ros2_diagnosis import nodes

@@ -49,6 +49,16 @@ def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) 
     assert 'Failed modules: types' in answer.lines
 
 
+def test_different_types_on_one_service(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('service', 'server')
+    hint = (
+        '/flip: /server offers std_srvs/srv/SetBool, but a `ros2` command calls '
+        'std_srvs/srv/Trigger, so that no call arrives; use one type in both'
+    )
+    processes.ros2('service', 'call', '/flip', 'std_srvs/srv/Trigger', ready=f'hint: {hint}')
+    assert hint in _line(ros2('doctor'), 'types')
+
+
 def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('best_effort', 'sensor')
     processes.node('listener', 'listener')

@@ -12,7 +12,6 @@ from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 from ros2topic import qos, topics
-from rtps_graph.graph import Role
 
 
 class CallVerb(VerbExtension):
@@ -59,7 +58,7 @@ class CallVerb(VerbExtension):
             )
             if not node.spin_until(client.service_is_ready, 0.2):
                 print('waiting for service to become available...')
-                _hint_when_nobody_offers(client.service_name)
+                discovery.hint_when_not_offered(client.service_name)
                 node.spin_until(client.service_is_ready)
             while True:
                 print(f'requester: making request: {request!r}\n')
@@ -73,10 +72,3 @@ class CallVerb(VerbExtension):
                     return
                 left = start + 1.0 / args.rate - time.monotonic()
                 node.spin_until(lambda: False, max(left, 0.0))
-
-
-def _hint_when_nobody_offers(name: str) -> None:
-    graph = discovery.read_graph(quiet=True)
-    offered = {endpoint.name for endpoint in graph.endpoints if endpoint.role is Role.SERVER}
-    if name not in offered:
-        discovery.hint_near(f"nobody offers '{name}'", name, offered)
