@@ -11,6 +11,8 @@ from rtps_graph.graph import Endpoint, Graph, Qos, Role
 from ros2_diagnosis.finding import Finding
 from ros2_diagnosis.nodes import shown_name
 
+SEND_GOAL = '/_action/send_goal'  # the service by which an action is known here
+
 
 def check(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
     """Find all that keeps publishers and subscriptions apart."""
@@ -44,18 +46,22 @@ def check_types(graph: Graph, topic: str | None = None) -> Iterator[Finding]:
 
 
 def check_service_types(graph: Graph, service: str | None = None) -> Iterator[Finding]:
-    """Find services whose servers and clients have different types."""
+    """Find services whose servers and clients have different types.
+
+    That which sends goals is shown as the action.
+    """
     for name, types in graph.services().items():
         if len(types) < 2 or service not in (None, name):
             continue
         servers = graph.with_role(Role.SERVER, name)
         for server, client in _pairs(servers, graph.with_role(Role.CLIENT, name)):
             if server.type != client.type:
+                offered, called = (e.type.removesuffix('_SendGoal') for e in (server, client))
                 yield Finding(
-                    name,
-                    f'{_node(graph, server)} offers {server.type}, but {_node(graph, client)} '
-                    f'calls {client.type}, so that no call arrives',
-                    'use one type in both, or another service name',
+                    name.removesuffix(SEND_GOAL),
+                    f'{_node(graph, server)} offers {offered}, but {_node(graph, client)} '
+                    f'calls {called}, so that no call arrives',
+                    'use one type in both, or another name',
                 )
 
 

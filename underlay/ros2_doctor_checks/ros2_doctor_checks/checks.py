@@ -42,10 +42,9 @@ class _Check(DoctorCheck):
 
 
 def _types() -> Iterable[Finding]:
-    yield from connections.check_types(graph())
-    for finding in connections.check_service_types(graph()):
-        if '/_action/' not in finding.where:  # its feedback, a topic, tells the same
-            yield finding
+    found = [*connections.check_types(graph()), *connections.check_service_types(graph())]
+    # An action is named once, not with each of its topics and services.
+    return [finding for finding in found if '/_action/' not in finding.where]
 
 
 def _commands() -> Iterable[Finding]:

@@ -98,15 +98,21 @@ def hint_near(message: str, name: str, known: Iterable[str]) -> None:
 
 
 def hint_when_not_offered(service: str) -> None:
-    """Print why a client finds no server: it has another type, or another name."""
+    """Print why a client finds no server: it has another type, or another name.
+
+    :param service: of an action, that which sends goals.
+    """
     from ros2_diagnosis import connections
 
     found = read_graph(quiet=True)
     for finding in connections.check_service_types(found, service):
         print(f'hint: {finding}', file=sys.stderr)
-    offered = {each.name for each in found.endpoints if each.role is graph.Role.SERVER}
-    if service not in offered:
-        hint_near(f"nobody offers '{service}'", service, offered)
+    servers = {each.name for each in found.endpoints if each.role is graph.Role.SERVER}
+    if service not in servers:
+        end = connections.SEND_GOAL if service.endswith(connections.SEND_GOAL) else ''
+        name = service.removesuffix(end)
+        offered = {each.removesuffix(end) for each in servers if each.endswith(end)}
+        hint_near(f"nobody offers '{name}'", name, offered)
 
 
 def why_unanswered(services: Iterable[str]) -> dict[str, str]:

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ctrl-C in `ros2 action send_goal` cancels the goal, and ends it soon."""
+"""`ros2 action send_goal`: Ctrl-C cancels the goal; what keeps it from a server is told."""
 
 from __future__ import annotations
 
@@ -96,3 +96,25 @@ def test_a_goal_that_takes_too_long_is_canceled(processes: Any, ros2: Any) -> No
     assert 'Goal canceled.' in answer.lines
     assert answer.err == 'No result within 1 s: the goal was canceled\n'
     assert answer.status == 1
+
+
+def test_a_goal_for_a_name_that_nobody_has_gets_a_hint(processes: Any) -> None:
+    processes.node('count', 'server')
+    hint = "hint: nobody offers '/cont'; did you mean '/count'?"
+    client = processes.ros2(*GOAL[:2], '/cont', *GOAL[3:], ready=hint)
+    client.send_signal(signal.SIGINT)
+    assert _rest(client) == ''
+
+
+def test_a_goal_of_another_type_gets_a_hint(processes: Any, ros2: Any) -> None:
+    processes.node('count', 'server')
+    told = (
+        '/count: /server offers example_interfaces/action/Fibonacci, but a `ros2` command calls '
+        'turtlesim/action/RotateAbsolute, so that no call arrives'
+    )
+    words = (*GOAL[:3], 'turtlesim/action/RotateAbsolute', '{}')
+    processes.ros2(*words, ready=f'hint: {told}')
+    assert sum(told in line for line in ros2('doctor').lines) == 1
+    assert sum('(types)' in line for line in ros2('doctor').lines) == 1
+    answer = ros2(*words, '--timeout', '0.5')
+    assert answer.err.splitlines()[-1] == "No action server for '/count' within 0.5 s"

@@ -11,7 +11,8 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 from rclpy.action import ActionClient
-from ros2cli import arguments, interfaces
+from ros2_diagnosis.connections import SEND_GOAL
+from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
@@ -26,6 +27,7 @@ _STATUS = {
     GoalStatus.STATUS_CANCELED: 'CANCELED',
     GoalStatus.STATUS_ABORTED: 'ABORTED',
 }
+_SOON_SEC = 0.2  # a server that is there is found sooner
 _CANCEL_TIMEOUT_SEC = 1.5  # for all of it: a command ends within 2 s of Ctrl-C
 
 
@@ -71,7 +73,8 @@ class SendGoalVerb(VerbExtension):
 
 def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Namespace) -> None:
     print('Waiting for an action server to become available...')
-    if not node.spin_until(client.server_is_ready, args.timeout):
+    action = topics.checked_name(args.action_name)
+    if not _is_offered(node, client, f'{action}{SEND_GOAL}', args.timeout):
         raise CommandError(f"No action server for '{args.action_name}' within {args.timeout:g} s")
     print(f'Sending goal:\n     {message_to_yaml(goal)}')
     sending = client.send_goal_async(goal, _print_feedback if args.feedback else None)
@@ -85,10 +88,22 @@ def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Nam
         raise CommandError(f'No result within {args.timeout:g} s: the goal was canceled')
 
 
+def _is_offered(
+    node: CommandNode, client: ActionClient, service: str, timeout_sec: float | None
+) -> bool:
+    soon_sec = _SOON_SEC if timeout_sec is None else min(_SOON_SEC, timeout_sec)
+    start = time.monotonic()
+    if node.spin_until(client.server_is_ready, soon_sec):
+        return True
+    discovery.hint_when_not_offered(service)
+    left_sec = None if timeout_sec is None else start + timeout_sec - time.monotonic()
+    return node.spin_until(client.server_is_ready, left_sec)
+
+
 def _follow(node: CommandNode, sending: Any, args: argparse.Namespace) -> bool:
     """Print the goal's way to its end; False where the time is over before."""
     action = topics.checked_name(args.action_name)
-    node.spin_until_answered(sending, f'{action}/_action/send_goal')
+    node.spin_until_answered(sending, f'{action}{SEND_GOAL}')
     handle = sending.result()
     if not handle.accepted:
         print('Goal was rejected.')
