@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Collection
+from functools import partial
 import math
 from typing import Any
 
@@ -53,14 +54,16 @@ def report_repeatedly(
     report: Callable[[], None],
     begun: dict[str, Callable[[], bool]],
     *,
+    dropped: Callable[[str], int] = lambda _: 0,
     clock: Clock | None = None,
 ) -> None:
     """Report every second of a clock, the node's where none is given, until Ctrl-C.
 
     :param begun: tells whether something has come, by topic; where that takes long, why not is
         printed.
+    :param dropped: tells how many messages of a topic a filter did not let pass.
     """
     node.node.create_timer(_REPORT_SEC, report, clock=clock)
     for name, has_begun in begun.items():
-        silence.hint_when_silent(node, name, has_begun)
+        silence.hint_when_silent(node, name, has_begun, partial(dropped, name))
     node.spin_until(lambda: False)

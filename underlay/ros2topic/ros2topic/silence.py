@@ -16,11 +16,23 @@ from rtps_graph.graph import Graph, Role
 _SILENCE_SEC = 2.0
 
 
-def hint_when_silent(node: CommandNode, topic: str, arrived: Callable[[], bool]) -> None:
-    """Spin until something has arrived; print why not where that takes long."""
-    if not node.spin_until(arrived, _SILENCE_SEC):
-        for finding in why_silent(discovery.read_graph(quiet=True), topic):
-            print(f'hint: {finding}', file=sys.stderr)
+def hint_when_silent(
+    node: CommandNode,
+    topic: str,
+    arrived: Callable[[], bool],
+    dropped: Callable[[], int] = lambda: 0,
+) -> None:
+    """Spin until something has arrived; print why not where that takes long.
+
+    :param dropped: tells how many messages a filter has kept from arriving.
+    """
+    if node.spin_until(arrived, _SILENCE_SEC):
+        return
+    if count := dropped():
+        print(f'hint: {topic}: the filter let none of {count} messages pass', file=sys.stderr)
+        return
+    for finding in why_silent(discovery.read_graph(quiet=True), topic):
+        print(f'hint: {finding}', file=sys.stderr)
 
 
 def hint_when_not_received(topic: str) -> None:

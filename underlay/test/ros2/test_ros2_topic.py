@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import re
 import signal
 import time
 from typing import Any
@@ -104,6 +105,12 @@ def test_hz_measures_the_rate(world: Any) -> None:
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=5)
     assert process.returncode == signal.SIGINT
+
+
+def test_hz_tells_of_a_filter_that_lets_nothing_pass(world: Any) -> None:
+    process = world.ros2('topic', 'hz', '/chatter', '--filter', "m.data == ''")
+    hint = find_line(process.stdout, '^hint: (.*)')[1]
+    assert re.fullmatch(r'/chatter: the filter let none of \d+ messages pass', hint)
 
 
 def test_bw_and_delay_measure_too(world: Any) -> None:

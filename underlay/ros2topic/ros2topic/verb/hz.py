@@ -26,9 +26,11 @@ class Rate:
     intervals_ns: deque[int]
     last_ns: int | None = None
     fresh: bool = False
+    dropped: int = 0
 
     def on_message(self, msg: Any) -> None:
         if not self.keep(msg):
+            self.dropped += 1
             return
         now = self.now_ns()
         if now == 0:
@@ -105,4 +107,6 @@ class HzVerb(VerbExtension):
                         print(text if len(rates) == 1 else f'{name}\n{text}')
 
             begun = {name: rate.has_begun for name, rate in rates.items()}
-            measuring.report_repeatedly(node, report, begun, clock=clock)
+            measuring.report_repeatedly(
+                node, report, begun, dropped=lambda name: rates[name].dropped, clock=clock
+            )
