@@ -16,7 +16,7 @@ from husky_course.record import FILE_NAME
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, run_printing
-from husky_runtime.domains import check_loopback, OwnDomain
+from husky_runtime.domains import check_loopback, OwnDomain, range_of_a_run
 from husky_runtime.settings import refuse_unknown, Setting, settings_of
 from husky_runtime.supervise import run_to_end
 from husky_runtime.web_address import AddressError
@@ -187,7 +187,7 @@ def _environment(stack: ExitStack, page: DrivePage | None) -> Mapping[str, str]:
     environment = {**os.environ, **(page.environment if page is not None else {})}
     if os.environ.get('ROS_DOMAIN_ID'):
         check_loopback()
-        return environment
+        return {**environment, **range_of_a_run()}
     domain = stack.enter_context(OwnDomain())
     number = domain.number
     print(f'ROS domain {number}, of this run alone; to look in: export ROS_DOMAIN_ID={number}')

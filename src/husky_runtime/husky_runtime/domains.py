@@ -28,7 +28,7 @@ NO_OTHER_WAY = {'ROS_DISCOVERY_SERVER': '', 'ROS_STATIC_PEERS': '', 'ROS_LOCALHO
 """Variables of a run whose nodes find each other by themselves, and nobody elsewhere."""
 
 _LOOPBACK = '127.0.0.1'
-_VARIABLE, _RANGE = 'ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+_VARIABLE = 'ROS_DOMAIN_ID'
 _PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.2, 9.6.1.1: PB, DG
 _MOST_PARTICIPANTS = 20  # of a domain that are looked for
 _BACKLOG = 4096  # connections, never accepted, of those that ask for the holder
@@ -87,9 +87,7 @@ class OwnDomain:
     @property
     def environment(self) -> dict[str, str]:
         """Return the variables by which nodes are in it, and find each other."""
-        wanted = os.environ.get(_RANGE) or 'LOCALHOST'
-        found = 'LOCALHOST' if wanted == 'OFF' else wanted
-        return {_VARIABLE: str(self.number), _RANGE: found, **NO_OTHER_WAY}
+        return {_VARIABLE: str(self.number), **range_of_a_run(), **NO_OTHER_WAY}
 
     def close(self) -> None:
         """Release the domain; may be called twice."""
@@ -100,6 +98,13 @@ class OwnDomain:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def range_of_a_run() -> dict[str, str]:
+    """Return the variable of the discovery range; the user's, but for OFF: nodes must meet."""
+    name = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+    wanted = os.environ.get(name) or 'OFF'
+    return {name: 'LOCALHOST' if wanted == 'OFF' else wanted}
 
 
 def check_loopback() -> None:
