@@ -215,8 +215,8 @@ MISTAKES: dict[str, tuple[Callable[[Node], object], str]] = {
     ),
     'a deadline': (
         lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, DEADLINE),
-        f'{HEARS_NOTHING} a deadline of 0.01 s, which nobody offers; leave the deadline of its '
-        'QoS profile out',
+        f'{HEARS_NOTHING} a deadline of 0.01 s, but that is published without; '
+        'leave the deadline of its QoS profile out',
     ),
     'liveliness': (
         lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, MANUAL),
@@ -225,8 +225,8 @@ MISTAKES: dict[str, tuple[Callable[[Node], object], str]] = {
     ),
     'a lease': (
         lambda node: node.create_subscription(Odometry, 'odometry/filtered', take, LEASE),
-        f'{HEARS_NOTHING} a liveliness lease of 0.5 s, which nobody offers; leave the lease of '
-        'its QoS profile out',
+        f'{HEARS_NOTHING} a liveliness lease of 0.5 s, but that is published without; '
+        'leave the lease of its QoS profile out',
     ),
     'another type': (
         lambda node: node.create_subscription(Twist, 'odometry/filtered', take, 10),

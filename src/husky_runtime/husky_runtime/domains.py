@@ -28,7 +28,6 @@ NO_OTHER_WAY = {'ROS_DISCOVERY_SERVER': '', 'ROS_STATIC_PEERS': '', 'ROS_LOCALHO
 """Variables of a run whose nodes find each other by themselves, and nobody elsewhere."""
 
 _LOOPBACK = '127.0.0.1'
-_VARIABLE = 'ROS_DOMAIN_ID'
 _PORT_BASE, _DOMAIN_GAIN = 7400, 250  # OMG DDSI-RTPS 2.2, 9.6.1.1: PB, DG
 _MOST_PARTICIPANTS = 20  # of a domain that are looked for
 _BACKLOG = 4096  # connections, never accepted, of those that ask for the holder
@@ -87,7 +86,7 @@ class OwnDomain:
     @property
     def environment(self) -> dict[str, str]:
         """Return the variables by which nodes are in it, and find each other."""
-        return {_VARIABLE: str(self.number), **range_of_a_run(), **NO_OTHER_WAY}
+        return {'ROS_DOMAIN_ID': str(self.number), **range_of_a_run(), **NO_OTHER_WAY}
 
     def close(self) -> None:
         """Release the domain; may be called twice."""
@@ -128,14 +127,16 @@ def check_loopback() -> None:
 def in_own_domain() -> Iterator[int]:
     """Put this process, and what it starts meanwhile, into a domain of its own."""
     with OwnDomain() as domain:
-        before = os.environ.get(_VARIABLE)
-        os.environ[_VARIABLE] = str(domain.number)
+        before = {name: os.environ.get(name) for name in domain.environment}
+        os.environ.update(domain.environment)
         try:
             yield domain.number
         finally:
-            os.environ.pop(_VARIABLE)
-            if before is not None:
-                os.environ[_VARIABLE] = before
+            for name, value in before.items():
+                if value is None:
+                    os.environ.pop(name)
+                else:
+                    os.environ[name] = value
 
 
 def lock_simulator(domain: int) -> Lock:

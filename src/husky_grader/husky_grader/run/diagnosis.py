@@ -181,32 +181,27 @@ def unheard_topics(graph: Graph) -> Iterator[str]:
 
 def _wrong_qos(wanted: Endpoint, offered: Sequence[Endpoint]) -> Iterator[str]:
     """Yield what a subscription requests and nobody offers (DDS 1.4, 2.2.3)."""
-    hears = f'it hears nothing of {wanted.topic}: it asks for'
-    if wanted.transient_local and not any(each.transient_local for each in offered):
-        yield (
-            f'{hears} TRANSIENT_LOCAL, but that is published VOLATILE; '
-            'leave the durability of its QoS profile out'
-        )
-    if wanted.reliable and not any(each.reliable for each in offered):
-        yield (
-            f'{hears} RELIABLE, but that is published BEST_EFFORT; '
-            'subscribe with qos_profile_sensor_data'
-        )
-    if wanted.deadline_sec < min(each.deadline_sec for each in offered):
-        yield (
-            f'{hears} a deadline of {wanted.deadline_sec:g} s, which nobody offers; '
-            'leave the deadline of its QoS profile out'
-        )
-    if wanted.manual_liveliness and not any(each.manual_liveliness for each in offered):
-        yield (
-            f'{hears} MANUAL_BY_TOPIC, but that is published AUTOMATIC; '
-            'leave the liveliness of its QoS profile out'
-        )
-    if wanted.lease_sec < min(each.lease_sec for each in offered):
-        yield (
-            f'{hears} a liveliness lease of {wanted.lease_sec:g} s, which nobody offers; '
-            'leave the lease of its QoS profile out'
-        )
+    latched = wanted.transient_local and not any(each.transient_local for each in offered)
+    reliable = wanted.reliable and not any(each.reliable for each in offered)
+    manual = wanted.manual_liveliness and not any(each.manual_liveliness for each in offered)
+    deadline = wanted.deadline_sec < min(each.deadline_sec for each in offered)
+    lease = wanted.lease_sec < min(each.lease_sec for each in offered)
+    for is_unmet, requested, published, mend in (
+        (latched, 'TRANSIENT_LOCAL', 'VOLATILE', _leave_out('durability')),
+        (reliable, 'RELIABLE', 'BEST_EFFORT', 'subscribe with qos_profile_sensor_data'),
+        (manual, 'MANUAL_BY_TOPIC', 'AUTOMATIC', _leave_out('liveliness')),
+        (deadline, f'a deadline of {wanted.deadline_sec:g} s', 'without', _leave_out('deadline')),
+        (lease, f'a liveliness lease of {wanted.lease_sec:g} s', 'without', _leave_out('lease')),
+    ):
+        if is_unmet:
+            yield (
+                f'it hears nothing of {wanted.topic}: it asks for {requested}, but that is '
+                f'published {published}; {mend}'
+            )
+
+
+def _leave_out(policy: str) -> str:
+    return f'leave the {policy} of its QoS profile out'
 
 
 def unheard_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
