@@ -9,6 +9,7 @@ from pathlib import Path
 import socket
 import subprocess
 import sys
+from tempfile import TemporaryDirectory
 
 from husky_grader.jail import find_sandbox, Jail, Sandbox
 from playpen_testing.jails import in_each_sandbox
@@ -91,6 +92,35 @@ def test_no_attack_succeeds(sandbox: Sandbox, folder: Path, victim: str) -> None
 def test_attacks_succeed_without_a_jail(folder: Path, victim: str) -> None:
     said = attack(find_sandbox('none'), folder, victim, *SUCCEEDING)
     assert {line.partition(':')[0] for line in said.splitlines()} == set(SUCCEEDING)
+
+
+@in_each_sandbox
+def test_a_folder_on_pythonpath_shows_nobody_elses_files(
+    sandbox: Sandbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with TemporaryDirectory(dir='/var/tmp') as place:  # of /tmp each jail has its own
+        (folder := Path(place, 'jail')).mkdir()
+        (other := Path(place, 'other')).write_text('for nobody else')
+        Path(place).chmod(0o755)
+        other.chmod(0o600 if sandbox.name == 'user' else 0o644)
+        monkeypatch.setenv('PYTHONPATH', place, prepend=os.pathsep)
+        log = tmp_path / 'log'
+        with Jail(sandbox, folder) as jail:
+            jail.run(['cat', str(other)], log=log, within_sec=10.0)
+    assert log.read_text() != 'for nobody else'
+
+
+@in_each_sandbox
+def test_a_temporary_folder_on_pythonpath_hides_no_workspace(
+    sandbox: Sandbox, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (given := tmp_path / 'given').write_text('to read')
+    given.chmod(0o644)
+    monkeypatch.setenv('PYTHONPATH', '/tmp', prepend=os.pathsep)
+    log = tmp_path / 'log'
+    with Jail(sandbox, folder, readable=[given]) as jail:
+        jail.run(['cat', str(given)], log=log, within_sec=10.0)
+    assert log.read_text() == 'to read'
 
 
 @in_each_sandbox

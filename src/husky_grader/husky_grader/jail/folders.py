@@ -45,6 +45,8 @@ _ALLOWED = (
 )
 # These lead to what is read.
 _PATHS = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'PYTHONPATH')
+# Memory in each jail.
+_TEMPORARY, _SHARED = '/tmp', '/dev/shm'
 _LIBRARIES, _PROFILES = 'LD_LIBRARY_PATH', 'FASTRTPS_DEFAULT_PROFILES_FILE'
 
 
@@ -64,16 +66,23 @@ def mounts_of(folder: Path, readable: Iterable[Path], limits: Limits) -> list[Mo
     :param readable: besides the system and the lab.
     """
     own = (
-        Mount('memory', str(limits.temporary_mb * MB), '/tmp'),
-        Mount('memory', str(limits.shared_mb * MB), '/dev/shm'),
+        Mount('memory', str(limits.temporary_mb * MB), _TEMPORARY),
+        Mount('memory', str(limits.shared_mb * MB), _SHARED),
         Mount('write', str(folder.resolve()), str(folder.resolve())),
     )
-    return sorted((*read_mounts(readable), *own), key=lambda mount: Path(mount.target).parts)
+    shown = read_mounts(readable, apart=(folder.resolve(), Path(_TEMPORARY), Path(_SHARED)))
+    return sorted((*shown, *own), key=lambda mount: Path(mount.target).parts)
 
 
-def read_mounts(readable: Iterable[Path]) -> list[Mount]:
-    """Return what can only be read in a jail: the system, the lab, and more."""
-    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *_ros(), *readable}
+def read_mounts(readable: Iterable[Path], *, apart: Iterable[Path] = ()) -> list[Mount]:
+    """
+    Return what can only be read in a jail: the system, the lab, and more.
+
+    :param apart: what a folder that a variable names must not hold, or it is not shown.
+    """
+    readable = tuple(readable)
+    ros = _ros((Path.home(), *apart, *readable))
+    places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *ros, *readable}
     ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
     return [
         Mount('read', str(way.resolve()), str(way))
@@ -82,14 +91,25 @@ def read_mounts(readable: Iterable[Path]) -> list[Mount]:
     ]
 
 
-def _ros() -> set[Path]:
-    """Return where ROS is read from, and the Python by which programs run."""
+def _ros(apart: Iterable[Path]) -> set[Path]:
+    """
+    Return where ROS is read from, and the Python by which programs run.
+
+    Not what holds one of the folders apart: others' files lie beside it.
+    """
     found = {INSIDE.parent, Path(sys.prefix), Path(sys.base_prefix), *_links_of(sys.executable)}
     found |= {_CLONE / name for name in _ROS}
     for variable in (*_PATHS, _LIBRARIES, _PROFILES):
         found |= {Path(entry) for entry in _without_own(os.environ.get(variable, ''))}
-    home = Path.home()
-    return {path for path in found if path.is_absolute() and not home.is_relative_to(path)}
+    return {
+        path
+        for path in found
+        if path.is_absolute() and not any(_holds(path, each) for each in apart)
+    }
+
+
+def _holds(folder: Path, place: Path) -> bool:
+    return place.is_relative_to(folder) or place.resolve().is_relative_to(folder.resolve())
 
 
 def _without_own(entries: str) -> list[str]:
