@@ -8,7 +8,7 @@ from husky_course.frames import Pose, to_odom, to_world, wrapped
 from husky_course.record import Collision
 from husky_course.robot import RobotStart
 from husky_sim.errors import SimulatorError
-from husky_sim.sensors import Lidar, new_noise, RANGE_MAX_M, Rate
+from husky_sim.sensors import Lidar, new_noise, RANGE_MAX_M, Rate, RayScene
 from husky_sim.simulation import SimulatedRobot, Simulation
 from husky_sim.world import default_worlds
 import mujoco
@@ -43,6 +43,7 @@ class Husky:
             raise ValueError(str(error)) from None
         self._scans = Rate(settings.laser_rate_hz)
         self._laser: Lidar | None = None
+        self._scene: RayScene | None = None
         self.ranges: Floats | None = None  # of the last scan, in metres; None without a laser
         # Where the robot believes to be, as its odometry starts where it starts; where it is.
         self.estimate: Estimate = (0.0, 0.0, 0.0, 0.0, 0.0)
@@ -65,9 +66,9 @@ class Husky:
         ]
         if beams and (self._laser is None or self._settings.noise):
             noise = new_noise([*seed, 1], beams) if self._settings.noise else None
-            self._laser = Lidar(
-                self.start.name, simulation.model, simulation.data, noise, beams=beams
-            )
+            if self._scene is None:
+                self._scene = RayScene(simulation.world)
+            self._laser = Lidar(self.start.name, self._scene, simulation.data, noise, beams=beams)
         # The poses of all geoms, for the laser; more of mj_forward would change what follows.
         mujoco.mj_kinematics(simulation.model, simulation.data)
         self._read()

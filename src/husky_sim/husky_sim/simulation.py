@@ -22,6 +22,7 @@ from husky_sim.robot.motors import Motors
 from husky_sim.robot.tyres import Tyres
 from husky_sim.sensors.imu import Imu, new_noise
 from husky_sim.sensors.localization import PlanarFilter
+from husky_sim.sensors.ray_scene import RayScene
 from husky_sim.sensors.sensors import Sensors
 from husky_sim.world.world import load_world, World
 
@@ -39,6 +40,7 @@ class SimulatedRobot:
         config: SimulationConfig,
         *,
         seed: list[int],
+        scene: RayScene | None = None,
     ) -> None:
         self.name = start.name
         self.start = start
@@ -53,7 +55,7 @@ class SimulatedRobot:
         self._imu = Imu(self.husky, new_noise([*seed, 0]) if config.has_noise else None)
         self.sensors = Sensors(
             start.name,
-            world.model,
+            scene,
             data,
             config.sensors,
             self.battery,
@@ -130,9 +132,12 @@ class Simulation:
         self.periods = 0
         self.broadphase = BroadPhase(self.world, self.data)
         self._detector = TouchDetector(self.world, self.data)
+        scene = RayScene(self.world) if config.sensors.lidar_rate_hz > 0.0 else None
         self.robots = [
             SimulatedRobot(
-                start, self.world, self.data, config, seed=[config.sensors.seed, number]
+                *(start, self.world, self.data, config),
+                seed=[config.sensors.seed, number],
+                scene=scene,
             )
             for number, start in enumerate(config.robots)
         ]

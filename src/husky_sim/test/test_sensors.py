@@ -15,6 +15,7 @@ from husky_sim.errors import SettingError
 from husky_sim.ros.sensor_topics import new_camera_info, new_image
 from husky_sim.sensors import lidar, navsat
 from husky_sim.sensors.camera import Camera
+from husky_sim.sensors.ray_scene import RayScene
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import Simulation
 import mujoco
@@ -163,7 +164,8 @@ def test_a_scan_is_the_same_as_with_every_geom(
     )
     model, data = simulation.model, simulation.data
     mujoco.mj_forward(model, data)
-    scanner, groups = lidar.Lidar('husky', model, data, None), model.geom_group.copy()
+    scanner = lidar.Lidar('husky', RayScene(simulation.world), data, None)
+    groups = model.geom_group.copy()
     state = simulation.robots[0].state._replace(orientation=(*turn, 0.1))
     seen = scanner.scan(state, 0.1)
     place, matrix = np.array(state.position), np.zeros(9)
@@ -219,7 +221,7 @@ def put_everything_ahead(simulation: Simulation, yaw: float) -> Iterator[str]:
 def test_a_scan_is_bit_for_bit_that_of_the_whole_playpen(worlds: Path, yaw: float) -> None:
     robots = (RobotStart(yaw=yaw), RobotStart(name='other', x=-3.0, y=1.5))
     simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml'), robots=robots))
-    scanner = lidar.Lidar('husky', simulation.model, simulation.data, None)
+    scanner = lidar.Lidar('husky', RayScene(simulation.world), simulation.data, None)
     state, expected = simulation.robots[0].state, cast_at_every_geom(simulation)
     assert scanner.scan(state, 0.1).tobytes() == expected.tobytes()
     assert np.isfinite(expected).sum() > lidar.BEAMS / 2
@@ -232,6 +234,39 @@ def test_a_scan_is_bit_for_bit_that_of_the_whole_playpen(worlds: Path, yaw: floa
     simulation.reset()
     mujoco.mj_kinematics(simulation.model, simulation.data)
     assert scanner.scan(state, 0.1).tobytes() == cast_at_every_geom(simulation).tobytes()
+
+
+TENT = """
+    <geom type="mesh" mesh="tent" pos="2 0 0.3" euler="0 0 30"/>
+    <geom type="mesh" mesh="block" pos="0 -2 0.3"/>
+  </worldbody>
+  <compiler meshdir="meshes"/>
+  <asset>
+    <mesh name="tent" file="tent.obj" scale="1 2 1" refpos="0.1 0 0"/>
+    <mesh name="block" vertex="0 0 0  1 0 0  0 1 0  0 0 0.4"/>
+  </asset>
+  <worldbody>
+"""
+
+
+@pytest.mark.parametrize('hill', [False, True])
+def test_a_scan_of_meshes_is_bit_for_bit_that_of_the_whole_world(
+    make_world: Callable[..., str], tmp_path: Path, hill: bool
+) -> None:
+    (tmp_path / 'meshes').mkdir()
+    (tmp_path / 'meshes' / 'tent.obj').write_text(
+        'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n'
+    )
+    more = '<asset><hfield name="hill" nrow="2" ncol="2" size="2 2 1 0.1"/></asset>'
+    world = make_world(TENT.replace('<worldbody>', f'{more if hill else ""}<worldbody>'))
+    simulation = Simulation(SimulationConfig(world=world))
+    simulation.advance()
+    scene = RayScene(simulation.world)
+    assert scene.is_one_body is not hill
+    scanner = lidar.Lidar('husky', scene, simulation.data, None)
+    seen = scanner.scan(simulation.robots[0].state, 0.1)
+    assert seen.tobytes() == cast_at_every_geom(simulation).tobytes()
+    assert (seen < 3.0).sum() > 50
 
 
 HIDDEN = """
@@ -252,7 +287,7 @@ def test_what_is_invisible_is_not_scanned(
     world = make_world(HIDDEN.format(colour=colour, material=material))
     simulation = Simulation(SimulationConfig(world=world))
     simulation.advance()
-    scanner = lidar.Lidar('husky', simulation.model, simulation.data, None)
+    scanner = lidar.Lidar('husky', RayScene(simulation.world), simulation.data, None)
     ahead = scanner.scan(simulation.robots[0].state, 0.1)[lidar.BEAMS // 2]
     assert ahead == pytest.approx(seen - 0.1 - lidar.PLACE[0], abs=0.01)
 

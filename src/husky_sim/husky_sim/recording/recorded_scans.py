@@ -14,6 +14,7 @@ from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.recording.played_run import PlayedRun
 from husky_sim.robot.husky import RobotState
 from husky_sim.sensors.lidar import Lidar
+from husky_sim.sensors.ray_scene import RayScene
 from husky_sim.world.world import load_world
 
 SCAN_RATE_HZ = 10.0
@@ -43,7 +44,7 @@ class RecordedScans:
         self._played = PlayedRun(run, world)
         self._model = world.model
         self._data = mujoco.MjData(world.model)
-        self._lidar = Lidar(self._name, self._model, self._data, None)
+        self._lidar = Lidar(self._name, RayScene(world), self._data, None)
 
     def __iter__(self) -> Iterator[tuple[int, npt.NDArray[np.float32]]]:
         """Yield rows of the record with the ranges of all beams, as `Lidar.scan` returns them."""

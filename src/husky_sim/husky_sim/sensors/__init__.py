@@ -4,6 +4,7 @@
 
 from husky_sim.sensors.camera import Camera
 from husky_sim.sensors.lidar import Lidar, new_noise, RANGE_MAX_M
+from husky_sim.sensors.ray_scene import RayScene
 from husky_sim.sensors.sensors import Rate
 
-__all__ = ['RANGE_MAX_M', 'Camera', 'Lidar', 'Rate', 'new_noise']
+__all__ = ['RANGE_MAX_M', 'Camera', 'Lidar', 'Rate', 'RayScene', 'new_noise']

@@ -13,6 +13,7 @@ from husky_sim.robot.battery import Battery
 from husky_sim.robot.husky import RobotState
 from husky_sim.sensors import lidar, navsat
 from husky_sim.sensors.battery_monitor import BatteryMonitor, BatteryReading
+from husky_sim.sensors.ray_scene import RayScene
 
 
 class Rate:
@@ -37,7 +38,7 @@ class Sensors:
     def __init__(
         self,
         name: str,
-        model: mujoco.MjModel,
+        scene: RayScene | None,
         data: mujoco.MjData,
         config: SensorConfig,
         battery: Battery | None,
@@ -49,8 +50,8 @@ class Sensors:
         of_navsat = navsat.new_noise([*seed, 2]) if noise else None
         self._noises = [noise for noise in (of_lidar, of_navsat) if noise is not None]
         self._lidar: lidar.Lidar | None = None
-        if config.lidar_rate_hz > 0.0:
-            self._lidar = lidar.Lidar(name, model, data, of_lidar)
+        if scene is not None:
+            self._lidar = lidar.Lidar(name, scene, data, of_lidar)
         self._navsat = navsat.NavSat(of_navsat)
         self._monitor = BatteryMonitor(battery) if battery is not None else None
         self._scans = Rate(config.lidar_rate_hz)

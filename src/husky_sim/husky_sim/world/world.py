@@ -47,6 +47,7 @@ class World:
 
     path: str
     husky: str  # the robot's file
+    spec: mujoco.MjSpec
     model: mujoco.MjModel
     robots: tuple[RobotStart, ...]
     flat_ground: tuple[FlatGround, ...]
@@ -117,6 +118,7 @@ def load_world(
     return World(
         path=path,
         husky=husky,
+        spec=spec,
         model=model,
         robots=tuple(robots),
         flat_ground=faces,
