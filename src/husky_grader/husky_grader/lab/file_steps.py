@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The steps that can be judged by looking at files: workspace and packages."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+import os
 from pathlib import Path
 import re
 import xml.etree.ElementTree as ElementTree
@@ -12,6 +15,8 @@ from husky_grader.rubric.steps import PackageStep, WorkspaceStep
 
 MAX_MANIFEST = 100_000  # bytes
 PACKAGE_NAME = re.compile(r'[A-Za-z][\w-]*', re.ASCII)  # REP-149: no way to another folder
+# colcon passes over a folder in which one of these lies, with all that is below it.
+IGNORED = {'COLCON_IGNORE', 'AMENT_IGNORE', 'CATKIN_IGNORE'}
 
 
 def workspace_step(step: WorkspaceStep, workspace: Path) -> Finding:
@@ -28,20 +33,25 @@ def asked(what: object) -> str:
 
 
 def package_step(step: PackageStep, workspace: Path) -> Finding:
-    """Look at a package's manifest."""
+    """Look at a package's manifest; at the best one where several packages may be meant."""
     try:
-        manifest = find_package(workspace, step.package, step.package_with)
+        manifests = find_packages(workspace, step.package, step.package_with)
     except PackageMissing as error:
         return nothing(str(error))
+    findings = [_manifest_finding(step, manifest) for manifest in manifests]
+    return min(findings, key=lambda found: sum(map(step.cost_percent, found.defects)))
+
+
+def _manifest_finding(step: PackageStep, manifest: Manifest) -> Finding:
     root, defects = manifest.root, {}
-    given = {element.text for element in root if element.tag.endswith('depend')}
+    given = {_text(element) for element in root if element.tag.endswith('depend')}
     if missing := [wanted for wanted in step.dependencies if wanted not in given]:
         lines = ' '.join(f'<exec_depend>{wanted}</exec_depend>' for wanted in missing)
         defects['dependencies'] = f'package.xml lacks: {lines}'
-    if root.findtext('export/build_type') != step.build_type:
+    if step.build_type not in map(_text, root.findall('export/build_type')):
         line = f'<export><build_type>{step.build_type}</build_type></export>'
         defects['build_type'] = f'package.xml lacks {line}'
-    if todo := [element.tag for element in root if (element.text or '').startswith('TODO')]:
+    if todo := [element.tag for element in root if _text(element).startswith('TODO')]:
         defects['todo'] = f'package.xml still says TODO: fill in its {" and ".join(todo)}'
     return Finding(f'package.xml of {manifest.name} is complete', defects=defects)
 
@@ -59,35 +69,56 @@ class Manifest:
     root: ElementTree.Element
 
 
-def find_package(workspace: Path, name: str, with_file: str) -> Manifest:
+def find_packages(workspace: Path, name: str, with_file: str) -> list[Manifest]:
     """
-    Return a package of the workspace.
+    Return the packages of the workspace that may be meant; where the name is given, it is one.
 
-    :param with_file: the file that it has, where its name is not given.
+    :param with_file: the file that they have, where the name is not given.
     :raises PackageMissing: when there is none.
     """
     manifests = find_manifests(workspace)
-    for manifest in manifests:
-        if manifest.name == name or (with_file and any(manifest.folder.glob(f'**/{with_file}'))):
-            return manifest
-    what = name or f'a package with {with_file}'
-    have = ', '.join(sorted(manifest.name for manifest in manifests)) or 'none'
-    raise PackageMissing(f'{what} is not in src; packages there: {have}')
+    found = [
+        manifest
+        for manifest in manifests
+        if manifest.name == name or (with_file and any(manifest.folder.glob(f'**/{with_file}')))
+    ]
+    if not found:
+        what = name or f'a package with {with_file}'
+        have = ', '.join(sorted(manifest.name for manifest in manifests)) or 'none'
+        raise PackageMissing(f'{what} is not in src; packages there: {have}')
+    return found
 
 
 def find_manifests(workspace: Path) -> list[Manifest]:
-    """Return the manifests that can be read, in the order of their folders."""
+    """
+    Return the manifests that can be read of the packages that colcon finds, in their order.
+
+    It looks for none in a package, in hidden folders, or where a file says that it is to pass.
+    """
     found = []
-    for path in sorted((workspace / 'src').glob('**/package.xml')):
-        # Never a pipe or a device: to read one may take for ever.
-        if path.is_symlink() or not path.is_file():
-            continue
-        try:
-            with path.open('rb') as stream:
-                root = ElementTree.fromstring(stream.read(MAX_MANIFEST))
-        except (ElementTree.ParseError, LookupError, ValueError, OSError):
-            continue  # LookupError and ValueError: an encoding that Python does not know
-        name = (root.findtext('name') or '').strip()
-        if PACKAGE_NAME.fullmatch(name):
-            found.append(Manifest(name, path.parent, root))
+    for place, folders, files in os.walk(workspace / 'src'):
+        folders[:] = sorted(name for name in folders if not name.startswith('.'))
+        if not IGNORED.isdisjoint((*folders, *files)):
+            folders.clear()
+        elif 'package.xml' in files and (manifest := _read_manifest(Path(place, 'package.xml'))):
+            found.append(manifest)
+            folders.clear()
     return found
+
+
+def _read_manifest(path: Path) -> Manifest | None:
+    # Never a pipe or a device: to read one may take for ever.
+    if path.is_symlink() or not path.is_file():
+        return None
+    try:
+        with path.open('rb') as stream:
+            root = ElementTree.fromstring(stream.read(MAX_MANIFEST))
+    except (ElementTree.ParseError, LookupError, ValueError, OSError):
+        return None  # LookupError and ValueError: an encoding that Python does not know
+    name = (root.findtext('name') or '').strip()
+    return Manifest(name, path.parent, root) if PACKAGE_NAME.fullmatch(name) else None
+
+
+def _text(element: ElementTree.Element) -> str:
+    """Return the text of an element as ROS reads it: without the spaces around it."""
+    return (element.text or '').strip()

@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 from husky_grader.jail import Jail, remove, Sandbox
-from husky_grader.lab.file_steps import find_package
+from husky_grader.lab.file_steps import find_packages
 from husky_grader.rubric.steps import ProgramStep
 
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
@@ -59,13 +59,23 @@ class Programs:
         :raises PackageMissing: when the package is not there.
         :raises ProgramMissing: when the program is not there.
         """
-        package = find_package(self.workspace, step.package, step.package_with).name
-        command = [str(find_executable(self.built, package, step.executable)), *step.arguments]
+        program = self._program_of(step)
+        command = [str(program), *step.arguments]
         if step.parameters:
             command.append('--ros-args')
             for name, value in step.parameters.items():
                 command += ['-p', f'{name}:={json.dumps(value)}']  # JSON is YAML, as rcl reads it
         return command
+
+    def _program_of(self, step: ProgramStep) -> Path:
+        """Return the program; where several packages may be meant, that of the first with it."""
+        missing: list[ProgramMissing] = []
+        for package in find_packages(self.workspace, step.package, step.package_with):
+            try:
+                return find_executable(self.built, package.name, step.executable)
+            except ProgramMissing as error:
+                missing.append(error)
+        raise missing[0]
 
 
 def find_executable(folder: Path, package: str, name: str) -> Path:
@@ -90,7 +100,13 @@ def find_executable(folder: Path, package: str, name: str) -> Path:
         if candidate.is_file() and os.access(candidate, os.X_OK):
             return candidate
     have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
+    todo = f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+    if (folder / 'install' / package / 'bin' / name).is_file():
+        todo = (
+            f'it was put into install/{package}/bin; its setup.cfg lacks: [install] '
+            f'install_scripts=$base/lib/{package}'
+        )
     raise ProgramMissing(
         f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
-        f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+        f'{todo}'
     )

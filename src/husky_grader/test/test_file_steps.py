@@ -1,0 +1,79 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which packages of a workspace are looked at, and what their manifests say."""
+
+from pathlib import Path
+
+from husky_grader.jail import find_sandbox
+from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
+from husky_grader.lab.programs import ProgramMissing, Programs
+from husky_grader.rubric.steps import DriveStep, PackageStep
+import pytest
+
+DRIVE = DriveStep(points=10, package_with='follow_path.py', executable='follow_path', courses=())
+
+
+def write_package(folder: Path, *lines: str) -> Path:
+    """Write a manifest, and a program's source beside it."""
+    folder.mkdir(parents=True)
+    text = '\n'.join((f'<package><name>{folder.name}</name>', *lines, '</package>'))
+    (folder / 'package.xml').write_text(text)
+    (folder / 'follow_path.py').touch()
+    return folder
+
+
+def install(workspace: Path, package: str, folder: str) -> Path:
+    """Put a program where a build does; return it."""
+    program = workspace.with_name('built') / 'install' / package / folder / 'follow_path'
+    program.parent.mkdir(parents=True)
+    program.touch(mode=0o755)
+    return program
+
+
+def programs_of(workspace: Path) -> Programs:
+    return Programs(workspace, workspace.with_name('built'), {}, find_sandbox('none'))
+
+
+@pytest.mark.parametrize('mark', sorted(IGNORED))
+def test_a_package_that_colcon_passes_over_is_none(tmp_path: Path, mark: str) -> None:
+    write_package(tmp_path / 'src' / 'my_driver')
+    old = write_package(tmp_path / 'src' / 'backup' / 'a_driver')
+    old.with_name(mark).touch()
+    (write_package(tmp_path / 'src' / 'b_driver') / mark).touch()
+    write_package(tmp_path / 'src' / '.trash' / 'c_driver')
+    write_package(tmp_path / 'src' / 'my_driver' / 'old' / 'd_driver')
+    assert [each.name for each in find_manifests(tmp_path)] == ['my_driver']
+
+
+def test_spaces_around_what_a_manifest_says_cost_nothing(tmp_path: Path) -> None:
+    lines = ('<depend>\n  rclpy\n</depend>', '<export><build_type> ament_python </build_type>')
+    write_package(tmp_path / 'src' / 'topic_demo', *lines, '</export>')
+    step = PackageStep(points=10, package='topic_demo', dependencies=('rclpy',))
+    assert package_step(step, tmp_path).defects == {}
+
+
+def test_of_several_packages_with_a_file_the_right_one_counts(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'a_first_try')
+    write_package(
+        workspace / 'src' / 'my_driver',
+        '<depend>rclpy</depend><export><build_type>ament_python</build_type></export>',
+    )
+    (tmp_path / 'built' / 'install' / 'a_first_try').mkdir(parents=True)
+    program = install(workspace, 'my_driver', 'lib/my_driver')
+    step = PackageStep(points=10, package_with='follow_path.py', dependencies=('rclpy',))
+    assert package_step(step, workspace).why == 'package.xml of my_driver is complete'
+    assert package_step(step, workspace).defects == {}
+    assert programs_of(workspace).command_of(DRIVE) == [str(program)]
+
+
+def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'my_driver')
+    install(workspace, 'my_driver', 'bin')
+    with pytest.raises(ProgramMissing) as missing:
+        programs_of(workspace).command_of(DRIVE)
+    assert str(missing.value).endswith(
+        'it was put into install/my_driver/bin; its setup.cfg lacks: [install] '
+        'install_scripts=$base/lib/my_driver'
+    )
