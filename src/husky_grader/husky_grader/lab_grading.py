@@ -5,10 +5,13 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+import shutil
 
 from husky_grader.graded import Graded
 from husky_grader.jail import Sandbox
+from husky_grader.lab.drive_step import FOR_STAFF
 from husky_grader.lab.lab import grade_lab, grade_path
+from husky_grader.report.folder import drives_in
 from husky_grader.rubric.steps import Rubric, Step
 from husky_grader.submission import Refused, Submission, unpack
 
@@ -36,6 +39,7 @@ def grade_submission(
     """
     name = sandbox.name if sandbox else ''
     graded = Graded(submission, rubric.points, sandbox=name, notes=submission.notes)
+    _forget_drives(folder, rubric)
     try:
         given = unpack(submission, folder / WORKSPACE)
     except Refused as error:
@@ -66,3 +70,11 @@ def grade_submission(
     except ValueError as error:  # it must not stop the others
         return replace(graded, refused=f'{submission.place}: cannot be graded: {error}')
     return replace(graded, steps=steps)
+
+
+def _forget_drives(folder: Path, rubric: Rubric) -> None:
+    """Remove the reports on earlier drives: of an older submission, or of what is hidden now."""
+    for step in rubric.steps:
+        for place in (folder, folder / FOR_STAFF):
+            for drive in drives_in(place, step.file_name):
+                shutil.rmtree(drive, ignore_errors=True)

@@ -46,6 +46,22 @@ def test_a_class_of_waypoint_files_is_graded_without_a_sandbox(tmp_path: Path) -
     assert (report / 'ann' / 'path' / 'report.html').is_file()
 
 
+def test_no_drive_of_an_older_submission_is_shown(tmp_path: Path) -> None:
+    file, report = tmp_path / 'ann.yaml', tmp_path / 'report'
+    command = ['--lab', str(file), '--rubric', str(RUBRIC), '--report', str(report)]
+    shutil.copyfile(default_course(), file)
+    assert grade(command) == 0
+    assert 'path/report.html' in (report / 'index.html').read_text()
+    shutil.copytree(report / 'path', report / 'staff' / 'path_2')  # as of a hidden course
+    (report / 'path_like').mkdir()
+    shutil.copyfile(report / 'path' / 'report.html', report / 'path_like' / 'report.html')
+    file.write_text('speed: fast\n')
+    assert grade(command) == 1
+    assert 'report.html' not in (report / 'index.html').read_text()
+    kept = sorted(path.parent.name for path in report.rglob('report.html'))
+    assert kept == ['path_like']  # which is somebody else's
+
+
 @pytest.mark.parametrize(
     ('course', 'points'),
     [

@@ -5,17 +5,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-import re
 
 from husky_course.files import replacing
 
 from husky_grader.graded import Graded
 from husky_grader.outputs.class_summary import as_points
+from husky_grader.report.folder import drives_in, REPORT
 from husky_grader.report.page import rendered
 from husky_grader.rubric.steps import file_name_of
 
 PAGE = 'index.html'
-REPORT = 'report.html'
 _TEMPLATE = Path(__file__).with_name('student.html.jinja')
 _STYLE = Path(__file__).with_name('class.css')
 
@@ -39,13 +38,8 @@ def drives_of(folder: Path, graded: Graded) -> list[Drive]:
     """
     found = []
     for step in graded.steps:
-        name = file_name_of(step.name)
-        one_or_several = re.compile(rf'{re.escape(name)}(_\d+)?')
-        folders = [path for path in folder.glob(f'{name}*') if one_or_several.fullmatch(path.name)]
-        in_order = sorted(folders, key=lambda path: (len(path.name), path.name))
-        found += [
-            Drive(path.name, path / REPORT) for path in in_order if (path / REPORT).is_file()
-        ]
+        folders = drives_in(folder, file_name_of(step.name))
+        found += [Drive(path.name, path / REPORT) for path in folders]
     return list({drive.name: drive for drive in found}.values())
 
 

@@ -1,15 +1,17 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The folder of a report, into which one process writes at a time."""
+"""The folder of a report, into which one process writes at a time, and those of its drives."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 import hashlib
 import os
 from pathlib import Path
+import re
 
 from husky_runtime.domains import Lock
 
+REPORT = 'report.html'
 _held: set[str] = set()  # by this process
 
 
@@ -40,3 +42,16 @@ def alone_in(folder: Path) -> Iterator[None]:
     finally:
         _held.discard(name)
         lock.close()
+
+
+def drives_in(folder: Path, step: str) -> list[Path]:
+    """
+    Return the folders with a report on a drive of a step, in their order.
+
+    :param folder: of the report of a submission.
+    :param step: how the names of its files begin.
+    """
+    one_or_several = re.compile(rf'{re.escape(step)}(_\d+)?')
+    found = [path for path in folder.glob(f'{step}*') if one_or_several.fullmatch(path.name)]
+    in_order = sorted(found, key=lambda path: (len(path.name), path.name))
+    return [path for path in in_order if (path / REPORT).is_file()]
