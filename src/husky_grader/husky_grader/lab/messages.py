@@ -3,8 +3,11 @@
 """Judge messages by what a rubric asks of their fields."""
 
 from collections.abc import Sequence
+from ctypes import c_float
+from dataclasses import replace
 from itertools import pairwise
 import math
+import re
 from statistics import median
 from typing import Any
 
@@ -12,22 +15,34 @@ from husky_grader.lab.file_steps import asked
 from husky_grader.rubric.steps import FieldCheck
 from husky_grader.run.diagnosis import shortened
 
+_FLOAT32 = re.compile(r'(sequence<)?float\b')  # as Python's messages name the type
 _ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 
 def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
     """Return which field of a message holds something else than asked for; nothing if none."""
     for check in checks:
-        value = message
+        value, kind = message, ''
         for name in check.field.split('.'):
+            kind = value.get_fields_and_field_types()[name]
             value = getattr(value, name)
+        held = _in_float32(check) if _FLOAT32.match(kind) else check
         entries = (
             [value] if isinstance(value, (str, bytes)) or not hasattr(value, '__len__') else value
         )
         for entry in entries:
-            if not _fits(entry, check):
+            if not _fits(entry, held):
                 return f'{check.field} is {_shown(entry)}; {asked(_wanted(check))}'
     return ''
+
+
+def _in_float32(check: FieldCheck) -> FieldCheck:
+    """Return a check with the numbers that such a field can hold: 0.1 is not among them."""
+    equals, least, most = (
+        c_float(limit).value if isinstance(limit, float) else limit
+        for limit in (check.equals, check.least, check.most)
+    )
+    return replace(check, equals=equals, least=least, most=most)
 
 
 def _shown(value: Any) -> str:
