@@ -4,12 +4,14 @@
 
 import argparse
 from collections.abc import Callable
+import errno
 import os
 import sys
 from typing import NoReturn
 
 BAD_INPUT = 2
 BROKEN_PIPE = 141  # the exit status of a program that SIGPIPE ends
+_NOT_WRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG)
 
 
 class Parser(argparse.ArgumentParser):
@@ -50,7 +52,10 @@ def run_printing(prog: str, work: Callable[[], int]) -> int:
 
 def why(error: OSError) -> str:
     """Return what went wrong, without the number of it."""
-    where = f'{error.filename}: ' if error.filename else ''
+    place = error.filename
+    if error.errno in _NOT_WRITTEN and error.filename2:
+        place = error.filename2  # of a copy: who reads it knows where it comes from
+    where = f'{place}: ' if place else ''
     return f'{where}{error.strerror or error}'
 
 

@@ -5,6 +5,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from tempfile import gettempdir
 
 from husky_course.printable import printable
 
@@ -17,6 +18,7 @@ from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.live_steps import live_step
 from husky_grader.lab.path_step import path_step
 from husky_grader.lab.programs import Programs
+from husky_grader.lab.room import check_room
 from husky_grader.rubric.steps import (
     BuildStep,
     DriveStep,
@@ -49,6 +51,7 @@ def grade_lab(
 
     :param folder: of the report.
     :param sandbox: in which what students wrote is built and run.
+    :raises OSError: when something is written, or may have failed, where there is no room.
     """
     workspace, folder = workspace.resolve(), folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
@@ -102,9 +105,15 @@ class _Grading:
         self._not_sourced = 'nothing was built'
 
     def find(self, step: Step) -> Finding:
-        """Return the finding on a step, with what was printed meanwhile."""
+        """
+        Return the finding on a step, with what was printed meanwhile.
+
+        :raises OSError: when it may have lost points for want of room on a disk.
+        """
         log = self._folder / f'{step.file_name}.log'
         found = undisturbed(lambda: self._found(step, log))
+        if isinstance(step, (BuildStep, ProgramStep)) and (found.defects or found.score < 100.0):
+            check_room(self._folder, Path(gettempdir()))
         printed = shown(read_printed(log))
         # Where the grader keeps what was handed in is nobody's business, and nowhere the same.
         place = f'{self._folder}/'
