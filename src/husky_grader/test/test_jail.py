@@ -344,3 +344,14 @@ def test_a_machine_without_a_sandbox_is_told_what_to_install(
     assert 'unshare' in str(refused.value)
     assert f'); {advice}' in str(refused.value)
     assert '\n' not in str(refused.value)
+
+
+def test_a_program_prints_what_the_grader_s_terminal_cannot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in {'PYTHONUTF8': '0', 'LC_ALL': 'C'}.items():
+        monkeypatch.setenv(name, value)
+    log = tmp_path / 'log'
+    with jail_in(find_sandbox('none'), tmp_path) as jail:
+        assert jail.run(python('print("größe ✓")'), log=log, within_sec=20.0) == 0
+    assert log.read_text(encoding='utf-8') == 'größe ✓\n'

@@ -14,14 +14,14 @@ from husky_grader.rubric.rubric_file import parse_rubric
 import pytest
 
 RUBRIC = parse_rubric('title: T\nsteps:\n  - {kind: build, points: 10}\n')
-MANIFEST = '''<package format="3">
+MANIFEST = """<package format="3">
   <name>p</name>
   <version>0.0.0</version>
   <description>It cannot be built</description>
   <maintainer email="somebody@example.org">Somebody</maintainer>
   <license>Apache-2.0</license>
   <export><build_type>ament_python</build_type></export>
-</package>'''
+</package>"""
 
 
 @contextmanager

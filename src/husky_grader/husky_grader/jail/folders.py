@@ -37,7 +37,7 @@ _OWN_PACKAGES = (
 # Variables that programs of ROS read, and no other: among those are tokens and passwords.
 _ALLOWED = (
     *('PATH', 'LANG', 'LANGUAGE', 'LC_*', 'TZ', 'LD_LIBRARY_PATH', 'VIRTUAL_ENV'),
-    *('PYTHONPATH', 'PYTHONUTF8', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE'),
+    *('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE'),
     *('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'COLCON_PYTHON_EXECUTABLE'),
     *('ROS_DISTRO', 'ROS_VERSION', 'ROS_PYTHON_VERSION', 'ROS_PYTHON_CHECK_FIELDS'),
     *('RMW_IMPLEMENTATION', 'FASTRTPS_DEFAULT_PROFILES_FILE', 'HUSKY_LAB_ROS'),
@@ -141,6 +141,7 @@ def environment_for(folder: Path, given: Mapping[str, str]) -> dict[str, str]:
     for name in allowed.keys() & set(_PATHS):
         allowed[name] = ':'.join(_without_own(allowed[name]))
     own = {'HOME': str(home_of(folder)), 'USER': 'student', 'LOGNAME': 'student'}
+    own['PYTHONUTF8'] = '1'  # that of the grader's terminal is nothing to a student's program
     return {**allowed, **own, **given}
 
 
