@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Sequence
 import json
+import os
 from pathlib import Path
 import sys
 from typing import TYPE_CHECKING, TypeVar
@@ -108,10 +109,26 @@ def grade_labs(options: argparse.Namespace) -> int:
     if options.gradebook:
         gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
     sandbox = None if rubric.is_of_files else find_sandbox(options.sandbox)
+    if sandbox is not None:
+        _check_programs_run(Path(options.report))
     of_a_class = options.shard or options.collect or options.executor or gradebook
     if len(submissions) == 1 and not of_a_class:
         return _grade_lab(submissions[0], rubric, sandbox, options)
     return _grade_labs(submissions, rubric, sandbox, gradebook, options)
+
+
+def _check_programs_run(folder: Path) -> None:
+    """
+    Check that what is built in a folder can be run there.
+
+    :raises ValueError: if it cannot, for which each student would lose points.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    if os.statvfs(folder).f_flag & os.ST_NOEXEC:
+        raise ValueError(
+            f'{folder}: no program can run on this file system, which is mounted with noexec; '
+            'name another folder with --report DIR'
+        )
 
 
 def _grade_lab(

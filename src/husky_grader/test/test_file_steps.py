@@ -67,6 +67,18 @@ def test_of_several_packages_with_a_file_the_right_one_counts(tmp_path: Path) ->
     assert programs_of(workspace).command_of(DRIVE) == [str(program)]
 
 
+def test_a_package_without_setup_py_is_told_of_cmake(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'my_driver')
+    program = install(workspace, 'my_driver', 'lib/my_driver')
+    program.rename(program.with_name('drive'))
+    with pytest.raises(ProgramMissing, match='has: drive; install follow_path into lib/my_driver'):
+        programs_of(workspace).command_of(DRIVE)
+    program.touch(mode=0o644)
+    with pytest.raises(ProgramMissing, match='; follow_path may not be executed: install it by P'):
+        programs_of(workspace).command_of(DRIVE)
+
+
 def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path) -> None:
     workspace = tmp_path / 'workspace'
     write_package(workspace / 'src' / 'my_driver')

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 import resource
+import subprocess
+import sys
 
 from husky_grader.jail import find_sandbox
 from husky_grader.lab.lab import grade_lab
@@ -53,3 +55,24 @@ def test_what_fails_without_room_is_not_the_fault_of_a_student(tmp_path: Path) -
     assert caught.value.filename == str(report)
     (grade,) = grade_lab(workspace, RUBRIC, report, sandbox=find_sandbox('none'))
     assert (grade.points, grade.why[:20]) == (0.0, 'colcon build failed:')
+
+
+def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
+    (tmp_path / 'ws' / 'src' / 'p').mkdir(parents=True)
+    (tmp_path / 'ws' / 'src' / 'p' / 'package.xml').write_text(MANIFEST)
+    mounts = ['unshare', '--map-root-user', '--mount', 'bash', '-c']
+    noexec = f'mount -t tmpfs -o noexec tmpfs {tmp_path}/report'
+    (tmp_path / 'report').mkdir()
+    if subprocess.run([*mounts, noexec], capture_output=True).returncode != 0:
+        pytest.skip('nothing can be mounted here')
+    command = f'{sys.executable} -m husky_grader.grade --lab {tmp_path}/ws --sandbox none'
+    graded = subprocess.run(
+        [*mounts, f'{noexec} && exec {command} --report {tmp_path}/report/r'],
+        capture_output=True,
+        text=True,
+    )
+    assert (graded.returncode, graded.stderr) == (
+        2,
+        f'{tmp_path}/report/r: no program can run on this file system, which is mounted with '
+        'noexec; name another folder with --report DIR\n',
+    )

@@ -256,3 +256,21 @@ def test_a_bare_repository_without_a_commit_is_refused(tmp_path: Path) -> None:
     git('init', '--quiet', '--bare', str(tmp_path / 'ann.git'))
     with pytest.raises(Refused, match=r'ann.git: git cannot read it \(.*push a commit'):
         unpacked(tmp_path / 'ann.git')
+
+
+@pytest.mark.parametrize(
+    'files', [below('ws', SOURCES), PACKAGE, {'package.xml': '<package/>', 'a/talk.py': ''}]
+)
+def test_a_jail_may_read_what_was_unpacked_by_whatever_umask(
+    tmp_path: Path, files: Mapping[str, str]
+) -> None:
+    given = only(in_zip(tmp_path / 'ann.zip', files))
+    before = os.umask(0o077)
+    try:
+        place = unpack(given, tmp_path / 'report').path
+    finally:
+        os.umask(before)
+    found = [place, *place.rglob('*')]
+    assert len(found) >= 4
+    for path in found:
+        assert path.stat().st_mode & 0o777 == (0o755 if path.is_dir() else 0o644), path

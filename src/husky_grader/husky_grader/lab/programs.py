@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 from husky_grader.jail import Jail, remove, Sandbox
-from husky_grader.lab.file_steps import find_packages
+from husky_grader.lab.file_steps import find_packages, Manifest
 from husky_grader.rubric.steps import ProgramStep
 
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
@@ -72,19 +72,21 @@ class Programs:
         missing: list[ProgramMissing] = []
         for package in find_packages(self.workspace, step.package, step.package_with):
             try:
-                return find_executable(self.built, package.name, step.executable)
+                return find_executable(self.built, package, step.executable)
             except ProgramMissing as error:
                 missing.append(error)
         raise missing[0]
 
 
-def find_executable(folder: Path, package: str, name: str) -> Path:
+def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
     """
     Return an executable that `ros2 run` would find.
 
     :param folder: where the workspace was built.
+    :param manifest: of its package.
     :raises ProgramMissing: when there is none.
     """
+    package = manifest.name
     programs = folder / 'install' / package / 'lib' / package
     if not (folder / 'install' / package).is_dir():
         raise ProgramMissing(
@@ -100,13 +102,23 @@ def find_executable(folder: Path, package: str, name: str) -> Path:
         if candidate.is_file() and os.access(candidate, os.X_OK):
             return candidate
     have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
-    todo = f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
-    if (folder / 'install' / package / 'bin' / name).is_file():
-        todo = (
+    raise ProgramMissing(
+        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
+        f'{_what_to_do(programs, manifest, name)}'
+    )
+
+
+def _what_to_do(programs: Path, manifest: Manifest, name: str) -> str:
+    """Return in words what puts a program where `ros2 run` looks for it."""
+    package = manifest.name
+    for there in (programs / name, programs / f'{name}.py'):
+        if there.is_file():
+            return f'{there.name} may not be executed: install it by PROGRAMS, or chmod +x it'
+    if (programs.parents[1] / 'bin' / name).is_file():
+        return (
             f'it was put into install/{package}/bin; its setup.cfg lacks: [install] '
             f'install_scripts=$base/lib/{package}'
         )
-    raise ProgramMissing(
-        f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
-        f'{todo}'
-    )
+    if (manifest.folder / 'setup.py').is_file():
+        return f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+    return f'install {name} into lib/{package} in its CMakeLists.txt'

@@ -14,6 +14,9 @@ from husky_grader.submission.limits import Meter, Refused
 Parts = tuple[str, ...]
 """A path below the folder, name by name; () is the folder itself."""
 
+PASSABLE = 0o755
+"""Whatever the umask: in a jail another user reads what was handed in."""
+
 _LONGEST_NAME = 255  # bytes: NAME_MAX of Linux file systems
 _NOT_IN_NAMES = ('Cc', 'Cs', 'Zl', 'Zp')  # control characters, no UTF-8, ends of lines
 
@@ -42,6 +45,7 @@ class TreeWriter:
 
     def __init__(self, folder: Path, meter: Meter) -> None:
         folder.mkdir()
+        folder.chmod(PASSABLE)
         self.files: list[Parts] = []
         self.others: dict[Parts, str] = {}  # links, devices, ...: what they are; not written
         self._folder = folder
@@ -88,7 +92,9 @@ class TreeWriter:
         if parts not in self._folders:
             self._make_folder(parts[:-1])
             self._take(parts)
-            self._folder.joinpath(*parts).mkdir()
+            path = self._folder.joinpath(*parts)
+            path.mkdir()
+            path.chmod(PASSABLE)
             self._folders.add(parts)
 
     def _take(self, parts: Parts) -> None:
@@ -107,8 +113,7 @@ class TreeWriter:
                 size += len(chunk)
                 self._meter.check_file(entry.path, size)
                 file.write(chunk)
-        if entry.executable:
-            path.chmod(0o755)
+        path.chmod(PASSABLE if entry.executable else 0o644)
         self.files.append(parts)
 
 

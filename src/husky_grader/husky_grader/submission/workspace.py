@@ -11,7 +11,7 @@ from typing import Literal
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
 from husky_grader.submission.limits import FOLDERS_OF_COLCON, Refused
 from husky_grader.submission.names import harmless
-from husky_grader.submission.tree import common_start, Parts, shown, TreeWriter
+from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
 _MANIFEST = 'package.xml'
 _HAND_IN = 'hand in the workspace, with your packages in src'
@@ -61,6 +61,8 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     else:
         target = place / 'src' / (place.name if root.handed == 'package' else '')
         target.parent.mkdir(parents=True)
+        for made in (place, target.parent):
+            made.chmod(PASSABLE)
     staging.joinpath(*root.parts).rename(target)
     notes = (f'left out: {_listed(left)}',) if left else ()
     return Workspace(place, 'workspace', root.handed, notes)
