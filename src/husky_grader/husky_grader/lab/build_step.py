@@ -17,11 +17,20 @@ BUILD_WITHIN_SEC = 300.0
 SOURCE_WITHIN_SEC = 60.0
 NO_PROGRAM = 127  # as a shell says it
 MAX_VARIABLES = 30_000  # bytes, of all of them together; Linux starts no program with too many
+_BEGUN = 'Starting >>>'  # is printed before anything of a student's runs
 _OF_THE_SHELL = ('HOME', 'PWD', 'OLDPWD', 'SHLVL', '_')  # each program has its own
 
 
+class ColconMissing(ValueError):
+    """There is no colcon in the jail; the message says what to do."""
+
+
 def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
-    """Build the workspace with colcon, into the jail's folder, so that nothing of it changes."""
+    """
+    Build the workspace with colcon, into the jail's folder, so that nothing of it changes.
+
+    :raises ColconMissing: when it cannot be started, which is not the student's fault.
+    """
     if not find_manifests(workspace):
         return nothing('there is no package in src: ros2 pkg create makes one')
     command = ['colcon', '--log-base', str(jail.folder / 'log'), 'build', '--continue-on-error']
@@ -32,12 +41,15 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
         exit_code = build.exit_code if build.wait(BUILD_WITHIN_SEC) else None
     if build.stopped:
         return nothing(f'colcon build was ended: it {build.stopped}')
-    if exit_code == NO_PROGRAM:
-        return nothing('colcon is not installed here')
     if exit_code is None:
         return nothing(f'colcon build took longer than {BUILD_WITHIN_SEC:g} s')
     if exit_code != 0:
         text = log.read_text(encoding='utf-8', errors='replace')
+        if exit_code == NO_PROGRAM and _BEGUN not in text:
+            raise ColconMissing(
+                'colcon cannot be started; install it, or if it is there let every user read it '
+                f'({text.strip()})'
+            )
         why = crash(text) or first_error(text) or f'see {log.name}'
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
