@@ -3,10 +3,8 @@
 """Which packages of a workspace are looked at, and what their manifests say."""
 
 from pathlib import Path
-import shutil
 
-from husky_grader.jail import find_sandbox, Jail
-from husky_grader.lab.build_step import build_step, ColconMissing
+from husky_grader.jail import find_sandbox
 from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
 from husky_grader.lab.programs import ProgramMissing, Programs
 from husky_grader.rubric.steps import DriveStep, PackageStep
@@ -91,18 +89,3 @@ def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path
         'it was put into install/my_driver/bin; its setup.cfg lacks: [install] '
         'install_scripts=$base/lib/my_driver'
     )
-
-
-def test_a_missing_colcon_is_not_the_fault_of_a_student(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    write_package(tmp_path / 'ws' / 'src' / 'my_driver')
-    (tmp_path / 'built').mkdir()
-    (tmp_path / 'bin').mkdir()
-    (tmp_path / 'bin' / 'env').symlink_to(shutil.which('env') or '')
-    monkeypatch.setenv('PATH', f'{tmp_path}/bin')
-    with (
-        Jail(find_sandbox('none'), tmp_path / 'built') as jail,
-        pytest.raises(ColconMissing, match='colcon cannot be started; install it, or if it is'),
-    ):
-        build_step(tmp_path / 'ws', jail, tmp_path / 'log')

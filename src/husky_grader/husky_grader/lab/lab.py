@@ -8,9 +8,10 @@ from pathlib import Path
 from tempfile import gettempdir
 
 from husky_course.printable import printable
+from husky_runtime.domains import DomainError
 
 from husky_grader.graded import StepGrade
-from husky_grader.jail import Jail, remove, Sandbox
+from husky_grader.jail import Jail, NoSandbox, remove, Sandbox
 from husky_grader.lab.build_step import build_step, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
 from husky_grader.lab.file_steps import package_step, workspace_step
@@ -30,11 +31,13 @@ from husky_grader.rubric.steps import (
     WorkspaceStep,
 )
 from husky_grader.run.diagnosis import shortened
+from husky_grader.run.live import SimulatorNotStarted
 from husky_grader.run.printed import read_printed, shown
 from husky_grader.run.standstill import undisturbed
 
 BUILT = 'built'
 MAX_WHY = 1000  # characters
+_OF_THE_COMPUTER = (NoSandbox, DomainError, SimulatorNotStarted)
 
 
 def grade_lab(
@@ -51,6 +54,7 @@ def grade_lab(
 
     :param folder: of the report.
     :param sandbox: in which what students wrote is built and run.
+    :raises ValueError: when the computer fails before a program of the student's has run.
     :raises OSError: when something is written, or may have failed, where there is no room.
     """
     workspace, folder = workspace.resolve(), folder.resolve()
@@ -154,6 +158,8 @@ class _Grading:
                 drives = DriveRunner(self._programs, self._real_time_factor)
                 return drive_step(step, drives, self._folder)
             return live_step(step, self._programs, log)
+        except _OF_THE_COMPUTER:  # no program of the student's has run yet
+            raise
         except ValueError as error:  # it costs this step, not the others
             return nothing(str(error))
 

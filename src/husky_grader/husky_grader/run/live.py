@@ -41,6 +41,10 @@ class LiveRunFailed(ValueError):
     """The run could not take place; it says nothing about the controller."""
 
 
+class SimulatorNotStarted(LiveRunFailed):
+    """The simulator failed before the command was started."""
+
+
 @dataclass
 class LiveRun:
     """A finished run: the record, why it ended, and what was noticed on the way."""
@@ -130,7 +134,7 @@ def _await_simulator(simulator: ChildProcess, told: Path, folder: Path) -> None:
         if simulator.wait(POLL_SEC) or time.monotonic() > deadline:
             news = listen(told)
             why = news.failure if news else tail_of(folder / 'simulator.log', 1)
-            raise LiveRunFailed(f'the simulator did not start: {why or "it says nothing"}')
+            raise SimulatorNotStarted(f'the simulator did not start: {why or "it says nothing"}')
 
 
 def _words(command: str) -> list[str]:

@@ -1,18 +1,20 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A disk without room costs a student nothing."""
+"""What the computer cannot do costs a student nothing."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 import resource
+import shutil
 import subprocess
 import sys
 
-from husky_grader.jail import find_sandbox
+from husky_grader.jail import find_sandbox, Jail
+from husky_grader.lab.build_step import build_step, ColconMissing
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.room import check_room
-from husky_grader.rubric.rubric_file import parse_rubric
+from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
 import pytest
 
 RUBRIC = parse_rubric('title: T\nsteps:\n  - {kind: build, points: 10}\n')
@@ -24,6 +26,26 @@ MANIFEST = """<package format="3">
   <license>Apache-2.0</license>
   <export><build_type>ament_python</build_type></export>
 </package>"""
+CMAKE = """
+cmake_minimum_required(VERSION 3.8)
+project(p NONE)
+install(PROGRAMS drive DESTINATION lib/p)
+"""
+DRIVE = """
+title: T
+steps:
+  - {kind: build, points: 10}
+  - {kind: drive, points: 90, package: p, executable: drive, courses: [{file: course.yaml}]}
+"""
+
+
+def write_workspace(folder: Path) -> Path:
+    """Write a workspace with a package that cannot be built; return it."""
+    package = folder / 'src' / 'p'
+    package.mkdir(parents=True)
+    (package / 'package.xml').write_text(MANIFEST)
+    (package / 'setup.py').write_text('raise SystemExit("no such thing")\n')
+    return folder
 
 
 @contextmanager
@@ -46,10 +68,7 @@ def test_a_folder_without_room_is_named(tmp_path: Path) -> None:
 
 
 def test_what_fails_without_room_is_not_the_fault_of_a_student(tmp_path: Path) -> None:
-    workspace, report = tmp_path / 'ws', tmp_path / 'report'
-    (workspace / 'src' / 'p').mkdir(parents=True)
-    (workspace / 'src' / 'p' / 'package.xml').write_text(MANIFEST)
-    (workspace / 'src' / 'p' / 'setup.py').write_text('raise SystemExit("no such thing")\n')
+    workspace, report = write_workspace(tmp_path / 'ws'), tmp_path / 'report'
     with files_of_at_most(1_000_000), pytest.raises(OSError) as caught:
         grade_lab(workspace, RUBRIC, report, sandbox=find_sandbox('none'))
     assert caught.value.filename == str(report)
@@ -58,8 +77,7 @@ def test_what_fails_without_room_is_not_the_fault_of_a_student(tmp_path: Path) -
 
 
 def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
-    (tmp_path / 'ws' / 'src' / 'p').mkdir(parents=True)
-    (tmp_path / 'ws' / 'src' / 'p' / 'package.xml').write_text(MANIFEST)
+    write_workspace(tmp_path / 'ws')
     mounts = ['unshare', '--map-root-user', '--mount', 'bash', '-c']
     noexec = f'mount -t tmpfs -o noexec tmpfs {tmp_path}/report'
     (tmp_path / 'report').mkdir()
@@ -76,3 +94,37 @@ def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
         f'{tmp_path}/report/r: no program can run on this file system, which is mounted with '
         'noexec; name another folder with --report DIR\n',
     )
+
+
+def test_a_missing_colcon_is_not_the_fault_of_a_student(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace = write_workspace(tmp_path / 'ws')
+    (tmp_path / 'built').mkdir()
+    (tmp_path / 'bin').mkdir()
+    (tmp_path / 'bin' / 'env').symlink_to(shutil.which('env') or '')
+    monkeypatch.setenv('PATH', f'{tmp_path}/bin')
+    with (
+        Jail(find_sandbox('none'), tmp_path / 'built') as jail,
+        pytest.raises(ColconMissing, match='colcon cannot be started; install it, or if it is'),
+    ):
+        build_step(workspace, jail, tmp_path / 'log')
+
+
+def test_a_simulator_that_does_not_start_is_told_to_who_grades(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = write_workspace(tmp_path / 'ws') / 'src' / 'p'
+    (package / 'CMakeLists.txt').write_text(CMAKE)
+    (package / 'package.xml').write_text(MANIFEST.replace('ament_python', 'cmake'))
+    (package / 'drive').touch()
+    (tmp_path / 'course.yaml').write_text('waypoints: [[0, 0], [-1, 0]]\n')
+    (tmp_path / 'rubric.yaml').write_text(DRIVE)
+    monkeypatch.setenv('RMW_IMPLEMENTATION', 'rmw_of_nobody')
+    with pytest.raises(ValueError, match='the simulator did not start: '):
+        grade_lab(
+            tmp_path / 'ws',
+            load_rubric(tmp_path / 'rubric.yaml'),
+            tmp_path / 'report',
+            sandbox=find_sandbox('none'),
+        )
