@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+import os
 from pathlib import Path
 import resource
 import shutil
@@ -128,3 +129,19 @@ def test_a_simulator_that_does_not_start_is_told_to_who_grades(
             tmp_path / 'report',
             sandbox=find_sandbox('none'),
         )
+
+
+def test_a_build_that_the_kernel_ends_is_told_of_memory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace = write_workspace(tmp_path / 'ws')
+    (tmp_path / 'built').mkdir()
+    colcon = tmp_path / 'bin' / 'colcon'
+    colcon.parent.mkdir()
+    colcon.write_text('#!/bin/sh\necho "Starting >>> p"\nkill -KILL $$\n')
+    colcon.chmod(0o755)
+    monkeypatch.setenv('PATH', f'{colcon.parent}:{os.environ["PATH"]}')
+    with Jail(find_sandbox('none'), tmp_path / 'built') as jail:
+        found = build_step(workspace, jail, tmp_path / 'log')
+    killed = 'SIGKILL, as by the kernel where memory runs out'
+    assert (found.score, found.why) == (0.0, f'colcon build failed: {killed}')

@@ -11,7 +11,7 @@ from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.rubric.colcon_errors import first_error
-from husky_grader.run.diagnosis import crash
+from husky_grader.run.diagnosis import crash, how_ended
 
 BUILD_WITHIN_SEC = 300.0
 SOURCE_WITHIN_SEC = 60.0
@@ -50,7 +50,8 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
                 'colcon cannot be started; install it, or if it is there let every user read it '
                 f'({text.strip()})'
             )
-        why = crash(text) or first_error(text) or f'see {log.name}'
+        how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
+        why = crash(text) or first_error(text) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
 

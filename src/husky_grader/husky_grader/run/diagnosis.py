@@ -98,6 +98,8 @@ def how_ended(exit_code: int) -> str:
     """Return an exit status in words; of a signal its name, which most real-time ones lack."""
     if exit_code >= 0:
         return f'exit code {exit_code}'
+    if exit_code == -Signals.SIGKILL:
+        return 'SIGKILL, as by the kernel where memory runs out'
     return {each.value: each.name for each in Signals}.get(-exit_code, f'signal {-exit_code}')
 
 
