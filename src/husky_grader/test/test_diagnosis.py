@@ -11,6 +11,7 @@ import sys
 import time
 
 from geometry_msgs.msg import Twist, TwistStamped
+from husky_grader.lab.live_steps import how_it_ended
 from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons, reasons_of_graph
 from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
@@ -306,3 +307,11 @@ def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
     wait_for(lambda: not simulator.count_subscribers('odometry/filterd'), 'the end of it')
     assert told(), 'the rest of the program may be about to go'
     assert not told(), 'it goes on'
+
+
+def test_what_the_grader_has_killed_is_not_told_of_the_kernel() -> None:
+    killed = 'it ended by itself (SIGKILL, as by the kernel where memory runs out): here'
+    assert how_it_ended(-9, 'here\n') == killed
+    note = '[ended by the grader: it had 501 processes and threads; 500 are allowed]'
+    assert how_it_ended(-9, f'here\n\n{note}\n') == f'it ended by itself (SIGKILL): {note}'
+    assert reasons(f'here\n{note}', '', [], -9)[0] == f'it crashed (SIGKILL): {note}'

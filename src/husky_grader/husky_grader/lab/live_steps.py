@@ -93,6 +93,6 @@ def how_it_ended(exit_code: int, printed: str) -> str:
     if error := crash(printed):
         return error
     lines = printed.split('\n')
-    last = next((line for line in reversed(lines) if line.strip()), '')
-    how = f'it ended by itself ({how_ended(exit_code)})'
-    return shortened(how + (f': {last.strip()}' if last else ''))
+    last = next((line for line in reversed(lines) if line.strip()), '').strip()
+    how = f'it ended by itself ({how_ended(exit_code, last)})'
+    return shortened(how + (f': {last}' if last else ''))

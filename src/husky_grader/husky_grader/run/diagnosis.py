@@ -82,7 +82,7 @@ def reasons(
     crashed = crash(printed)
     if exit_code:
         last = crashed or shortened(printed.strip().rpartition('\n')[2])
-        crashed = f'it crashed ({how_ended(exit_code)})' + (f': {last}' if last else '')
+        crashed = f'it crashed ({how_ended(exit_code, last)})' + (f': {last}' if last else '')
     found = [crashed] if crashed else []
     if refused := _NOT_FINITE.search(simulator_log):
         found.append(
@@ -94,11 +94,15 @@ def reasons(
     return tuple(dict.fromkeys(map(printable, found)))
 
 
-def how_ended(exit_code: int) -> str:
-    """Return an exit status in words; of a signal its name, which most real-time ones lack."""
+def how_ended(exit_code: int, last: str = '') -> str:
+    """
+    Return an exit status in words; of a signal its name, which most real-time ones lack.
+
+    :param last: the last line of the log; where the grader has ended it, that says so.
+    """
     if exit_code >= 0:
         return f'exit code {exit_code}'
-    if exit_code == -Signals.SIGKILL:
+    if exit_code == -Signals.SIGKILL and not last.startswith('[ended by the grader: '):
         return 'SIGKILL, as by the kernel where memory runs out'
     return {each.value: each.name for each in Signals}.get(-exit_code, f'signal {-exit_code}')
 
