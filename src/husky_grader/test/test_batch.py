@@ -280,3 +280,5 @@ def test_files_of_one_name_are_told_apart_by_their_folders() -> None:
     assert names_of(['a.yaml', 'b.yaml']) == ['a', 'b']
     assert names_of(['ann/p.yaml', 'bob/p.yaml']) == ['ann_p', 'bob_p']
     assert names_of(['x/ann/w/p.yaml', 'x/bob/w/p.yaml']) == ['ann_w_p', 'bob_w_p']
+    # Those above tell nothing here.
+    assert names_of(['w/a.yaml', 'w/b.yaml', 'w/a.yml']) == ['a', 'b', 'a_2']

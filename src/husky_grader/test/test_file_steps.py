@@ -4,7 +4,8 @@
 
 from pathlib import Path
 
-from husky_grader.jail import find_sandbox
+from husky_grader.jail import find_sandbox, Jail
+from husky_grader.lab.build_step import build_step
 from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
 from husky_grader.lab.programs import ProgramMissing, Programs
 from husky_grader.rubric.steps import DriveStep, PackageStep
@@ -89,3 +90,15 @@ def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path
         'it was put into install/my_driver/bin; its setup.cfg lacks: [install] '
         'install_scripts=$base/lib/my_driver'
     )
+
+
+def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:
+    about = '<version>0.0.0</version><description>d</description><license>MIT</license>'
+    about += '<maintainer email="a@example.org">a</maintainer>'
+    for place in ('src', 'src/copy'):
+        write_package(tmp_path / 'ws' / place / 'my_driver', about)
+    (tmp_path / 'built').mkdir()
+    with Jail(find_sandbox('none'), tmp_path / 'built') as jail:
+        found = build_step(tmp_path / 'ws', jail, tmp_path / 'log')
+    twice = 'package my_driver is in src twice; take one of the two out'
+    assert found.why == f'colcon build failed: {twice}'

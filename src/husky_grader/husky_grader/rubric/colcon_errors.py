@@ -6,10 +6,13 @@ import re
 
 _FAILED = re.compile(r'^--- stderr: .*\n((?:(?!---$).*\n)*)---\nFailed ', re.MULTILINE)
 _CMAKE = 'CMake Error at '
+_TWICE = re.compile(r'Duplicate package names not supported:\n- (.*):\n  - ')
 
 
 def first_error(printed: str) -> str:
     """Return the first error of the first package that failed; empty if nothing tells one."""
+    if twice := _TWICE.search(printed):
+        return f'package {twice[1]} is in src twice; take one of the two out'
     failed = _FAILED.search(printed)
     told = failed[1] if failed else printed
     lines = [line.strip() for line in told.splitlines()]

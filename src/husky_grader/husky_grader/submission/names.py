@@ -15,15 +15,16 @@ def folder_names(places: Sequence[Path], *, taken: Iterable[str] = ()) -> list[s
     """
     Return for each place the name of a folder of its own.
 
-    It is the last part of the place; where several places have the same, also the parts above it.
+    It is the last part of the place; where several places have the same, also the parts above it,
+    as far as these tell them apart.
 
     :param taken: names that are given already; upper and lower case are the same.
     """
     names = [place.name for place in places]
     if len(set(names)) < len(names):
         parts = [place.absolute().parts[1:] for place in places]
-        depth = 1
-        while depth < max(map(len, parts)) and len({p[-depth:] for p in parts}) < len(parts):
+        depth, different = 1, len(set(parts))
+        while len({p[-depth:] for p in parts}) < different:
             depth += 1
         names = ['_'.join(p[-depth:]) for p in parts]
     folded = {name.casefold() for name in taken}
