@@ -296,6 +296,17 @@ def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_pat
     assert python.lines == ['False'], 'what stands in ~/.local is imported too'
 
 
+def test_a_folder_without_locks_is_no_hindrance(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flock = tmp_path / 'flock'
+    flock.write_text('#!/bin/sh\necho "flock: 9: No locks available" >&2\nexit 71\n')
+    flock.chmod(0o755)
+    monkeypatch.setenv('PATH', f'{tmp_path}:{os.environ["PATH"]}')
+    run = processes.start(LAB, 'exec', 'echo', 'here')
+    assert (run.wait(timeout_sec=30.0), run.lines) == (0, ['here'])
+
+
 BROWSER = """#!{python}
 import sys
 sys.path[:0] = {path}

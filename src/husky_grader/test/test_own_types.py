@@ -3,9 +3,13 @@
 """Rubrics with types of their own, and steps with a Husky beside: built, run and judged."""
 
 from dataclasses import replace
+import errno
+import fcntl
+import os
 from pathlib import Path
 import shutil
 import subprocess
+import sys
 
 from husky_course.checked_yaml import FileRefused
 from husky_grader.autograder.packed_rubric import packed_rubric
@@ -207,3 +211,36 @@ def test_a_machine_without_colcon_is_told(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setenv('PATH', str(tmp_path))
     with pytest.raises(ValueError, match='colcon, which builds them, is not installed here'):
         build_types((INTERFACES,))
+
+
+def test_a_cache_that_cannot_be_locked_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_locks(*_: object) -> None:
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))  # as by NFS without its daemon
+
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path))
+    monkeypatch.setattr(fcntl, 'flock', no_locks)
+    with pytest.raises(ValueError, match='No locks available; let XDG_CACHE_HOME name a folder'):
+        build_types((INTERFACES,))
+
+
+def test_a_user_without_a_home_is_told() -> None:
+    somebody = ['unshare', '--user', '--map-user=12345', 'env', '-u', 'HOME']
+    if subprocess.run([*somebody, 'true'], capture_output=True).returncode != 0:
+        pytest.skip('nobody else can be made here')
+    environment = {name: value for name, value in os.environ.items() if name != 'XDG_CACHE_HOME'}
+    program = (
+        'from pathlib import Path\n'
+        'from husky_grader.jail import Limits\n'
+        'from husky_grader.jail.folders import mounts_of\n'
+        'from husky_grader.rubric.own_types import build_types\n'
+        'mounts_of(Path("/tmp"), (), Limits())\n'
+        f'build_types((Path({str(INTERFACES)!r}),))\n'
+    )
+    run = subprocess.run(
+        [*somebody, sys.executable, '-c', program], env=environment, capture_output=True, text=True
+    )
+    last = run.stderr.splitlines()[-1]
+    assert 'ValueError: interfaces cannot be built in ~/.cache/' in last
+    assert 'this user has no home; let XDG_CACHE_HOME name a folder that can be written' in last

@@ -81,7 +81,8 @@ def read_mounts(readable: Iterable[Path], *, apart: Iterable[Path] = ()) -> list
     :param apart: what a folder that a variable names must not hold, or it is not shown.
     """
     readable = tuple(readable)
-    ros = _ros((Path.home(), *apart, *readable))
+    home = Path(os.path.expanduser('~'))  # noqa: PTH111  # the other raises where there is none
+    ros = _ros((*([home] if home.is_absolute() else []), *apart, *readable))
     places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *ros, *readable}
     ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
     return [

@@ -8,7 +8,8 @@ graded never see them: students write packages of the same names themselves.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
+import errno
 import fcntl
 from functools import lru_cache
 import hashlib
@@ -94,18 +95,20 @@ def _kept_folder(name: str) -> Iterator[Path]:
     """Open a folder of the user's cache for this process alone."""
     cache = Path(os.environ.get('XDG_CACHE_HOME', ''))
     if not cache.is_absolute():
-        cache = Path.home() / '.cache'
+        cache = Path(os.path.expanduser('~'), '.cache')  # noqa: PTH111  # the other raises
     folder = cache / 'husky_playpen_lab' / 'interfaces' / name
-    try:
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        lock = folder.with_suffix('.lock').open('w')
-    except OSError as error:
-        raise ValueError(
-            f'interfaces cannot be built in {folder}: {error.strerror}; '
-            'let XDG_CACHE_HOME name a folder that can be written'
-        ) from None
-    with lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with ExitStack() as stack:
+        try:
+            if not cache.is_absolute():
+                raise FileNotFoundError(errno.ENOENT, 'this user has no home')
+            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            lock = stack.enter_context(folder.with_suffix('.lock').open('w'))
+            fcntl.flock(lock, fcntl.LOCK_EX)  # a home on a network may have no locks
+        except OSError as error:
+            raise ValueError(
+                f'interfaces cannot be built in {folder}: {error.strerror}; '
+                'let XDG_CACHE_HOME name a folder that can be written, on a disk of this computer'
+            ) from None
         yield folder
 
 
