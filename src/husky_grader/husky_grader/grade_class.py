@@ -105,16 +105,43 @@ def grade_labs(options: argparse.Namespace) -> int:
 
     rubric = load_rubric(options.rubric or default_rubric())
     submissions = find_submissions(_places(options.lab, options), taken=OUTPUT_FILES)
+    submissions = _without_report(submissions, options)
     gradebook = None
     if options.gradebook:
         gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
     sandbox = None if rubric.is_of_files else find_sandbox(options.sandbox)
     if sandbox is not None:
         _check_programs_run(Path(options.report))
-    of_a_class = options.shard or options.collect or options.executor or gradebook
-    if len(submissions) == 1 and not of_a_class:
+    if _is_alone(submissions, options):
         return _grade_lab(submissions[0], rubric, sandbox, options)
     return _grade_labs(submissions, rubric, sandbox, gradebook, options)
+
+
+def _without_report(
+    submissions: Sequence[Submission], options: argparse.Namespace
+) -> list[Submission]:
+    """
+    Return submissions without the report itself, where it lies in their folder.
+
+    :raises ValueError: if the report on one would be written into what was handed in.
+    """
+    report = Path(options.report).resolve()
+    named = report in [Path(given).resolve() for given in options.lab]
+    found = [each for each in submissions if named or each.source.resolve() != report]
+    for each in found:
+        place = report if _is_alone(found, options) else report / each.id
+        if each.source.resolve() == place:
+            raise ValueError(
+                f'--report {options.report}: there the report on {each.id} would lie in what was '
+                'handed in; name another folder'
+            )
+    return found or list(submissions)
+
+
+def _is_alone(submissions: Sequence[Submission], options: argparse.Namespace) -> bool:
+    """Tell whether there is one submission, and no class."""
+    of_a_class = options.shard or options.collect or options.executor or options.gradebook
+    return len(submissions) == 1 and not of_a_class
 
 
 def _check_programs_run(folder: Path) -> None:

@@ -14,9 +14,7 @@ from husky_grader.lab.lab import grade_lab, grade_path
 from husky_grader.report.folder import drives_in
 from husky_grader.rubric.steps import Rubric, Step
 from husky_grader.submission import Refused, Submission, unpack
-
-WORKSPACE = 'handed_in'
-"""The folder of a report with the copy of a workspace that was graded."""
+from husky_grader.submission.limits import COPY, IGNORED
 
 
 def grade_submission(
@@ -40,8 +38,11 @@ def grade_submission(
     name = sandbox.name if sandbox else ''
     graded = Graded(submission, rubric.points, sandbox=name, notes=submission.notes)
     _forget_drives(folder, rubric)
+    copy = folder / COPY
+    copy.mkdir(parents=True, exist_ok=True)
+    (copy / IGNORED).touch()
     try:
-        given = unpack(submission, folder / WORKSPACE)
+        given = unpack(submission, copy)
     except Refused as error:
         return replace(graded, refused=str(error))
     graded = replace(graded, notes=(*submission.notes, *given.notes))

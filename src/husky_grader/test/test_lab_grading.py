@@ -257,6 +257,18 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
     )
 
 
+@pytest.mark.timeout(60)
+def test_a_report_in_the_workspace_is_no_part_of_it(workspace: Path, tmp_path: Path) -> None:
+    rubric = tmp_path / 'rubric.yaml'
+    rubric.write_text('title: T\nsteps:\n  - {kind: build, points: 1}\n')
+    command = ['--lab', str(workspace), '--rubric', str(rubric), '--sandbox', 'none']
+    for _ in range(2):
+        assert grade([*command, '--report', str(workspace / 'report')]) == 0
+    # Nor is what was graded for who builds the workspace himself.
+    listed = subprocess.run(['colcon', 'list', '--names-only'], cwd=workspace, capture_output=True)
+    assert listed.stdout.split() == [b'my_driver', b'topic_demo']
+
+
 def test_an_empty_workspace_scores_nothing(tmp_path: Path) -> None:
     workspace = tmp_path / 'CSE461_07_03'
     (workspace / 'src').mkdir(parents=True)

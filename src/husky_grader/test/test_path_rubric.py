@@ -82,3 +82,20 @@ def test_a_rubric_is_for_files_or_for_workspaces() -> None:
     assert load_rubric(RUBRIC).is_of_files
     with pytest.raises(ValueError, match=r'steps\[0\]: it is for a waypoint file; a rubric has'):
         parse_rubric(f'title: Both\nsteps:\n  - {STEP}\n  - {{kind: build, points: 1}}\n')
+
+
+def test_a_report_among_what_was_handed_in_is_none_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copyfile(default_course(), tmp_path / 'ann.yaml')
+    shutil.copyfile(default_course(), tmp_path / 'bob.yaml')
+    monkeypatch.chdir(tmp_path)
+    for _ in range(2):
+        assert grade(['--lab', '.', '--rubric', str(RUBRIC)]) == 0
+    entries = json.loads((tmp_path / 'report' / 'grades.json').read_text())['submissions']
+    assert [each['id'] for each in entries] == ['ann', 'bob']
+    (tmp_path / 'cem').mkdir()
+    capsys.readouterr()
+    assert grade(['--lab', '.', '--rubric', str(RUBRIC), '--report', '.']) == 2
+    told = '--report .: there the report on cem would lie in what was handed in; name another'
+    assert capsys.readouterr().err == f'{told} folder\n'

@@ -6,6 +6,12 @@ from dataclasses import dataclass
 import time
 
 FOLDERS_OF_COLCON = ('build', 'install', 'log')
+COPY, IGNORED = 'handed_in', 'COLCON_IGNORE'
+"""
+The folder of a report with the copy of a workspace that was graded, and a file in it.
+
+A report may lie in the workspace itself: neither colcon nor the next grading takes the copy then.
+"""
 LEAVE_OUT = f'leave out {", ".join(FOLDERS_OF_COLCON)}, environments and recordings'
 
 

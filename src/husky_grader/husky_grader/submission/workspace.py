@@ -9,7 +9,7 @@ import shutil
 from typing import Literal
 
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
-from husky_grader.submission.limits import FOLDERS_OF_COLCON, Refused
+from husky_grader.submission.limits import COPY, FOLDERS_OF_COLCON, IGNORED, Refused
 from husky_grader.submission.names import harmless
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
@@ -47,11 +47,13 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     """
     if len(tree.files) == 1 and not tree.others and tree.files[0][-1] != _MANIFEST:
         return _settle_file(tree.files[0], staging, folder)
-    root = _find_root(tree)
+    copies = [parts[:-1] for parts in tree.files if parts[-2:] == (COPY, IGNORED)]
+    root = _find_root(tree, copies)
     for parts, what in tree.others.items():
-        if _is_kept(parts, root):
+        if _left_out(parts, root, copies) is None:
             raise _not_plain(parts, what)
-    left = sorted({_outermost(parts, root) for parts in tree.files if not _is_kept(parts, root)})
+    places = (_left_out(parts, root, copies) for parts in tree.files)
+    left = sorted({each for each in places if each is not None})
     for each in left:
         if each[: len(root.parts)] == root.parts:
             shutil.rmtree(staging.joinpath(*each))
@@ -81,10 +83,16 @@ def _settle_file(parts: Parts, staging: Path, folder: Path) -> Workspace:
     return Workspace(place, 'waypoints', 'file')
 
 
-def _find_root(tree: TreeWriter) -> _Root:
-    """Return where the packages lie: beside each other in src, or without it."""
+def _find_root(tree: TreeWriter, copies: Sequence[Parts]) -> _Root:
+    """
+    Return where the packages lie: beside each other in src, or without it.
+
+    :param copies: of workspaces, in reports of the grader's.
+    """
     packages = [
-        parts[:-1] for parts in tree.files if parts[-1] == _MANIFEST and not _is_built(parts)
+        parts[:-1]
+        for parts in tree.files
+        if parts[-1] == _MANIFEST and not (_is_built(parts) or _copy_of(parts, copies))
     ]
     if not packages:
         for parts, what in tree.others.items():
@@ -105,6 +113,18 @@ def _is_built(parts: Parts) -> bool:
     """Tell whether something lies in what colcon has made beside src."""
     outside = parts[: parts.index('src')] if 'src' in parts else parts
     return any(part in FOLDERS_OF_COLCON for part in outside)
+
+
+def _copy_of(parts: Parts, copies: Sequence[Parts]) -> Parts | None:
+    """Return the copy in which something lies, if it does."""
+    return next((copy for copy in copies if parts[: len(copy)] == copy), None)
+
+
+def _left_out(parts: Parts, root: _Root, copies: Sequence[Parts]) -> Parts | None:
+    """Return the folder with which something is left out, if it is."""
+    if copy := _copy_of(parts, copies):
+        return copy
+    return None if _is_kept(parts, root) else _outermost(parts, root)
 
 
 def _is_kept(parts: Parts, root: _Root) -> bool:
