@@ -11,12 +11,12 @@ from urllib.parse import unquote
 from husky_course.printable import printable
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.lab.drive_step import FOR_STAFF
-from husky_grader.lab.lab import BUILT
 from husky_grader.outputs import write_outputs, write_student_page
 from husky_grader.outputs.class_page import class_page
 from husky_grader.outputs.class_summary import summarize, without_names
 from husky_grader.outputs.histogram import histogram
 from husky_grader.submission import Submission
+from husky_grader.submission.limits import BUILT, COPY
 from playpen_testing.graded_class import a_class, full, HOSTILE, MOST, partial, refused, submission
 import pytest
 
@@ -143,7 +143,7 @@ def test_names_and_reasons_are_shown_and_never_obeyed() -> None:
 def test_a_student_sees_the_drives_but_no_hidden_one(tmp_path: Path) -> None:
     shown = ['drive_1', 'drive_2', 'drive_10']
     # A student's own files, what only the staff may see, and other steps.
-    others = ['handed_in', BUILT, FOR_STAFF, f'{FOR_STAFF}/drive_3', 'driven', 'drive_x']
+    others = [COPY, BUILT, FOR_STAFF, f'{FOR_STAFF}/drive_3', 'driven', 'drive_x']
     for name in [*shown, *others]:
         (tmp_path / name).mkdir(parents=True, exist_ok=True)
         (tmp_path / name / 'report.html').write_text(name)

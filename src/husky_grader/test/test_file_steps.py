@@ -7,8 +7,9 @@ from pathlib import Path
 from husky_grader.jail import find_sandbox, Jail
 from husky_grader.lab.build_step import build_step
 from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
+from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.programs import ProgramMissing, Programs
-from husky_grader.rubric.steps import DriveStep, PackageStep
+from husky_grader.rubric.steps import DriveStep, PackageStep, Rubric, WorkspaceStep
 import pytest
 
 DRIVE = DriveStep(points=10, package_with='follow_path.py', executable='follow_path', courses=())
@@ -102,3 +103,11 @@ def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:
         found = build_step(tmp_path / 'ws', jail, tmp_path / 'log')
     twice = 'package my_driver is in src twice; take one of the two out'
     assert found.why == f'colcon build failed: {twice}'
+
+
+def test_what_a_killed_grading_has_left_is_removed(tmp_path: Path) -> None:
+    (tmp_path / 'running-a1b2c3d4' / 'home').mkdir(parents=True)
+    (tmp_path / 'running-shoes_12').mkdir()
+    rubric = Rubric(title='T', steps=(WorkspaceStep(points=1.0, name='workspace'),))
+    grade_lab(tmp_path / 'ws', rubric, tmp_path, sandbox=find_sandbox('none'))
+    assert [path.name for path in tmp_path.iterdir()] == ['running-shoes_12']

@@ -276,10 +276,11 @@ def test_a_jail_may_read_what_was_unpacked_by_whatever_umask(
         assert path.stat().st_mode & 0o777 == (0o755 if path.is_dir() else 0o644), path
 
 
-def test_a_copy_that_an_earlier_grading_has_made_is_left_out(tmp_path: Path) -> None:
-    copy = {**below('my_report/handed_in/ws', SOURCES), 'my_report/handed_in/COLCON_IGNORE': ''}
+@pytest.mark.parametrize('name', ['handed_in', 'built'])
+def test_a_copy_that_an_earlier_grading_has_made_is_left_out(tmp_path: Path, name: str) -> None:
+    copy = {**below(f'my_report/{name}/ws', SOURCES), f'my_report/{name}/COLCON_IGNORE': ''}
     given = only(in_zip(tmp_path / 'ann.zip', below('ws', {**SOURCES, **copy})))
     workspace = unpack(given, tmp_path / 'report')
-    assert workspace.notes == ('left out: ws/my_report/handed_in',)
+    assert workspace.notes == (f'left out: ws/my_report/{name}',)
     assert sorted(path.name for path in workspace.path.iterdir()) == ['my_report', 'src']
     assert list((workspace.path / 'my_report').iterdir()) == []

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.jail import find_sandbox
-from husky_grader.lab_grading import grade_submission, WORKSPACE
+from husky_grader.lab_grading import grade_submission
 from husky_grader.rubric.forms import Form
 from husky_grader.rubric.steps import (
     BuildStep,
@@ -29,6 +29,7 @@ from husky_grader.rubric.steps import (
     SubscriberStep,
 )
 from husky_grader.submission import Submission
+from husky_grader.submission.limits import COPY
 import pytest
 
 pytestmark = pytest.mark.timeout(400)
@@ -349,6 +350,6 @@ def test_no_program_reaches_what_is_not_its_own(
 
 
 def test_what_was_handed_in_is_as_it_was(graded: dict[str, StepGrade], reports: Path) -> None:
-    copy = reports / 'deletes everything' / WORKSPACE
+    copy = reports / 'deletes everything' / COPY
     assert [path.read_text() for path in copy.rglob('package.xml')] == [MANIFEST]
     assert not list(copy.rglob('*.json'))

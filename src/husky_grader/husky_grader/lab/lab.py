@@ -18,7 +18,7 @@ from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.live_steps import live_step
 from husky_grader.lab.path_step import path_step
-from husky_grader.lab.programs import Programs
+from husky_grader.lab.programs import Programs, remove_running
 from husky_grader.lab.room import check_room
 from husky_grader.rubric.steps import (
     BuildStep,
@@ -34,8 +34,8 @@ from husky_grader.run.diagnosis import shortened
 from husky_grader.run.live import SimulatorNotStarted
 from husky_grader.run.printed import read_printed, shown
 from husky_grader.run.standstill import undisturbed
+from husky_grader.submission.limits import BUILT, IGNORED
 
-BUILT = 'built'
 MAX_WHY = 1000  # characters
 _OF_THE_COMPUTER = (NoSandbox, DomainError, SimulatorNotStarted)
 
@@ -60,6 +60,7 @@ def grade_lab(
     workspace, folder = workspace.resolve(), folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     remove(folder / BUILT)
+    remove_running(folder)
     findings = {}
     grading = _Grading(workspace, folder, sandbox, rubric.interfaces, real_time_factor)
     try:
@@ -140,6 +141,7 @@ class _Grading:
     def _build(self, log: Path) -> Finding:
         built = self._folder / BUILT
         built.mkdir(exist_ok=True)
+        (built / IGNORED).touch()  # it stays where this is killed
         with Jail(self._sandbox, built, readable=[self._workspace]) as jail:
             found = build_step(self._workspace, jail, log)
             try:

@@ -11,10 +11,18 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 from husky_grader.jail import Jail, remove, Sandbox
+from husky_grader.jail.folders import home_of
 from husky_grader.lab.file_steps import find_packages, Manifest
 from husky_grader.rubric.steps import ProgramStep
 
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
+
+
+def remove_running(folder: Path) -> None:
+    """Remove what programs have left in a report whose grading was killed."""
+    for left in folder.glob(f'{_RUNNING}????????'):
+        if home_of(left).is_dir():
+            remove(left)
 
 
 class ProgramMissing(ValueError):

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import time
 
 FOLDERS_OF_COLCON = ('build', 'install', 'log')
-COPY, IGNORED = 'handed_in', 'COLCON_IGNORE'
+COPY, BUILT, IGNORED = 'handed_in', 'built', 'COLCON_IGNORE'
 """
-The folder of a report with the copy of a workspace that was graded, and a file in it.
+Folders of a report: the copy of a workspace, what is built of it, meanwhile; and a file in them.
 
-A report may lie in the workspace itself: neither colcon nor the next grading takes the copy then.
+A report may lie in the workspace itself: neither colcon nor the next grading takes these then.
 """
 LEAVE_OUT = f'leave out {", ".join(FOLDERS_OF_COLCON)}, environments and recordings'
 

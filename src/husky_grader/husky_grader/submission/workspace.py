@@ -9,7 +9,7 @@ import shutil
 from typing import Literal
 
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
-from husky_grader.submission.limits import COPY, FOLDERS_OF_COLCON, IGNORED, Refused
+from husky_grader.submission.limits import BUILT, COPY, FOLDERS_OF_COLCON, IGNORED, Refused
 from husky_grader.submission.names import harmless
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
@@ -47,7 +47,8 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     """
     if len(tree.files) == 1 and not tree.others and tree.files[0][-1] != _MANIFEST:
         return _settle_file(tree.files[0], staging, folder)
-    copies = [parts[:-1] for parts in tree.files if parts[-2:] == (COPY, IGNORED)]
+    ours = ((COPY, IGNORED), (BUILT, IGNORED))
+    copies = [parts[:-1] for parts in tree.files if parts[-2:] in ours]
     root = _find_root(tree, copies)
     for parts, what in tree.others.items():
         if _left_out(parts, root, copies) is None:
