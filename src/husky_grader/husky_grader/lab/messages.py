@@ -38,11 +38,16 @@ def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
 
 def _in_float32(check: FieldCheck) -> FieldCheck:
     """Return a check with the numbers that such a field can hold: 0.1 is not among them."""
-    equals, least, most = (
-        c_float(limit).value if isinstance(limit, float) else limit
-        for limit in (check.equals, check.least, check.most)
+    return replace(
+        check,
+        equals=_float32(check.equals) if isinstance(check.equals, float) else check.equals,
+        least=None if check.least is None else _float32(check.least),
+        most=None if check.most is None else _float32(check.most),
     )
-    return replace(check, equals=equals, least=least, most=most)
+
+
+def _float32(value: float) -> float:
+    return c_float(value).value
 
 
 def _shown(value: Any) -> str:
