@@ -201,6 +201,17 @@ def test_a_newer_attempt_replaces_the_older_and_says_so(tmp_path: Path) -> None:
         assert whose(found['5101'], tmp_path / 'out') == 'new'
 
 
+def test_of_two_exports_of_moodle_the_one_given_last_counts(tmp_path: Path) -> None:
+    for name in ('week1', 'week2'):
+        file = {'Ann Lee_7_assignsubmission_file/ws.zip': packed(name)}
+        export(tmp_path / f'{name}.zip', file, as_zip=True)
+    for first, last in (('week1', 'week2'), ('week2', 'week1')):
+        (one,) = find_submissions([f'{tmp_path}/{first}.zip', f'{tmp_path}/{last}.zip'])
+        before = f'{tmp_path}/{first}.zip/Ann Lee_7_assignsubmission_file/ws.zip'
+        assert one.notes == (f'replaces one that was given before it: {before}',)
+        assert whose(one, tmp_path / 'out') == last
+
+
 def test_a_student_cannot_hand_in_for_another(tmp_path: Path) -> None:
     forged = {'Bob_102_assignsubmission_file_/ws.zip': packed('eve')}
     eve = export(tmp_path / 'eve.zip', forged, as_zip=True)

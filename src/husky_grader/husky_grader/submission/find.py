@@ -153,6 +153,7 @@ def _newest(found: Iterable[Submission]) -> list[Submission]:
         other = newest.setdefault(whose, each)
         if other is not each:
             old, new = (each, other) if each.attempt < other.attempt else (other, each)
-            note = f'replaces an older one: {old.place}'
+            older = 'an older one' if old.attempt < new.attempt else 'one that was given before it'
+            note = f'replaces {older}: {old.place}'
             newest[whose] = replace(new, notes=(*new.notes, note))
     return list(newest.values())
