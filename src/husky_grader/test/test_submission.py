@@ -152,6 +152,20 @@ def test_what_is_no_work_of_a_student_is_left_out(tmp_path: Path) -> None:
     assert workspace.notes == ('left out: notes.txt, ws/build, ws/install, ws/log',)
 
 
+def test_what_colcon_has_made_in_src_is_left_out(tmp_path: Path) -> None:
+    folder = in_folder(tmp_path / 'ann', SOURCES)
+    for made in ('build', 'install', 'log', 'install/topic_demo/log'):
+        (folder / 'src' / made).mkdir(parents=True)
+        (folder / 'src' / made / 'COLCON_IGNORE').touch()
+    (folder / 'src/log/latest').symlink_to('build_2026')
+    (folder / 'src/install/topic_demo/package.xml').write_text(SOURCES[next(iter(SOURCES))])
+    (folder / 'src/topic_demo/log').mkdir()
+    (folder / 'src/topic_demo/log/kept.txt').touch()
+    workspace = unpacked(folder)
+    assert tree(workspace.path) == {**SOURCES, 'src/topic_demo/log/kept.txt': ''}
+    assert workspace.notes == ('left out: src/build, src/install, src/log',)
+
+
 def test_a_waypoint_file_may_be_handed_in_alone(tmp_path: Path) -> None:
     plain = in_folder(tmp_path, {'my_path.yaml': COURSE}) / 'my_path.yaml'
     packed = in_zip(tmp_path / 'ann.zip', {'paths/my_path.yaml': COURSE})

@@ -16,6 +16,7 @@ from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, T
 _MANIFEST = 'package.xml'
 _HAND_IN = 'hand in the workspace, with your packages in src'
 _MOST_SHOWN = 5
+_MADE = {COPY, BUILT, *FOLDERS_OF_COLCON}
 
 
 @dataclass(frozen=True)
@@ -47,13 +48,12 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     """
     if len(tree.files) == 1 and not tree.others and tree.files[0][-1] != _MANIFEST:
         return _settle_file(tree.files[0], staging, folder)
-    ours = ((COPY, IGNORED), (BUILT, IGNORED))
-    copies = [parts[:-1] for parts in tree.files if parts[-2:] in ours]
-    root = _find_root(tree, copies)
+    tools = _made_by_tools(tree)
+    root = _find_root(tree, tools)
     for parts, what in tree.others.items():
-        if _left_out(parts, root, copies) is None:
+        if _left_out(parts, root, tools) is None:
             raise _not_plain(parts, what)
-    places = (_left_out(parts, root, copies) for parts in tree.files)
+    places = (_left_out(parts, root, tools) for parts in tree.files)
     left = sorted({each for each in places if each is not None})
     for each in left:
         if each[: len(root.parts)] == root.parts:
@@ -84,16 +84,26 @@ def _settle_file(parts: Parts, staging: Path, folder: Path) -> Workspace:
     return Workspace(place, 'waypoints', 'file')
 
 
-def _find_root(tree: TreeWriter, copies: Sequence[Parts]) -> _Root:
+def _made_by_tools(tree: TreeWriter) -> list[Parts]:
+    """
+    Return the folders that colcon and this grader have made and marked, outermost first.
+
+    Beside src, and in src, where colcon was called there.
+    """
+    marked = [parts[:-1] for parts in tree.files if parts[-1] == IGNORED]
+    return sorted((parts for parts in marked if parts and parts[-1] in _MADE), key=len)
+
+
+def _find_root(tree: TreeWriter, made: Sequence[Parts]) -> _Root:
     """
     Return where the packages lie: beside each other in src, or without it.
 
-    :param copies: of workspaces, in reports of the grader's.
+    :param made: folders of tools.
     """
     packages = [
         parts[:-1]
         for parts in tree.files
-        if parts[-1] == _MANIFEST and not (_is_built(parts) or _copy_of(parts, copies))
+        if parts[-1] == _MANIFEST and not (_is_built(parts) or _made_around(parts, made))
     ]
     if not packages:
         for parts, what in tree.others.items():
@@ -116,16 +126,14 @@ def _is_built(parts: Parts) -> bool:
     return any(part in FOLDERS_OF_COLCON for part in outside)
 
 
-def _copy_of(parts: Parts, copies: Sequence[Parts]) -> Parts | None:
-    """Return the copy in which something lies, if it does."""
-    return next((copy for copy in copies if parts[: len(copy)] == copy), None)
+def _made_around(parts: Parts, made: Sequence[Parts]) -> Parts | None:
+    """Return the outermost folder of a tool in which something lies, if it does."""
+    return next((folder for folder in made if parts[: len(folder)] == folder), None)
 
 
-def _left_out(parts: Parts, root: _Root, copies: Sequence[Parts]) -> Parts | None:
+def _left_out(parts: Parts, root: _Root, made: Sequence[Parts]) -> Parts | None:
     """Return the folder with which something is left out, if it is."""
-    if copy := _copy_of(parts, copies):
-        return copy
-    return None if _is_kept(parts, root) else _outermost(parts, root)
+    return _made_around(parts, made) if _is_kept(parts, root) else _outermost(parts, root)
 
 
 def _is_kept(parts: Parts, root: _Root) -> bool:
