@@ -9,12 +9,14 @@ import importlib
 from itertools import islice
 from pathlib import Path
 import signal
+import sys
 from threading import Thread
 import time
 from typing import Any
 
 from mcap.reader import make_reader
 from mcap.writer import Writer
+from playpen_testing.processes import find_line
 import pytest
 from ros2bag.reader import messages, read_record
 from ros2cli.errors import CommandError
@@ -76,6 +78,30 @@ def test_a_bag_is_recorded_described_and_played(
     hearing.start()
     hearing.join(20.0)
     assert heard == [f'heard {text}\n' for text in texts]
+
+
+@pytest.mark.parametrize('shell', [(), ('sh', '-c', 'trap "" INT; exec "$@"', 'sh')])
+def test_a_signal_ends_play_without_a_word(
+    bag: Path, processes: Any, shell: tuple[str, ...]
+) -> None:
+    words = (sys.executable, '-m', 'ros2cli', 'bag', 'play', str(bag), '--loop')
+    listener = processes.node('listener', 'listener')
+    player = processes.start(*shell, *words)
+    find_line(listener.stdout, '^heard ')
+    # The jobs of a script run in the background, where SIGINT is ignored.
+    player.send_signal(signal.SIGINT if shell else signal.SIGTERM)
+    out, _ = player.communicate(timeout=10)
+    assert (out, player.returncode) == ('', signal.SIGINT)
+
+
+def test_sigterm_ends_a_recording_as_ctrl_c_does(processes: Any, tmp_path: Path) -> None:
+    processes.node('talker', 'talker')
+    recorder = processes.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
+    find_line(recorder.stdout, 'Recording...')
+    recorder.send_signal(signal.SIGTERM)
+    out, _ = recorder.communicate(timeout=10)
+    assert 'Recording stopped: ' in out
+    assert recorder.returncode == 0
 
 
 def test_only_chosen_topics_are_recorded(

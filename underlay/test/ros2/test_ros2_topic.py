@@ -12,6 +12,8 @@ from typing import Any
 
 from playpen_testing.processes import find_line
 import pytest
+import rclpy
+from ros2cli.node.direct import command_node
 
 
 @pytest.fixture(scope='module')
@@ -205,3 +207,26 @@ def test_sigterm_ends_pub(processes: Any) -> None:
     publisher.send_signal(signal.SIGTERM)
     out, _ = publisher.communicate(timeout=5)
     assert 'Traceback' not in out
+
+
+def test_sigterm_ends_echo_while_it_prints(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('talker', 'talker')
+    # rclpy has shut ROS down before the callback is over, so that the next wait is refused.
+    ends = "(os := __import__('os')).kill(os.getpid(), 15) or __import__('time').sleep(0.5)"
+    answer = ros2('topic', 'echo', '/chatter', '--filter', ends)
+    assert (answer.err, answer.status) == ('', signal.SIGINT)
+
+
+@pytest.mark.usefixtures('domain')
+def test_a_signal_before_the_node_is_made_ends_the_command(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    init = rclpy.init
+
+    def interrupted_init(**options: Any) -> None:
+        init(**options)
+        rclpy.shutdown()  # what rclpy does for SIGINT and SIGTERM
+
+    monkeypatch.setattr(rclpy, 'init', interrupted_init)
+    with pytest.raises(KeyboardInterrupt), command_node():
+        pass

@@ -16,8 +16,9 @@ from typing import Any
 
 import rclpy
 from rclpy.action import graph
-from rclpy.exceptions import InvalidNodeNameException
+from rclpy.exceptions import InvalidNodeNameException, NotInitializedException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
@@ -56,20 +57,22 @@ class CommandNode:
         overrides = [use_sim_time, *options.pop('parameter_overrides', ())]
         options = {'enable_rosout': False, 'start_parameter_services': False, **options}
         try:
-            self.node = Node(
-                node_name or f'{names.COMMAND_NODE}{os.getpid()}',
-                use_global_arguments=False,
-                parameter_overrides=overrides,
-                **options,
-            )
+            with _ended_by_signals():
+                self.node = Node(
+                    node_name or f'{names.COMMAND_NODE}{os.getpid()}',
+                    use_global_arguments=False,
+                    parameter_overrides=overrides,
+                    **options,
+                )
+                self._executor = SingleThreadedExecutor()
+                self._executor.add_node(self.node)
         except InvalidNodeNameException as error:
             rclpy.try_shutdown()
             raise CommandError(' '.join(str(error).split())) from None
-        self._executor = SingleThreadedExecutor()
-        self._executor.add_node(self.node)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        self._executor.spin_once(timeout_sec)
+        with _ended_by_signals():
+            self._executor.spin_once(timeout_sec)
 
     def spin_until(self, done: Callable[[], bool], timeout_sec: float | None = None) -> bool:
         """Spin until `done()`; False where `timeout_sec` passed before that."""
@@ -80,7 +83,7 @@ class CommandNode:
             if self._interrupted.is_set():
                 self._interrupted.clear()
                 raise KeyboardInterrupt
-            self._executor.spin_once(0.02 if end is None else min(0.02, end - time.monotonic()))
+            self.spin_once(0.02 if end is None else min(0.02, end - time.monotonic()))
         return True
 
     def spin_until_answered(self, future: Any, service: str) -> None:
@@ -165,11 +168,29 @@ def command_node(
     with _first_signal() if may_spin_when_interrupted else nullcontext() as interrupted:
         node = CommandNode(args, node_name=name, interrupted=interrupted)
         try:
-            yield node
-        except ExternalShutdownException:
-            raise KeyboardInterrupt from None
+            with _ended_by_signals():
+                yield node
         finally:
             node.destroy()
+
+
+@contextmanager
+def _ended_by_signals() -> Iterator[None]:
+    """Raise KeyboardInterrupt where a signal has shut ROS down, whatever rclpy makes of that.
+
+    Only what waits at that moment hears of it by ExternalShutdownException: what is asked of ROS
+    afterwards, to publish or to wait for the next message, is refused by rcl.
+    """
+    try:
+        yield
+    except (
+        ExternalShutdownException,
+        NotInitializedException,
+        rclpy_implementation.RCLError,
+    ):
+        if rclpy.ok():
+            raise
+        raise KeyboardInterrupt from None
 
 
 @contextmanager
