@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from ros2_diagnosis import nearest
-from ros2cli import discovery, interfaces
+from ros2cli import discovery, interfaces, interrupts
 from ros2cli.errors import CommandError
 from rtps_graph import names
 from rtps_graph.graph import Endpoint, Graph, Role
@@ -55,6 +55,7 @@ def find(
     graph = discovery.read_graph(args)
     if type_name is None:
         if wait and name not in graph.topics():
+            interrupts.heed_in_background()
             print(f'WARNING: topic [{name}] does not appear to be published yet')
             while name not in graph.topics():
                 time.sleep(_POLL_SEC)

@@ -9,6 +9,7 @@ import signal
 from typing import Any, Protocol
 
 from live_page import LivePage, open_on_a_desktop, PageHandler, Query, serve_somewhere
+from ros2cli import interrupts
 from ros2cli.errors import CommandError
 
 FIRST_PORT = 8090
@@ -50,6 +51,7 @@ def show(page: Page, port: int | None, said: str, query: str = '') -> None:
         raise CommandError(f'--port {port} is taken: leave it out to get a free one') from None
     # Whatever ends it ends it as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    interrupts.heed_in_background()
     address = server.address + query
     print(said.format(address), flush=True)
     open_on_a_desktop(address)

@@ -70,6 +70,10 @@ class Processes:
     def ros2(self, *words: str, ready: str | None = None) -> subprocess.Popen[str]:
         return self.start(sys.executable, '-m', 'ros2cli', *words, ready=ready)
 
+    def background(self, *words: str, ready: str | None = None) -> subprocess.Popen[str]:
+        """Start a process as a script starts its jobs in the background: with SIGINT ignored."""
+        return self.start('sh', '-c', 'trap "" INT; exec "$@"', 'sh', *words, ready=ready)
+
     def end(self) -> None:
         for process in self._started:
             process.send_signal(signal.SIGCONT)

@@ -198,15 +198,13 @@ def _first_signal() -> Iterator[threading.Event]:
     """Give an event that SIGINT or SIGTERM sets; ignore those that come after it."""
     first = threading.Event()
     ends = (signal.SIGINT, signal.SIGTERM)
-    # A shell's background job ignores SIGINT.
-    handled = [number for number in ends if signal.getsignal(number) is not signal.SIG_IGN]
 
     def on_signal(*_: object) -> None:
-        for number in handled:
+        for number in ends:
             signal.signal(number, signal.SIG_IGN)
         first.set()
 
-    before = {number: signal.signal(number, on_signal) for number in handled}
+    before = {number: signal.signal(number, on_signal) for number in ends}
     try:
         yield first
     finally:
