@@ -9,6 +9,7 @@ is built.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -34,6 +35,10 @@ _COMPILED = {
     *('rosidl_get_typesupport_target', 'rosidl_target_interfaces', 'pybind11_add_module'),
     *('rclcpp_components_register_node', 'rclcpp_components_register_nodes'),
     *('pluginlib_export_plugin_description_file', 'generate_parameter_library'),
+}
+_TESTS = {
+    *('ament_add_pytest_test', 'add_launch_test', 'ament_add_test', 'add_test'),
+    *('ament_add_gtest', 'ament_add_gmock'),
 }
 _OPTIONS_OF_INTERFACES = {'ADD_LINTER_TESTS', 'SKIP_INSTALL', 'SKIP_GROUP_MEMBERSHIP_CHECK'}
 _OPTIONS_OF_INSTALL = {'USE_SOURCE_PERMISSIONS', 'OPTIONAL'}
@@ -89,6 +94,21 @@ def read_cmake_package(folder: Path) -> CMakePackage:
             )
         _DONE[command.name](package, command, folder)
     return package
+
+
+def tests_left_out(folder: Path) -> Iterator[str]:
+    """
+    Tell of each test that CMake would run, and how to run it.
+
+    :raises CMakeListsError: if there is no CMakeLists.txt in the folder, or it is not well-formed.
+    """
+    for command in read_commands(folder / 'CMakeLists.txt'):
+        if command.name in _TESTS:
+            test = f'{command.name}({" ".join(command.arguments[:1])})'
+            yield (
+                f'CMakeLists.txt:{command.line}: {test}: is not run, there is no CMake here; '
+                '`python3 -m pytest FILE` runs one in Python, `launch_test FILE` one of a launch'
+            )
 
 
 def _add_interfaces(package: CMakePackage, command: Command, folder: Path) -> None:

@@ -8,14 +8,19 @@ It is installed with the wheels of ROS alone: where a Jazzy is sourced, CMake bu
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 import sys
 from typing import Any
 
 from colcon_core.environment import create_environment_scripts
+from colcon_core.event.output import StderrLine
 from colcon_core.package_augmentation import PackageAugmentationExtensionPoint
 from colcon_core.shell import create_environment_hook, get_command_environment
 from colcon_core.task import run, TaskExtensionPoint
+
+from colcon_rosidl_python.cmake_commands import CMakeListsError
+from colcon_rosidl_python.cmake_package import tests_left_out
 
 TYPE = 'ros.ament_cmake_without_compiler'
 
@@ -59,7 +64,12 @@ class WithoutCompilerBuildTask(TaskExtensionPoint):
 
 
 class WithoutCompilerTestTask(TaskExtensionPoint):
-    """Test nothing: the tests of ament_cmake are those of CMake."""
+    """Test nothing, and say so: the tests of ament_cmake are those of CMake."""
 
     async def test(self) -> int:
+        package = self.context.pkg
+        with contextlib.suppress(CMakeListsError):  # the build tells of those
+            for line in tests_left_out(Path(package.path)):
+                text = f'{package.name}: {line}\n'
+                self.context.put_event_into_queue(StderrLine(text.encode()))
         return 0

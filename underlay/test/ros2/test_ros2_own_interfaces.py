@@ -50,6 +50,17 @@ def shapes(workspace: Path, shared_processes: Any) -> None:
     shared_processes.ros2('run', 'shape_nodes', 'shapes', ready='ready')
 
 
+def test_colcon_test_tells_of_the_tests_that_are_left_out(tmp_path: Path) -> None:
+    package = tmp_path / 'src' / 'only_files'
+    shutil.copytree(WORKSPACE / 'only_files', package)
+    test = 'if(BUILD_TESTING)\n  ament_add_pytest_test(mine test/test_mine.py)\nendif()\n'
+    lists = package / 'CMakeLists.txt'
+    lists.write_text(f'{test}{lists.read_text()}')
+    tested = subprocess.run(['colcon', 'test'], cwd=tmp_path, capture_output=True, text=True)
+    assert tested.returncode == 0, tested.stdout
+    assert 'only_files: CMakeLists.txt:2: ament_add_pytest_test(mine): is not run' in tested.stderr
+
+
 def test_a_message_crosses_processes_with_all_that_is_in_it(shapes: None) -> None:
     Nested = import_module('every_kind_msgs.msg').Nested
     heard: list[Any] = []
