@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
 from ros2cli.errors import CommandError
 import yaml
@@ -66,7 +67,11 @@ def messages(path: Path, topics: Collection[str]) -> Iterator[tuple[str, int, by
 
 
 def _unreadable(file: Path, error: Exception) -> CommandError:
-    why = f'{type(error).__name__}: {error}' if isinstance(error, KeyError) else error
+    why = str(error)
+    if isinstance(error, EndOfFile):
+        why = 'it ends too soon, as where its recording was killed'
+    elif isinstance(error, KeyError):
+        why = f'{type(error).__name__}: {error}'
     return CommandError(f"'{file}' cannot be read as MCAP: {why}")
 
 

@@ -105,6 +105,20 @@ def test_sigterm_ends_a_recording_as_ctrl_c_does(processes: Any, tmp_path: Path)
     assert recorder.returncode == 0
 
 
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGHUP])
+def test_more_signals_leave_a_whole_bag(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path, number: int
+) -> None:
+    processes.node('talker', 'talker')
+    recorder = processes.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
+    find_line(recorder.stdout, 'Recording...')
+    while recorder.poll() is None:
+        recorder.send_signal(number)
+    assert 'Recording stopped: ' in recorder.stdout.read()
+    assert (tmp_path / 'run' / 'metadata.yaml').is_file()
+    assert ros2('bag', 'info', str(tmp_path / 'run')).status == 0
+
+
 def test_only_chosen_topics_are_recorded(
     processes: Any, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:
@@ -156,6 +170,7 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ('words', 'status', 'message'),
     [
+        (('info', 'empty.mcap'), 1, 'it ends too soon, as where its recording was killed'),
         (('record',), 2, 'Need to specify one option'),
         (('record', '-e', '('), 2, 'is no regular expression'),
         (('record', '-a', '-o', '.'), 1, 'already exists'),
@@ -177,6 +192,8 @@ def test_a_bad_call_is_refused(
     del domain
     if 'broken.mcap' in words:
         (tmp_path / 'broken.mcap').write_bytes(b'no bag at all')
+    if 'empty.mcap' in words:
+        (tmp_path / 'empty.mcap').touch()
     answer = ros2('bag', *words, folder=tmp_path)
     assert answer.status == status
     assert message in answer.err

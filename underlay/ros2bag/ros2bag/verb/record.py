@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 import re
+import signal
 import time
 from typing import Any
 
@@ -94,8 +95,10 @@ class RecordVerb(VerbExtension):
         folder = args.output or Path(time.strftime('rosbag2_%Y_%m_%d-%H_%M_%S'))
         with (
             BagWriter(folder, preset=args.storage_preset_profile) as writer,
-            command_node(args, name='rosbag2_recorder') as node,
+            # Interrupted while it is written or closed, a bag would not be whole.
+            command_node(args, name='rosbag2_recorder', may_spin_when_interrupted=True) as node,
         ):
+            _end_with_the_terminal()
             recorder = Recorder(node, writer, args)
             log = node.node.get_logger()
             log.info('Listening for topics...')
@@ -111,6 +114,12 @@ class RecordVerb(VerbExtension):
             except KeyboardInterrupt:
                 writer.close()
                 log.info(f"Recording stopped: {writer.bag.count} messages in '{folder}'")
+
+
+def _end_with_the_terminal() -> None:
+    """Let a terminal that is closed end the recording as SIGTERM does, but not under nohup."""
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
 
 
 class Recorder:
