@@ -113,3 +113,34 @@ def test_what_is_saved_is_what_is_driven(lab: Lab, page: Page) -> None:
         return math.dist((place.x, place.y), goal) < 0.3
 
     wait_until(arrived, timeout_sec=90.0, what=lambda: lab.view.output)
+
+
+@pytest.mark.timeout(120)
+def test_a_change_of_the_loop_leaves_the_speed_of_a_file(lab: Lab, page: Page) -> None:
+    file = lab.folder / 'between_tenths.yaml'
+    file.write_text('speed: 0.85\nwaypoints:\n  - [0, 0]\n  - [-2, 1]\n  - [-3, 0]\n')
+    open_file(page, file.stem)
+    expect(page.locator('[data-verdict]')).to_contain_text('3 waypoints')
+    page.get_by_label('Back to the first (loop)').check()
+
+    def is_saved() -> bool:
+        button(page, 'Save').click()
+        return load_course(file).loop
+
+    wait_until(is_saved, timeout_sec=20.0, what='a loop in the file')
+    assert load_course(file).speed_m_s == 0.85
+
+
+@pytest.mark.timeout(120)
+def test_a_file_in_another_encoding_is_refused_on_the_page(lab: Lab, page: Page) -> None:
+    text = '# \u00fcber die Wiese\nwaypoints:\n  - [0, 0]\n  - [2, 1]\n'
+    (lab.folder / 'from_windows.yaml').write_bytes(text.encode('cp1252'))
+    open_file(page, 'from_windows')
+    expect(page.get_by_text('byte 0xfc is not UTF-8 text')).to_be_visible()
+    assert lab.view.returncode is None, lab.view.output
+
+
+def open_file(page: Page, name: str) -> None:
+    """Choose a waypoint file, as soon as it is offered."""
+    page.locator('//label[.="Open"]/following::input').first.click()
+    page.get_by_role('option', name=name, exact=True).click()

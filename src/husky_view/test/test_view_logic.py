@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parts of the view that need neither a browser nor ROS."""
 
+from collections.abc import Callable
 from dataclasses import replace
 import json
 import math
+import os
 from pathlib import Path
 import socket
 
@@ -351,7 +353,8 @@ def test_a_saved_course_is_what_the_driver_reads(tmp_path: Path) -> None:
     edited = EditableCourse()
     for x, y in ((0.0, 0.0), (1.234, -0.004), (2.5, 1.0)):
         edited.add(x, y)
-    edited.set(speed_m_s=0.7, loop=True)
+    edited.set_speed(0.7)
+    edited.set_loop(True)
     file = course.save(edited.course, tmp_path, 'mine')
     read = load_course(file)
     assert [(p.x_m, p.y_m) for p in read.waypoints] == [(0.0, 0.0), (1.23, 0.0), (2.5, 1.0)]
@@ -369,6 +372,21 @@ def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> N
     edited.load(course.load(file))
     assert course.load(course.save(edited.course, tmp_path, 'again')) == edited.course
     assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in course.text_of(edited.course)
+
+
+@pytest.mark.timeout(30)
+@pytest.mark.parametrize('read', [course.load, course.path_of])
+def test_what_the_driver_cannot_read_is_refused(
+    tmp_path: Path, read: Callable[[Path], object]
+) -> None:
+    file = tmp_path / 'given.yaml'
+    file.write_bytes('waypoints: [[0, 0], [1, 0]]'.encode('utf-16'))
+    with pytest.raises(course.CourseRefused, match='save the file as UTF-8'):
+        read(file)
+    file.unlink()
+    os.mkfifo(file)
+    with pytest.raises(course.CourseRefused, match='not a file'):
+        read(file)
 
 
 def test_what_cannot_be_saved_leaves_nothing_behind(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from husky_course.frames import Array
 from husky_course.outline import clearances, Outline
 from husky_course.robot import RobotStart
 from husky_course.route import Leg, plan_route
-from husky_course.waypoints import Course, parse_course, Waypoint
+from husky_course.waypoints import Course, load_course, parse_course, Waypoint
 import numpy as np
 
 from husky_view.picture.geometry import to_world
@@ -79,9 +79,13 @@ class EditableCourse:
         """Remove all waypoints."""
         self._change(waypoints=())
 
-    def set(self, *, speed_m_s: float, loop: bool) -> None:
-        """Change what holds for the whole course."""
-        self._change(select=self.selected, speed_m_s=speed_m_s, loop=loop)
+    def set_speed(self, speed_m_s: float) -> None:
+        """Change the speed of the whole course."""
+        self._change(select=self.selected, speed_m_s=speed_m_s)
+
+    def set_loop(self, loop: bool) -> None:
+        """Change whether the course comes back to its first waypoint."""
+        self._change(select=self.selected, loop=loop)
 
     def load(self, course: Course) -> None:
         """Replace the whole course."""
@@ -180,9 +184,9 @@ def _parsed(text: str, name: str) -> Course:
 
 def _read(file: Path) -> Course:
     try:
-        return _parsed(file.read_text(encoding='utf-8'), file.name)
-    except OSError as error:
-        raise CourseRefused(f'{file}: {error.strerror}') from error
+        return load_course(file)
+    except ValueError as error:
+        raise CourseRefused(str(error)) from error
 
 
 def load(file: Path) -> Course:

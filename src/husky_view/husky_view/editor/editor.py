@@ -112,8 +112,8 @@ class Editor:
         change.on_click(lambda event: later(lambda: self._on_change(event.target.value)))
         self._speed = gui.add_slider('Speed, m/s', 0.1, 1.0, 0.1, self._edited.course.speed_m_s)
         self._loop = gui.add_checkbox('Back to the first (loop)', False)
-        for element in (self._speed, self._loop):
-            element.on_update(lambda event: event.client and later(self._on_settings))
+        self._speed.on_update(lambda event: event.client and later(self._on_speed))
+        self._loop.on_update(lambda event: event.client and later(self._on_loop))
         self._verdict = gui.add_html('')
         self._name = gui.add_text('Save as', 'my_path')
         gui.add_button('Save').on_click(lambda _: later(self._save))
@@ -168,8 +168,13 @@ class Editor:
         self._show_settings()
         self._changed = True
 
-    def _on_settings(self) -> None:
-        self._edited.set(speed_m_s=float(self._speed.value), loop=bool(self._loop.value))
+    # Each by itself: the slider shows the speed of a file in tenths.
+    def _on_speed(self) -> None:
+        self._edited.set_speed(float(self._speed.value))
+        self._changed = True
+
+    def _on_loop(self) -> None:
+        self._edited.set_loop(bool(self._loop.value))
         self._changed = True
 
     def _open(self, name: str) -> None:
