@@ -22,7 +22,7 @@ from playwright.sync_api import Browser, Error, expect, Page
 import pytest
 from rclpy.node import Node
 from sensor_msgs.msg import Image
-from std_msgs.msg import Float64MultiArray, UInt32
+from std_msgs.msg import Bool, Float64MultiArray, UInt32
 
 PHONE = (390, 844)
 FACTOR = "parseFloat((document.querySelector('[data-number=factor]') || {}).textContent)"
@@ -316,6 +316,30 @@ def test_the_page_goes_on_with_the_next_simulator(lab: Lab, page: Page) -> None:
     wait_for(page, f'!{TROUBLE}')
     wait_for(page, f'{FACTOR} > 0.5')
     assert errors(page) == []
+
+
+@pytest.mark.timeout(120)
+def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, page: Page) -> None:
+    button(page, 'STOP').click()
+    for robots in ((), ('husky -2 0 0',)):  # the same world, and another one
+        lab.simulator.close()
+        expect(page.locator('[data-trouble]')).to_contain_text('is gone')
+        lab.start_simulator(*robots)
+        lab.simulator.wait_for_text('emergency stop')
+        wait_for(page, f'{FACTOR} > 0.5')
+        button(page, 'Release the stop').wait_for()
+    stop = lab.listener.create_publisher(Bool, 'e_stop', LATCHED)
+    stop.publish(Bool(data=False))
+    button(page, 'STOP').wait_for()
+    stop.publish(Bool(data=True))
+    button(page, 'Release the stop').click()
+    button(page, 'STOP').wait_for()
+    wait_until(
+        lambda: lab.simulator.output.count('stop released') == 2,
+        timeout_sec=10.0,
+        what=lambda: f'two releases in {lab.simulator.output}',
+    )
+    lab.listener.destroy_publisher(stop)
 
 
 @pytest.mark.timeout(120)

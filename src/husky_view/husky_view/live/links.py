@@ -8,6 +8,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 import math
 import time
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped, PoseArray, Twist
@@ -15,6 +16,7 @@ from husky_course.frames import Array
 from husky_course.record import Collision
 from nav_msgs.msg import Path
 import numpy as np
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import (
@@ -39,8 +41,11 @@ class RobotLink:
     """
     Draws what a robot and its driver publish, and sends commands.
 
+    `is_stopped` tells whether the emergency stop is pressed, by whomever.
+
     :param place: of the robot in the world.
     :param namespace: empty, or with a slash at its end.
+    :param is_stopped: whether the stop is pressed already, on a page of another world.
     :param invalid: called with what came that is invalid; it is not drawn.
     :param closing: destroys the publishers and subscriptions.
     """
@@ -53,7 +58,10 @@ class RobotLink:
         namespace: str,
         invalid: Callable[[str], None],
         closing: ExitStack,
+        *,
+        is_stopped: bool,
     ) -> None:
+        self.is_stopped = is_stopped
         self._node = node
         self._invalid = invalid
         self._picture = picture
@@ -66,10 +74,16 @@ class RobotLink:
         self._command_topic = f'{namespace}husky_velocity_controller/cmd_vel'
         self._commands: Publisher[Twist] | None = None  # only while the page drives
         self._driven_sec = 0.0
-        self._stops = node.create_publisher(Bool, f'{namespace}e_stop', LATCHED)
+        self._stops = node.create_publisher(
+            Bool,
+            f'{namespace}e_stop',
+            LATCHED,
+            event_callbacks=PublisherEventCallbacks(matched=self._on_stop_match),
+        )
         closing.callback(node.destroy_publisher, self._stops)
         closing.callback(self._end_commands)
         for kind, topic, callback, qos in (
+            (Bool, 'e_stop', self._on_stop, 10),
             (DiagnosticStatus, 'collisions', self._on_collision, 10),
             (Path, 'path', self._on_path, LATCHED),
             (PoseArray, 'waypoints', self._on_waypoints, LATCHED),
@@ -97,7 +111,16 @@ class RobotLink:
 
     def stop(self, stopped: bool) -> None:
         """Press or release the emergency stop."""
+        self.is_stopped = stopped
         self._stops.publish(Bool(data=stopped))
+
+    def _on_stop(self, msg: Bool) -> None:
+        self.is_stopped = msg.data
+
+    def _on_stop_match(self, event: Any) -> None:
+        # The next simulator does not ask for what was published before it began.
+        if self.is_stopped and event.current_count_change > 0:
+            self.stop(True)
 
     def begin_run(self) -> None:
         """Forget the path of a driver that has ended."""

@@ -90,14 +90,18 @@ class ViewNode(Node):
         :raises SimulatorError: if the first world cannot be loaded.
         """
         world = self._wait_for_world(interrupted)
+        is_stopped = False
         while world is not None:
-            view = LiveView(self, self._server, self._query, world, self._folder)
+            view = LiveView(
+                *(self, self._server, self._query, world, self._folder), is_stopped=is_stopped
+            )
             # Not to the log, which is a topic, too: the address has the token.
             print(f'look at {self._server.address}', flush=True)
             try:
                 world = self._result_of(view.next_world, interrupted)
             finally:
                 view.close()
+            is_stopped = view.is_stopped
             if world is not None:
                 self._server.gui.reset()
                 self._server.scene.reset()

@@ -112,6 +112,8 @@ class Panel:
 
     def show_stopped(self, stopped: bool) -> None:
         """Show whether the emergency stop is pressed."""
+        if stopped == self._stopped:
+            return
         self._stopped = stopped
         self._stop.color = 'orange' if stopped else 'red'
         self._stop.label = RELEASE if stopped else STOP

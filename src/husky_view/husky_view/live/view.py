@@ -79,6 +79,7 @@ class LiveView:
 
     :param query: of the simulator; asked again when scenes of another world come.
     :param folder: where the editor keeps waypoint files.
+    :param is_stopped: whether the emergency stop is pressed already.
     """
 
     def __init__(
@@ -88,6 +89,8 @@ class LiveView:
         query: SimulatorQuery,
         world: World,
         folder: Path,
+        *,
+        is_stopped: bool,
     ) -> None:
         self.next_world: Future[World] = Future()  # done when another world is to be shown
         self._node = node
@@ -109,7 +112,10 @@ class LiveView:
         many = len(world.robots) > 1
         namespaces = [f'{robot.name}/' if many else '' for robot in world.robots]
         self._links = [
-            RobotLink(node, self._picture, place, namespace, self._on_invalid, self._closing)
+            RobotLink(
+                *(node, self._picture, place, namespace, self._on_invalid, self._closing),
+                is_stopped=is_stopped,
+            )
             for place, namespace in enumerate(namespaces)
         ]
         self._panel = Panel(
@@ -156,6 +162,11 @@ class LiveView:
             timer = node.create_timer(period_sec, callback, clock=steady)
             self._closing.callback(node.destroy_timer, timer)
 
+    @property
+    def is_stopped(self) -> bool:
+        """Tell whether every robot is held by its emergency stop."""
+        return all(link.is_stopped for link in self._links)
+
     def close(self) -> None:
         """Stop showing it, and end the driver that was started here; may be called twice."""
         self._closing.close()
@@ -194,6 +205,7 @@ class LiveView:
     def _on_frame(self) -> None:
         now = time.monotonic()
         self._actions.run()
+        self._panel.show_stopped(self.is_stopped)
         command = self._panel.teleop.command(now_sec=now)
         if command is not None:
             self._links[self._driven].drive(*command, now_sec=now)
@@ -250,7 +262,6 @@ class LiveView:
         for link in self._links:
             link.stop(stopped)
         self._panel.teleop.release_all()
-        self._panel.show_stopped(stopped)
 
     def _on_choose_robot(self, place: int) -> None:
         self._driven = place
