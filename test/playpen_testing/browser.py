@@ -116,6 +116,17 @@ def errors(page: Page) -> list[str]:
     return [text for text in said if HARMLESS not in text]
 
 
+def hide(page: Page, *, hidden: bool = True) -> None:
+    """Let a page think that another tab is in front of it, as without a screen none ever is."""
+    page.evaluate(
+        """(value) => {
+          Object.defineProperty(document, 'hidden', { value, configurable: true });
+          document.dispatchEvent(new Event('visibilitychange'));
+        }""",
+        hidden,
+    )
+
+
 def drag(page: Page, begin: Place, end: Place) -> None:
     """Press the mouse at one place, move to another and release it there."""
     page.mouse.move(*begin)

@@ -18,7 +18,7 @@ from urllib.request import urlopen
 from xml.etree import ElementTree
 
 from playpen_testing import chromium
-from playpen_testing.browser import errors, start_browser
+from playpen_testing.browser import errors, hide, start_browser
 from playpen_testing.processes import find_line
 import pytest
 
@@ -257,6 +257,21 @@ def test_the_page_lights_what_hangs_on_a_pointed_shape(talk: Any) -> None:
         page.locator('h1').hover()
         assert page.locator('#graph.lit').count() == 0
         assert errors(page) == []
+
+
+def test_tabs_behind_another_leave_their_connection_to_it(talk: Any) -> None:
+    server = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
+    address = find_line(server.stdout, r'http://127\.0\.0\.1:\d+/')[0]
+    browsers = start_browser(chromium.find_or_install())
+    with browsers as browser, browser.new_context() as one_browser:  # with six connections
+        tabs = [one_browser.new_page() for _ in range(8)]
+        for tab in tabs:
+            tab.goto(address)
+            tab.locator('[id="topic:/chatter"]').wait_for()
+            hide(tab)
+        tabs[0].evaluate("graph.innerHTML = ''")
+        hide(tabs[0], hidden=False)
+        tabs[0].locator('[id="topic:/chatter"]').wait_for()
 
 
 def _wait_for_event(news: Iterator[dict[str, Any]], fact: Any) -> None:

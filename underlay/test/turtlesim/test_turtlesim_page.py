@@ -19,7 +19,15 @@ from urllib.parse import urlsplit
 
 import numpy as np
 from playpen_testing import chromium
-from playpen_testing.browser import errors, keep_still, KEPT, pixels_of, start_browser, wait_for
+from playpen_testing.browser import (
+    errors,
+    hide,
+    keep_still,
+    KEPT,
+    pixels_of,
+    start_browser,
+    wait_for,
+)
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
 from playpen_testing.waiting import wait_until
@@ -210,6 +218,23 @@ def test_two_pages_and_a_phone_show_the_same(
     )
     fits = 'document.documentElement.scrollWidth <= innerWidth'
     assert all(page.evaluate(fits) for page in pages)
+
+
+def test_tabs_behind_another_leave_their_connection_to_it(
+    address: str, student: TurtleClient, browser: Browser
+) -> None:
+    with browser.new_context() as one_browser:  # which has six connections to a server
+        tabs = []
+        for _ in range(8):
+            tabs.append(one_browser.new_page())
+            tabs[-1].goto(address)
+            wait_for(tabs[-1], "document.querySelector('[data-name=turtle1]') !== null")
+            hide(tabs[-1])
+        student.call(Spawn, 'spawn', name='later')
+        hide(tabs[0], hidden=False)
+        wait_for(tabs[0], "document.querySelector('[data-name=later]') !== null")
+        assert tabs[0].inner_text('#status') == ''
+        assert tabs[1].locator('[data-name=later]').count() == 0
 
 
 def test_a_page_goes_on_with_the_next_turtlesim(
