@@ -116,6 +116,25 @@ def test_what_is_saved_is_what_is_driven(lab: Lab, page: Page) -> None:
 
 
 @pytest.mark.timeout(120)
+def test_waypoints_may_go_while_another_tab_drags_one(lab: Lab, page: Page) -> None:
+    other = lab.open(*SIZE)
+    other.get_by_text('Waypoints', exact=True).click()
+    page.mouse.move(*on_screen(*saved(lab)[2]))
+    page.mouse.down()
+    page.mouse.move(*on_screen(-4.0, -1.0), steps=5)
+    verdict = page.locator('[data-verdict]')
+    expect(verdict).to_contain_text('3 waypoints')
+    button(other, 'Clear').click()
+    expect(verdict).to_contain_text('two waypoints make')
+    page.mouse.move(*on_screen(-4.0, -2.0), steps=5)
+    page.mouse.up()
+    page.mouse.click(*on_screen(*PLACES[0]))
+    page.mouse.click(*on_screen(*PLACES[1]))
+    expect(verdict).to_contain_text('2 waypoints')
+    other.close()
+
+
+@pytest.mark.timeout(120)
 def test_a_change_of_the_loop_leaves_the_speed_of_a_file(lab: Lab, page: Page) -> None:
     file = lab.folder / 'between_tenths.yaml'
     file.write_text('speed: 0.85\nwaypoints:\n  - [0, 0]\n  - [-2, 1]\n  - [-3, 0]\n')

@@ -164,6 +164,7 @@ class Editor:
 
     def _on_change(self, word: str) -> None:
         edited = self._edited
+        self._dragged = None  # in another tab: there may be fewer of them now
         {UNDO: edited.undo, DELETE: edited.delete_selected, CLEAR: edited.clear}[word]()
         self._show_settings()
         self._changed = True
@@ -178,6 +179,7 @@ class Editor:
         self._changed = True
 
     def _open(self, name: str) -> None:
+        self._dragged = None
         if name == NEW:
             self._edited.clear()
         else:
