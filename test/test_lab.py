@@ -155,6 +155,8 @@ def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_pa
         (['\udcff.yaml'], '\\xff.yaml: ROS takes names in UTF-8 alone; rename it'),
         (['a.yaml', '--report', '\udcff'], '\\xff: ROS takes names in UTF-8 alone; rename it'),
         (['a.yaml', 'floor:=grass', 'b.yaml'], 'a.yaml and b.yaml: give one waypoint file'),
+        (['a.yaml', '--fast', 'floor:=gras'], 'floor:=gras is not allowed; allowed: one of'),
+        (['floor:=wet', '--fast', 'a.yaml', 'b'], 'a.yaml and b: give one waypoint file'),
     ],
 )
 def test_drive_refuses_what_it_does_not_know(

@@ -38,7 +38,7 @@ def main(args: Sequence[str] | None = None) -> int:
     strictness.add_argument(
         '--warn', action='store_true', help='only warn, also when it goes through an obstacle'
     )
-    options = parser.parse_args(args)
+    options = parser.parse_in_any_order(args, 'files')
     if options.draw and len(options.files) > 1:
         parser.error('--draw draws one course; give one waypoint file')
     if options.draw and Path(options.draw).suffix not in ('.png', '.svg'):

@@ -40,7 +40,7 @@ CONDITIONS = {
 _TRUTHS = {'true': True, 'false': False}
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = Parser(prog='lab drive', description=__doc__, allow_abbrev=False)
     parser.add_argument(
         'words',
@@ -73,7 +73,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
-    options = parser.parse_args(args)
+    options = parser.parse_in_any_order(args, 'words')
     files = [word for word in options.words if ':=' not in word]
     files += [options.waypoints] if options.waypoints is not None else []
     if len(files) > 1:

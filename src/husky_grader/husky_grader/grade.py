@@ -37,7 +37,7 @@ INTERFACES = ('lab', 'clearpath')
 YAML = ('.yaml', '.yml')
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = Parser(
         prog='grade',
         description=__doc__,
@@ -142,7 +142,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def main(args: Sequence[str] | None = None) -> int:
     parser = _parser()
-    options = parser.parse_args(args)
+    options = parser.parse_in_any_order(args, 'files')
     zipped = options.make_gradescope
     given = (options.files, options.record, options.controller, options.lab, zipped)
     if sum(map(bool, given)) != 1:

@@ -3,7 +3,7 @@
 """Command lines: wrong arguments are refused with one line and exit status 2."""
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 import errno
 import os
 import sys
@@ -19,6 +19,20 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
+
+    def parse_in_any_order(self, args: Sequence[str] | None, words: str) -> argparse.Namespace:
+        """
+        Parse a list of words that may also stand on both sides of an option.
+
+        argparse takes those of one place, and `parse_intermixed_args` none behind `--`.
+
+        :param words: the attribute that they become.
+        """
+        options, more = self.parse_known_args(args)
+        if any(word[:1] in ('', '-') for word in more):
+            self.error(f'unrecognized arguments: {" ".join(more)}')
+        getattr(options, words).extend(more)
+        return options
 
 
 def given_name(text: str) -> str:
