@@ -23,6 +23,11 @@ SECONDS = 6.0
 TIME = "parseFloat(document.querySelector('[data-number=time]').textContent)"
 SLIDER = "document.querySelector('[role=slider]').getAttribute('aria-valuenow')"
 
+# A browser lets new connections of a page wait where many have failed.
+FAIL_AS_IN_MINUTES = """() => Promise.all([...Array(80)].map(() => new Promise((done) => {
+  new WebSocket(location.href.replace('http', 'ws')).onerror = done;
+})))"""
+
 
 @pytest.fixture(scope='module')
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -103,4 +108,24 @@ def test_a_page_outlives_its_replay_and_shows_the_next(
         expect(waiting).to_have_text('Husky replay' + LOST)
         processes.start(*command)
         expect(waiting).to_be_hidden()
+        page.close()
+
+
+@pytest.mark.timeout(120)
+def test_a_page_that_was_long_alone_shows_the_next_replay(
+    report: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(TOKEN_VARIABLE, 'the-same-token')
+    command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18480')
+    with Processes() as processes:
+        first = processes.start(*command)
+        first.wait_for_text('look at http://')
+        page = open_page(browser, first.output.split('look at ')[1].split()[0])
+        first.signal(signal.SIGINT)
+        assert first.wait(timeout_sec=10.0) == 0
+        page.evaluate(FAIL_AS_IN_MINUTES)
+        waiting = page.locator('#husky-waiting')
+        expect(waiting).to_have_text('Husky replay' + LOST)
+        processes.start(*command)
+        expect(waiting).to_be_hidden(timeout=40_000)
         page.close()

@@ -9,7 +9,10 @@ from pathlib import Path
 import viser
 
 LOADING = 'Loading the scene ...'
-LATE = 'Nothing comes. Does the program that served this page still run? Its terminal says more.'
+LATE = (
+    'Nothing comes. Does the program that served this page still run? Its terminal says more. If '
+    'very many tabs look at this page, it goes on when one of them is closed.'
+)
 NO_WEBGL = (
     'This browser draws nothing in 3D here: it has no WebGL. Firefox has it on most desktops, '
     'also without a graphics processor; Chrome and Chromium need one, or '
@@ -23,6 +26,8 @@ LOST = (
 # viser looks for a lost server only while somebody types into the page, and writes the address of
 # its websocket behind ours. Until the scene comes it takes its light from a picture that is in the
 # page; where a processor draws, to load that takes half a second, and ours has other lights.
+# It gives a connection up after a second and tries the next one. Browsers let one wait for up to
+# 5 s where many have failed, so that none would ever come through.
 _BEFORE = """
 document.hasFocus = () => true;
 history.replaceState = () => {};
@@ -30,6 +35,19 @@ const fetchAny = window.fetch;
 window.fetch = (what, ...more) => {
   const isLight = (what.url ?? String(what)).startsWith('data:image/jpeg');
   return isLight ? new Promise(() => {}) : fetchAny(what, ...more);
+};
+const postAny = Worker.prototype.postMessage;
+let tries = 0, asked = -Infinity, tried = -Infinity;
+Worker.prototype.postMessage = function (message, ...more) {
+  if (message?.type === 'retry') {
+    const now = performance.now();
+    if (now - asked > 3000) tries = 0;  // it was connected
+    asked = now;
+    if (tries >= 10 && now - tried < 6000) return;
+    tries += 1;
+    tried = now;
+  }
+  postAny.call(this, message, ...more);
 };
 """
 
