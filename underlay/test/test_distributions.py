@@ -87,7 +87,7 @@ def test_dependencies_have_no_circle() -> None:
         ('launch', 'rclpy|launch_.*|ros2.*|rosidl_.*'),
         ('launch_xml', 'rclpy|launch_ros|ros2.*'),
         ('launch_yaml', 'rclpy|launch_ros|ros2.*'),
-        ('launch_ros', 'launch_xml|launch_yaml|ros2.*'),
+        ('launch_ros', 'launch_xml|launch_yaml|ros2(?!_diagnosis).*'),
         ('rosidl_runtime_py', 'rclpy|launch.*|ros2.*'),
         ('rtps_graph', '.*'),
         ('ros2cli', 'launch.*|ros2(?!_diagnosis).*|rqt_graph'),

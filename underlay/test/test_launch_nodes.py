@@ -179,6 +179,7 @@ def test_two_nodes_of_one_name_are_warned_about(
         ("package='some_pkg', executable='plain_nod'", "is 'plain_node' meant?"),
         ("package='some_pk', executable='x'", "package 'some_pk' not found, searching: ["),
         ("package='some_pk', executable='x'", "is 'some_pkg' meant?"),
+        ("package='demo_nodes_cpp', executable='talker'", '`ros2 run demo_nodes_py talker`'),
         ("package='some_pkg', executable='plain_node', name='a b'", "node name 'a b' is refused"),
         (
             "package='some_pkg', executable='plain_node', namespace='1'",

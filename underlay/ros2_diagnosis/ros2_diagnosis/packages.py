@@ -130,8 +130,9 @@ def why_missing(package: str) -> str:
                 f'it is in {source}, but not built; run `colcon build --packages-select '
                 f'{package}` in {workspace}, then `source {workspace}/install/setup.bash`'
             )
-    if package in stand_ins.BY_PACKAGE:
-        return f'it has no wheel; here {stand_ins.BY_PACKAGE[package]}'
+    instead = stand_ins.hint(package)
+    if instead:
+        return instead
     near = nearest.hint(package, installed(), at_most=0)
     if near:
         return f'no such package is sourced or installed{near}'

@@ -5,11 +5,21 @@
 from __future__ import annotations
 
 _GRAPH = '`ros2 run rqt_graph rqt_graph` shows the graph, and `ros2 doctor` what is wrong in it'
-_DEMO = '`ros2 run topic_demo publisher` and `ros2 run topic_demo subscriber` talk'
 _HUSKY = '`ros2 launch husky_sim husky_playpen.launch.py` starts a robot in a world'
 _TELEOP = '`ros2 run husky_driver teleop` drives by the keys'
 _FRAMES = '`ros2 run tf2_tools view_frames --live` shows the tree of frames in the browser'
 _VIEW = f'{_HUSKY}, and with `viewer:=true` shows it in the browser'
+_TALK = '`ros2 run demo_nodes_py talker` and `ros2 run demo_nodes_py listener` talk'
+_ADD = (
+    '`ros2 run demo_nodes_py add_two_ints_server` and `ros2 run demo_nodes_py add_two_ints_client`'
+    ' add'
+)
+_COUNT = (
+    '`ros2 run action_tutorials_py fibonacci_action_server` and '
+    '`ros2 run action_tutorials_py fibonacci_action_client` count'
+)
+_JOINTS = '`ros2 topic pub /joint_states sensor_msgs/msg/JointState` publishes positions of joints'
+_NOTHING = 'nothing does its job, but a sourced ROS 2 Jazzy has it'
 
 BY_PACKAGE = {
     **dict.fromkeys(('rviz2', 'foxglove_bridge'), _VIEW),
@@ -18,6 +28,47 @@ BY_PACKAGE = {
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
-    **dict.fromkeys(('demo_nodes_py', 'demo_nodes_cpp'), _DEMO),
+    'robot_state_publisher': '`ros2 run tf2_ros static_transform_publisher` publishes frames that '
+    'do not move; those of moving joints need a sourced ROS 2 Jazzy',
+    **dict.fromkeys(('joint_state_publisher', 'joint_state_publisher_gui'), _JOINTS),
+    **dict.fromkeys(
+        ('turtle_tf2_py', 'turtle_tf2_cpp'),
+        "`turtlesim` and `tf2_ros` run the tutorials' own nodes in Python, as they are typed in",
+    ),
+    'demo_nodes_cpp': f'{_TALK}, and `ros2 pkg executables demo_nodes_py` lists more',
+    **dict.fromkeys(
+        ('lifecycle', 'lifecycle_py'),
+        'nodes in Python derive from `rclpy.lifecycle.LifecycleNode`, and `ros2 lifecycle` '
+        'changes their states',
+    ),
+    **dict.fromkeys(
+        ('quality_of_service_demo_py', 'quality_of_service_demo_cpp'),
+        '`ros2 run demo_nodes_py talker_qos` and `ros2 run demo_nodes_py listener_qos` show '
+        'reliability, and `ros2 doctor` names what does not match',
+    ),
+    'action_tutorials_cpp': _COUNT,
+    **{
+        f'examples_{library}_minimal_{what}': clause
+        for library in ('rclpy', 'rclcpp')
+        for what, clause in {
+            **dict.fromkeys(('publisher', 'subscriber'), _TALK),
+            **dict.fromkeys(('service', 'client'), _ADD),
+            **dict.fromkeys(('action_server', 'action_client'), _COUNT),
+        }.items()
+    },
+    **dict.fromkeys(
+        (
+            *('composition', 'demo_nodes_cpp_native', 'intra_process_demo', 'image_tools'),
+            *('examples_rclpy_executors', 'examples_rclpy_guard_conditions'),
+            'examples_rclpy_pointcloud_publisher',
+        ),
+        _NOTHING,
+    ),
 }
 """A clause for each package that has no wheel."""
+
+
+def hint(package: str) -> str:
+    """Say in one clause that a package has no wheel, and what does its job; '' for others."""
+    clause = BY_PACKAGE.get(package)
+    return f'it has no wheel; here {clause}' if clause else ''

@@ -91,6 +91,11 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
         ('rqt', 'ros2 run rqt_graph rqt_graph'),
         ('ros2 run ros_gz_sim create', 'husky_playpen.launch.py'),
         ('ros2 run teleop_twist_keyboard teleop_twist_keyboard', 'ros2 run husky_driver teleop'),
+        ('ros2 run demo_nodes_cpp talker', 'ros2 run demo_nodes_py talker'),
+        ('ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py', 'as they are typed in'),
+        ('ros2 run robot_state_publisher robot_state_publisher', 'static_transform_publisher'),
+        ('ros2 run examples_rclpy_minimal_service service', 'demo_nodes_py add_two_ints_server'),
+        ('ros2 run image_tools cam2image', 'a sourced ROS 2 Jazzy has it'),
     ],
 )
 def test_a_program_without_wheel_names_what_does_its_job(command: str, instead: str) -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 import difflib
 from typing import cast
 
@@ -44,10 +45,8 @@ class FindPackage(Substitution):
         try:
             return self.find(package)
         except packages.PackageNotFoundError as error:
-            known = packages.get_packages_with_prefixes()
-            near = difflib.get_close_matches(package, known, 1)
-            hint = f": is '{near[0]}' meant?" if near else ': is its workspace built and sourced?'
-            raise packages.PackageNotFoundError(f'{error.args[0]}{hint}') from None
+            hint = _why_missing(package, packages.get_packages_with_prefixes())
+            raise packages.PackageNotFoundError(f'{error.args[0]}: {hint}') from None
 
 
 @expose_substitution('find-pkg-prefix')
@@ -68,3 +67,11 @@ class FindPackageShare(FindPackage):
         from ament_index_python.packages import get_package_share_directory
 
         return cast(str, get_package_share_directory(package_name))
+
+
+def _why_missing(package: str, known: Iterable[str]) -> str:
+    from ros2_diagnosis import stand_ins
+
+    near = difflib.get_close_matches(package, list(known), 1)
+    meant = f"is '{near[0]}' meant?" if near else 'is its workspace built and sourced?'
+    return stand_ins.hint(package) or meant
