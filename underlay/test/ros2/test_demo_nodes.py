@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 import re
 import signal
@@ -26,6 +27,7 @@ OF_UPSTREAM = (
     *('matched_event_detect', 'set_parameters_callback', 'talker', 'talker_qos'),
     'use_logger_service',
 )
+BOARD = 'parameter_blackboard'
 _STAMP = re.compile(r'^\[(\w+)\] \[\d+\.\d+\] ', re.MULTILINE)
 
 
@@ -72,7 +74,7 @@ def end(process: subprocess.Popen[str], number: int = signal.SIGINT) -> None:
 @pytest.mark.usefixtures('domain')
 def test_packages_have_the_programs_of_jazzy(ros2: Any) -> None:
     there = {line.split()[1] for line in ros2('pkg', 'executables', 'demo_nodes_py').lines}
-    assert there == {*OF_UPSTREAM, 'parameter_blackboard'}
+    assert there == set(OF_UPSTREAM)
     assert ros2('pkg', 'executables', 'action_tutorials_py').lines == [
         'action_tutorials_py fibonacci_action_client',
         'action_tutorials_py fibonacci_action_server',
@@ -204,10 +206,10 @@ def test_to_set_one_parameter_sets_the_other(processes: Any, domain: int, ros2: 
     end(node)
 
 
-def test_a_blackboard_keeps_what_a_client_sets(processes: Any) -> None:
-    ready = "Parameter blackboard node named '/parameter_blackboard' ready"
-    board = processes.start(program('parameter_blackboard'), ready=ready)
-    done = run('async_param_client')
+def test_a_node_of_a_student_keeps_what_the_client_sets(domain: int) -> None:
+    with SpunNodes(domain) as nodes:
+        nodes.start(partial(Node, BOARD, allow_undeclared_parameters=True))
+        done = run('async_param_client')
     assert done.returncode == 0
     said = [line.removeprefix('[INFO] [async_param_client]: ') for line in lines_of(done.stdout)]
     titles = ['Setting parameters:', 'Listing Parameters:', 'Getting parameters:']
@@ -221,14 +223,13 @@ def test_a_blackboard_keeps_what_a_client_sets(processes: Any) -> None:
         '        value: One fish, two fish, Red fish, blue fish',
     ):
         assert line in said
-    end(board)
 
 
 @pytest.mark.usefixtures('domain')
-def test_without_a_blackboard_the_client_says_what_to_start() -> None:
+def test_without_such_a_node_the_client_says_what_to_start() -> None:
     done = run('async_param_client')
     assert done.returncode == 1
-    assert 'start it with `ros2 run demo_nodes_py parameter_blackboard`' in done.stdout
+    assert f'there is no node {BOARD}: start it before this demo' in done.stdout
 
 
 @pytest.mark.usefixtures('domain')

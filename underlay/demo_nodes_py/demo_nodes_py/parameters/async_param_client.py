@@ -85,9 +85,9 @@ def _steps(node: Node, spinner: Spinner) -> int:
     tour = Tour(node, spinner)
     if not tour.begin():
         node.get_logger().error(
-            f'{TARGET} is not available, start it with '
-            '`ros2 run demo_nodes_py parameter_blackboard` before this demo (in a sourced Jazzy '
-            'it is in demo_nodes_cpp)'
+            f'there is no node {TARGET}: start it before this demo by `ros2 run demo_nodes_cpp '
+            f'{TARGET}`, in C++ and so in a sourced Jazzy only, or as a node of your own with '
+            'allow_undeclared_parameters=True'
         )
         return 1
     tour.set_some()
