@@ -318,9 +318,17 @@ def test_the_page_goes_on_with_the_next_simulator(lab: Lab, page: Page) -> None:
     assert errors(page) == []
 
 
+def pages_that_hear_of_a_stop(lab: Lab) -> set[bytes]:
+    """Return the subscriptions of the view; there is another where it shows another world."""
+    readers = lab.listener.get_subscriptions_info_by_topic('/e_stop')
+    return {bytes(each.endpoint_gid) for each in readers if each.node_name == 'husky_view'}
+
+
 @pytest.mark.timeout(120)
 def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, page: Page) -> None:
     button(page, 'STOP').click()
+    wait_until(lambda: len(pages_that_hear_of_a_stop(lab)) == 1, timeout_sec=10.0, what='the page')
+    before = pages_that_hear_of_a_stop(lab)
     for robots in ((), ('husky -2 0 0',)):  # the same world, and another one
         lab.simulator.close()
         expect(page.locator('[data-trouble]')).to_contain_text('is gone')
@@ -328,7 +336,16 @@ def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, p
         lab.simulator.wait_for_text('emergency stop')
         wait_for(page, f'{FACTOR} > 0.5')
         button(page, 'Release the stop').wait_for()
+    # Another world has another page: what is published before it hears of stops is lost to it.
+    wait_until(
+        lambda: len(pages_that_hear_of_a_stop(lab) - before) == 1,
+        timeout_sec=10.0,
+        what='the page of the other world',
+    )
     stop = lab.listener.create_publisher(Bool, 'e_stop', LATCHED)
+    wait_until(
+        lambda: stop.get_subscription_count() == 2, timeout_sec=10.0, what='page and simulator'
+    )
     stop.publish(Bool(data=False))
     button(page, 'STOP').wait_for()
     stop.publish(Bool(data=True))
