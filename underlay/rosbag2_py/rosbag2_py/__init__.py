@@ -1,0 +1,111 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bags from a program: write, read, describe. Upstream's names, in Python, on MCAP alone."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING
+
+from rosbag2_py._storage import (
+    BagMetadata,
+    convert_rclcpp_qos_to_rclpy_qos,
+    ConverterOptions,
+    FileInformation,
+    get_default_storage_id,
+    MessageDefinition,
+    MetadataIo,
+    ReadOrder,
+    ReadOrderSortBy,
+    StorageFilter,
+    StorageOptions,
+    to_rclcpp_qos_vector,
+    TopicInformation,
+    TopicMetadata,
+)
+
+if TYPE_CHECKING:
+    from rosbag2_py._info import Info
+    from rosbag2_py._message_definitions import LocalMessageDefinitionSource
+    from rosbag2_py._reader import get_registered_readers, SequentialReader
+    from rosbag2_py._reindexer import Reindexer
+    from rosbag2_py._writer import (
+        get_registered_compressors,
+        get_registered_serializers,
+        get_registered_writers,
+        SequentialWriter,
+    )
+
+__all__ = [
+    'BagMetadata',
+    'ConverterOptions',
+    'FileInformation',
+    'Info',
+    'LocalMessageDefinitionSource',
+    'MessageDefinition',
+    'MetadataIo',
+    'ReadOrder',
+    'ReadOrderSortBy',
+    'Reindexer',
+    'SequentialReader',
+    'SequentialWriter',
+    'StorageFilter',
+    'StorageOptions',
+    'TopicInformation',
+    'TopicMetadata',
+    'convert_rclcpp_qos_to_rclpy_qos',
+    'get_default_storage_id',
+    'get_registered_compressors',
+    'get_registered_readers',
+    'get_registered_serializers',
+    'get_registered_writers',
+    'to_rclcpp_qos_vector',
+]
+
+# Loaded when they are asked for: who reads needs no writer.
+_MODULES = {
+    'Info': '_info',
+    'LocalMessageDefinitionSource': '_message_definitions',
+    'Reindexer': '_reindexer',
+    **dict.fromkeys(('SequentialReader', 'get_registered_readers'), '_reader'),
+    **dict.fromkeys(
+        (
+            'SequentialWriter',
+            'get_registered_compressors',
+            'get_registered_serializers',
+            'get_registered_writers',
+        ),
+        '_writer',
+    ),
+}
+_PLAY = '`ros2 bag play` plays; in a program, read with SequentialReader and publish'
+_RECORD = '`ros2 bag record` records; in a program, subscribe and write with SequentialWriter'
+_COMPRESS = (
+    "StorageOptions(storage_preset_profile='zstd_fast') compresses a SequentialWriter's bag"
+)
+_LEFT_OUT = {
+    **dict.fromkeys(('Player', 'PlayOptions', 'ServiceRequestsSource'), _PLAY),
+    **dict.fromkeys(('Recorder', 'RecordOptions'), _RECORD),
+    **dict.fromkeys(
+        (
+            'CompressionMode',
+            'CompressionOptions',
+            'SequentialCompressionWriter',
+            'compression_mode_from_string',
+            'compression_mode_to_string',
+        ),
+        _COMPRESS,
+    ),
+    'SequentialCompressionReader': 'SequentialReader reads MCAP files with compressed chunks',
+    'bag_rewrite': 'read with SequentialReader and write with SequentialWriter',
+}
+
+
+def __getattr__(name: str) -> object:
+    if name in _MODULES:
+        return getattr(importlib.import_module(f'rosbag2_py.{_MODULES[name]}'), name)
+    if name in _MODULES.values():
+        return importlib.import_module(f'rosbag2_py.{name}')
+    if name in _LEFT_OUT:
+        raise ImportError(f'rosbag2_py.{name} needs a full ROS 2; here {_LEFT_OUT[name]}')
+    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')

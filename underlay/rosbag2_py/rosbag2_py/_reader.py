@@ -1,0 +1,245 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read a bag in a program."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import copy
+from pathlib import Path
+import re
+import weakref
+
+from rosbag2_py import bag_files
+from rosbag2_py._fields import check_kind, nanoseconds_of
+from rosbag2_py._info import read_metadata
+from rosbag2_py._log import warn
+from rosbag2_py._metadata import BagMetadata, MessageDefinition, TopicMetadata
+from rosbag2_py._options import (
+    ConverterOptions,
+    ReadOrder,
+    ReadOrderSortBy,
+    StorageFilter,
+    StorageOptions,
+)
+from rosbag2_py.errors import BagError
+from rosbag2_py.mcap_file import Key, McapFile, Start, StoredMessage
+
+_EVENTS = '/_service_event'
+
+
+class SequentialReader:
+    """Reads the messages of a bag one after another, file by file."""
+
+    def __init__(self) -> None:
+        self._files: list[Path] = []
+        self._metadata = BagMetadata()
+        self._filter = StorageFilter()
+        self._order = ReadOrder()
+        self._sought_ns = 0
+        self._file: McapFile | None = None
+        self._number = 0
+        self._close: Callable[[], object] = _nothing
+        # The place: a time, and the message of it that was read last.
+        self._time_ns = 0
+        self._key: Key | None = None
+        self._messages: Iterator[StoredMessage] = iter(())
+        self._next: StoredMessage | None = None
+
+    def open_uri(self, uri: str, /) -> None:
+        self.open(StorageOptions(uri), ConverterOptions())
+
+    def open(  # noqa: A003
+        self, storage_options: StorageOptions, converter_options: ConverterOptions, /
+    ) -> None:
+        """
+        Open a bag, or an MCAP file alone, before its first message.
+
+        :raises BagError: there is none, or it is not stored as MCAP, or it is damaged.
+        """
+        check_kind(storage_options, StorageOptions)
+        check_kind(converter_options, ConverterOptions)
+        bag_files.check_storage(storage_options.storage_id)
+        path = Path(storage_options.uri)
+        files = bag_files.find(path)
+        metadata = read_metadata(path)
+        _check_formats(metadata, converter_options.output_serialization_format)
+        self._files, self._metadata = files, metadata
+        self._load(0)
+
+    def set_read_order(self, order: ReadOrder, /) -> bool:
+        """Choose the order; return whether the storage can read in it."""
+        check_kind(order, ReadOrder)
+        file = self._opened()
+        if order.sort_by == ReadOrderSortBy.PublishedTimestamp:
+            warn('MCAP files cannot be read in the order in which messages were published')
+            return False
+        by_time = order.sort_by == ReadOrderSortBy.ReceivedTimestamp
+        if order.reverse and not by_time:
+            warn('MCAP files cannot be read backwards but by ReadOrderSortBy.ReceivedTimestamp')
+            return False
+        if by_time and not file.has_index:
+            warn(f"'{file.path}' has no index: it is read in the order in which it was written")
+            return False
+        if order.sort_by != self._order.sort_by:
+            self._key = None  # Places are other ones there.
+        self._order = ReadOrder(order.sort_by, order.reverse)
+        self._restart()
+        return True
+
+    def has_next(self) -> bool:
+        """Return whether there is a message to read, in this file or one to come."""
+        self._opened()
+        while self._next is None:
+            self._next = next(self._messages, None)
+            if self._next is None:
+                following = self._number + (-1 if self._order.reverse else 1)
+                if not 0 <= following < len(self._files):
+                    return False
+                self._load(following)
+        return True
+
+    def read_next(self) -> tuple[str, bytes, int]:
+        """
+        Return the topic of the next message, its bytes and its time in nanoseconds.
+
+        :raises BagError: there is none.
+        """
+        if not self.has_next() or self._next is None:
+            raise BagError('The bag has no further message: ask has_next() before read_next()')
+        message, self._next = self._next, None
+        self._key = message.key
+        if self._is_by_time:
+            self._time_ns = message.time_ns
+        return message.topic, message.data, message.time_ns
+
+    def get_metadata(self) -> BagMetadata:
+        self._opened()
+        return self._metadata
+
+    def get_all_topics_and_types(self) -> list[TopicMetadata]:
+        self._opened()
+        return [each.topic_metadata for each in self._metadata.topics_with_message_count]
+
+    def get_all_message_definitions(self) -> list[MessageDefinition]:
+        """Return the definitions that the file has which is read now."""
+        schemas = self._opened().summary.schemas.values()
+        return [
+            MessageDefinition(each.name, each.encoding, each.data.decode(errors='replace'), '')
+            for each in schemas
+        ]
+
+    def set_filter(self, storage_filter: StorageFilter, /) -> None:
+        """Read some topics only, from the place where the reader is."""
+        check_kind(storage_filter, StorageFilter)
+        self._opened()
+        wanted(storage_filter)  # refuses what is no expression, before anything changes
+        self._filter = copy.copy(storage_filter)
+        self._restart()
+
+    def reset_filter(self) -> None:
+        """Read all topics, from the place where the reader is."""
+        self.set_filter(StorageFilter())
+
+    def seek(self, timestamp: int, /) -> None:
+        """
+        Go to the first message of a time or after, or before where the order is reverse.
+
+        As upstream, to the time of the message that was read last goes behind that message.
+        """
+        file = self._opened()
+        timestamp = self._sought_ns = nanoseconds_of(timestamp)
+        while True:
+            start_ns = file.statistics.message_start_time
+            end_ns = file.statistics.message_end_time
+            if timestamp < start_ns and self._number > 0:
+                file = self._load(self._number - 1)
+            elif timestamp > end_ns and self._number + 1 < len(self._files):
+                file = self._load(self._number + 1)
+            else:
+                break
+        if timestamp != self._time_ns or not self._is_by_time:
+            self._key = None
+        self._time_ns = timestamp
+        self._restart()
+
+    def _opened(self) -> McapFile:
+        if self._file is None:
+            raise BagError('The bag is not open: call open() first')
+        return self._file
+
+    def _load(self, number: int) -> McapFile:
+        """Open a file of the bag in place of the one before."""
+        file = McapFile(self._files[number])
+        self._close()
+        self._file, self._number = file, number
+        self._close = weakref.finalize(self, file.close)
+        if not file.is_whole:
+            warn(f"'{file.path}' has no end: its recording was killed; read as far as it goes")
+        self._time_ns = self._sought_ns
+        self._key = None
+        self._restart()
+        return file
+
+    @property
+    def _is_by_time(self) -> bool:
+        return self._order.sort_by != ReadOrderSortBy.File and self._opened().has_index
+
+    def _restart(self) -> None:
+        """Find the place again, after what may be read or how has changed."""
+        self._next = None
+        self._messages = self._opened().messages(
+            Start(self._time_ns, self._key), self._order, wanted(self._filter)
+        )
+
+
+def _nothing() -> None:
+    """Stand for the closing of a file where there is none."""
+
+
+def get_registered_readers() -> set[str]:
+    return {'mcap'}
+
+
+def wanted(storage_filter: StorageFilter) -> Callable[[str], bool]:
+    """
+    Return whether a filter lets a topic pass.
+
+    :raises BagError: an expression is none.
+    """
+    regex = _pattern(storage_filter.regex)
+    exclude_regex = _pattern(storage_filter.regex_to_exclude)
+    topics, events = storage_filter.topics, storage_filter.services_events
+    exclude_topics = storage_filter.exclude_topics
+    exclude_events = storage_filter.exclude_service_events
+
+    def passes(topic: str) -> bool:
+        is_event = topic.endswith(_EVENTS) and topic != _EVENTS
+        included, excluded = (events, exclude_events) if is_event else (topics, exclude_topics)
+        if topic in excluded or (exclude_regex and exclude_regex.fullmatch(topic)):
+            return False
+        if not included and not regex:
+            return True
+        return topic in included or bool(regex and regex.fullmatch(topic))
+
+    return passes
+
+
+def _pattern(text: str) -> re.Pattern[str] | None:
+    try:
+        return re.compile(text) if text else None
+    except re.error as error:
+        raise BagError(f"'{text}' is no regular expression: {error}") from None
+
+
+def _check_formats(metadata: BagMetadata, asked: str) -> None:
+    """Refuse what would have to be converted; there are no converters here."""
+    topics = [each.topic_metadata for each in metadata.topics_with_message_count]
+    formats = {each.serialization_format for each in topics}
+    if len(formats) > 1:
+        raise BagError(f'The topics have several serialization formats: {sorted(formats)}')
+    if formats and asked not in ('', *formats):
+        raise BagError(
+            f"output_serialization_format='{asked}': the bag has '{formats.pop()}', and nothing "
+            "is converted here; write ConverterOptions('', '')"
+        )

@@ -1,0 +1,211 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Write a bag from a program."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+import threading
+from typing import Any
+import weakref
+
+from rosbag2_py._fields import check_kind, nanoseconds_of
+from rosbag2_py._log import warn
+from rosbag2_py._message_definitions import empty, LocalMessageDefinitionSource
+from rosbag2_py._metadata import TopicMetadata
+from rosbag2_py._options import ConverterOptions, StorageOptions
+from rosbag2_py._writing_thread import WritingThread
+from rosbag2_py.bag_files import check_storage
+from rosbag2_py.bag_writer import BagWriter, COMPRESSIONS, Limits
+from rosbag2_py.errors import BagError
+
+_SMALLEST_FILE = 1024
+_EVENT = '_Event'
+
+
+class SequentialWriter:
+    """
+    Writes messages into a bag, from any thread.
+
+    What has no `close` is closed when the writer is deleted, or the program ends.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._topics: dict[str, TopicMetadata] = {}
+        self._close: weakref.finalize[..., SequentialWriter] | None = None
+
+    def open(  # noqa: A003
+        self, storage_options: StorageOptions, converter_options: ConverterOptions, /
+    ) -> None:
+        """
+        Make the folder of the bag; a writer that is open already stays as it is.
+
+        :raises BagError: the folder exists, or an option is not offered here.
+        """
+        check_kind(storage_options, StorageOptions)
+        check_kind(converter_options, ConverterOptions)
+        with self._lock:
+            if self._close is not None:
+                return
+            _check(storage_options, converter_options)
+            self._options = copy.copy(storage_options)
+            self._writer = BagWriter(
+                Path(storage_options.uri),
+                preset=storage_options.storage_preset_profile or 'none',
+                limits=Limits(
+                    storage_options.max_bagfile_size, storage_options.max_bagfile_duration
+                ),
+                custom_data=storage_options.custom_data,
+            )
+            self._thread = WritingThread(self._writer)
+            self._topics = {}
+            self._close = weakref.finalize(self, self._thread.close_at_exit)
+
+    def close(self) -> None:
+        """Finish the bag; may be called twice."""
+        with self._lock:
+            if self._close is None:
+                return
+            try:
+                self._thread.close()
+            finally:
+                if self._thread.has_ended:  # Ctrl-C may have come before.
+                    self._close.detach()
+                    self._close = None
+
+    def create_topic(self, topic_with_type: TopicMetadata, /) -> None:
+        """Add a topic, before its first message; one of that name is left as it is."""
+        check_kind(topic_with_type, TopicMetadata)
+        with self._lock:
+            self._check_open()
+            if topic_with_type.name in self._topics:
+                return
+            type_name = topic_with_type.type
+            if type_name.endswith(_EVENT) and '/srv/' in type_name:
+                type_name = type_name.removesuffix(_EVENT)
+            try:
+                definition = LocalMessageDefinitionSource().get_full_text(type_name)
+            except BagError as error:
+                warn(f'{error}; the bag has none either')
+                definition = empty(type_name)
+            self._topics[topic_with_type.name] = topic_with_type
+            self._thread.put(0, self._writer.add_topic, topic_with_type, definition)
+
+    def remove_topic(self, topic_with_type: TopicMetadata, /) -> None:
+        check_kind(topic_with_type, TopicMetadata)
+        with self._lock:
+            self._check_open()
+            self._known(topic_with_type.name)
+            del self._topics[topic_with_type.name]
+            self._thread.put(0, self._writer.remove_topic, topic_with_type.name)
+
+    def write(
+        self,
+        topic_name: str,
+        message: bytes,
+        recv_timestamp: int,
+        send_timestamp: int | None = None,
+        /,
+    ) -> None:
+        """
+        Write a message, as rclpy.serialization.serialize_message gives it.
+
+        :param recv_timestamp: nanoseconds since the epoch.
+        :param send_timestamp: the same where none is given.
+        :raises BagError: the bag is not open, or has no such topic, or the disk is full.
+        """
+        data = _bytes(message)
+        received_ns = nanoseconds_of(recv_timestamp, first=0)
+        sent_ns = received_ns
+        if send_timestamp is not None:
+            sent_ns = nanoseconds_of(send_timestamp, first=0)
+        with self._lock:
+            self._check_open()
+            if received_ns < self._options.start_time_ns:
+                return
+            if 0 <= self._options.end_time_ns < received_ns:
+                return
+            self._known(topic_name)
+            put = self._thread.put
+            put(len(data), self._writer.write, topic_name, data, received_ns, sent_ns)
+
+    def split_bagfile(self) -> None:
+        """Begin a new file."""
+        with self._lock:
+            self._check_open()
+            self._thread.put(0, self._writer.split)
+
+    def take_snapshot(self) -> bool:
+        """Return False, as always where the snapshot mode is off."""
+        return False
+
+    def _check_open(self) -> None:
+        if self._close is None:
+            raise BagError('The bag is not open: call open() first')
+
+    def _known(self, topic_name: str) -> None:
+        if topic_name not in self._topics:
+            known = ', '.join(map(repr, self._topics)) or 'none'
+            raise BagError(
+                f'The bag has no topic {topic_name!r}, but {known}: call create_topic() before '
+                'the first write()'
+            )
+
+
+def get_registered_writers() -> set[str]:
+    return {'mcap'}
+
+
+def get_registered_compressors() -> set[str]:
+    """Return none: MCAP compresses by itself (storage_preset_profile)."""
+    return set()
+
+
+def get_registered_serializers() -> set[str]:
+    """Return none: what is written is serialized already."""
+    return set()
+
+
+def _check(storage: StorageOptions, converter: ConverterOptions) -> None:
+    check_storage(storage.storage_id)
+    if storage.storage_preset_profile not in ('', *COMPRESSIONS):
+        raise BagError(
+            f"storage_preset_profile='{storage.storage_preset_profile}': it is one of "
+            f'{", ".join(COMPRESSIONS)}'
+        )
+    if storage.storage_config_uri:
+        raise BagError(
+            f"storage_config_uri='{storage.storage_config_uri}': files of settings are not read "
+            'here; use storage_preset_profile'
+        )
+    if storage.snapshot_mode:
+        raise BagError(
+            'snapshot_mode=True is not offered here: keep the last messages in a '
+            'collections.deque and write them when they are wanted'
+        )
+    if 0 < storage.max_bagfile_size < _SMALLEST_FILE:
+        raise BagError(
+            f'max_bagfile_size={storage.max_bagfile_size}: it is {_SMALLEST_FILE} bytes at least, '
+            'or 0 for no limit'
+        )
+    given, kept = converter.input_serialization_format, converter.output_serialization_format
+    if given != kept:
+        raise BagError(
+            f"ConverterOptions('{given}', '{kept}'): messages are not converted here; write "
+            "ConverterOptions('', '')"
+        )
+
+
+def _bytes(message: Any) -> bytes:
+    if isinstance(message, bytes):
+        return message
+    if isinstance(message, bytearray | memoryview):
+        return bytes(message)
+    if isinstance(message, str):
+        return message.encode()
+    raise TypeError(
+        f'write() takes the bytes of a message, not a {type(message).__name__}: '
+        'rclpy.serialization.serialize_message(msg) makes them'
+    )

@@ -1,0 +1,220 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""`rosbag2_py.SequentialWriter`: a whole bag, whatever has ended the program."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from itertools import count
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+from mcap.writer import Writer
+from playpen_testing.bags import (
+    opened_reader,
+    opened_writer,
+    rest_of,
+    string,
+    times_of,
+)
+import pytest
+from rclpy.duration import Duration
+from rclpy.time import Time
+import rosbag2_py
+from rosbag2_py import (
+    ConverterOptions,
+    SequentialWriter,
+    StorageOptions,
+    TopicMetadata,
+)
+import yaml
+
+
+def test_a_bag_is_described_in_its_metadata(tmp_path: Path) -> None:
+    writer = SequentialWriter()
+    writer.open(
+        StorageOptions(uri=str(tmp_path / 'mine'), custom_data={'robot': 'husky'}),
+        ConverterOptions(),
+    )
+    qos = rosbag2_py._storage.QoS(3).best_effort()
+    topic = TopicMetadata(
+        id=0,
+        name='/chatter',
+        type='std_msgs/msg/String',
+        serialization_format='cdr',
+        offered_qos_profiles=[qos],
+        type_description_hash='RIHS01_x',
+    )
+    writer.create_topic(topic)
+    writer.create_topic(topic)  # again, which changes nothing
+    for time_ns in (500, 100, 300):
+        writer.write('/chatter', string(time_ns), time_ns, 7)
+    writer.close()
+    writer.close()
+
+    text = (tmp_path / 'mine' / 'metadata.yaml').read_text()
+    content = yaml.safe_load(text)['rosbag2_bagfile_information']
+    assert (content['version'], content['message_count']) == (9, 3)
+    assert content['duration'] == {'nanoseconds': 400}
+    assert content['starting_time'] == {'nanoseconds_since_epoch': 100}
+    assert content['relative_file_paths'] == ['mine_0.mcap']
+    assert content['files'][0]['message_count'] == 3
+    assert content['custom_data'] == {'robot': 'husky'}
+    (told,) = content['topics_with_message_count']
+    assert told['topic_metadata']['offered_qos_profiles'][0]['reliability'] == 'best_effort'
+    assert told['topic_metadata']['type_description_hash'] == 'RIHS01_x'
+
+    bag = rosbag2_py.Info().read_metadata(str(tmp_path / 'mine'), 'mcap')
+    assert (bag.starting_time, bag.duration) == (Time(nanoseconds=100), Duration(nanoseconds=400))
+    assert bag.bag_size == sum(file.stat().st_size for file in (tmp_path / 'mine').iterdir())
+    assert bag.topics_with_message_count[0].topic_metadata.equals(topic)
+    assert (bag.ros_distro, bag.storage_identifier) == ('jazzy', 'mcap')
+    assert 'Topic: /chatter | Type: std_msgs/msg/String | Count: 3 | ' in repr(bag)
+    metadata_io = rosbag2_py.MetadataIo()
+    again = metadata_io.deserialize_metadata(metadata_io.serialize_metadata(bag))
+    again.bag_size = bag.bag_size
+    assert repr(again) == repr(bag)
+
+
+def start(code: str, *words: str) -> subprocess.Popen[str]:
+    head = (
+        'import sys, rosbag2_py\n'
+        'from rosbag2_py import *\n'
+        'writer = SequentialWriter()\n'
+        "writer.open(StorageOptions(uri=sys.argv[1], storage_id='mcap'), ConverterOptions())\n"
+        "writer.create_topic(TopicMetadata(0, 'n', 'std_msgs/msg/String', 'cdr'))\n"
+    )
+    return subprocess.Popen(
+        [sys.executable, '-c', head + code, *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_a_program_need_not_close_its_bag(tmp_path: Path) -> None:
+    code = "writer.write('n', bytes(8), 5)\nkept = {'a': [writer]}\nkept['b'] = kept\n1 / 0"
+    process = start(code, str(tmp_path / 'bag'))
+    assert 'ZeroDivisionError' in process.communicate(timeout=20)[1]
+    assert (tmp_path / 'bag' / 'metadata.yaml').is_file()
+    assert times_of(opened_reader(tmp_path / 'bag')) == [5]
+
+
+LOOP = """
+import itertools
+for number in itertools.count():
+    writer.write('n', number.to_bytes(8, 'little') * 100, number)
+    if number == 5000:
+        print('many', flush=True)
+"""
+
+
+def test_ctrl_c_at_any_moment_leaves_a_whole_bag(tmp_path: Path) -> None:
+    for number in range(4):
+        folder = tmp_path / f'bag{number}'
+        process = start(LOOP, str(folder))
+        assert process.stdout is not None
+        assert process.stdout.readline() == 'many\n'
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+        assert process.returncode == -signal.SIGINT
+        reader = opened_reader(folder)
+        read = rest_of(reader)
+        assert len(read) == reader.get_metadata().message_count > 5000
+        for place, (_, data, time_ns) in enumerate(read):
+            assert (time_ns, data) == (place, place.to_bytes(8, 'little') * 100)
+
+
+def test_ctrl_c_while_closing_waits_for_the_rest(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    writer = opened_writer(tmp_path / 'bag', 'n')
+    wait, waits = writer._thread._ended.wait, threading.Event()
+
+    def wait_and_tell() -> None:
+        waits.set()
+        wait()
+
+    def interrupt() -> None:
+        waits.wait(10)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(writer._thread._ended, 'wait', wait_and_tell)
+    writer._thread.put(0, interrupt)
+    for number in range(5000):
+        writer.write('n', bytes(100), number)
+    with pytest.raises(KeyboardInterrupt):
+        writer.close()
+    assert len(rest_of(opened_reader(tmp_path / 'bag'))) == 5000
+
+
+def test_what_a_killed_program_has_written_is_read(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / 'bag'
+    process = start(LOOP, str(folder))
+    assert process.stdout is not None
+    assert process.stdout.readline() == 'many\n'
+    end = time.monotonic() + 10
+    while (folder / 'bag_0.mcap').stat().st_size < 3_000_000:
+        assert time.monotonic() < end, 'nothing was written within 10 s'
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    assert not (folder / 'metadata.yaml').exists()
+
+    reader = opened_reader(folder)
+    assert 'bag_0.mcap' in capfd.readouterr().err
+    times = times_of(reader)
+    assert times == list(range(len(times)))
+    assert len(times) * 800 > 1_900_000
+    assert reader.get_metadata().message_count == len(times)
+    reader.seek(100)
+    assert reader.read_next()[2] == 100
+    rosbag2_py.Reindexer().reindex(StorageOptions(uri=str(folder), storage_id='mcap'))
+    assert rosbag2_py.MetadataIo().read_metadata(str(folder)).message_count == len(times)
+
+
+def test_a_writer_begins_new_files(tmp_path: Path) -> None:
+    folder = tmp_path / 'bag'
+    writer = opened_writer(folder, 'n', max_bagfile_duration=2, start_time_ns=10**9)
+    for second in range(10):
+        writer.write('n', string(second), second * 10**9)
+    writer.close()
+    bag = rosbag2_py.Info().read_metadata(str(folder), '')
+    assert [file.message_count for file in bag.files] == [3, 3, 3]
+    assert [file.duration for file in bag.files] == [timedelta(seconds=2)] * 3
+    assert bag.files[1].starting_time == Time(seconds=4)
+    assert times_of(opened_reader(folder)) == [n * 10**9 for n in range(1, 10)]
+
+
+def test_full_disks_are_told(tmp_path: Path) -> None:
+    writer = opened_writer(tmp_path / 'bag', 'n')
+    writer._writer._file.close()  # as if the system had
+    writer._writer._file = Path('/dev/full').open('wb')  # noqa: SIM115
+    writer._writer._writer = Writer(writer._writer._file, 100)
+
+    def write_on() -> None:
+        for number in count():
+            writer.write('n', bytes(9000), number)
+
+    with pytest.raises(RuntimeError, match=r"bag' cannot be written: .*No space left"):
+        write_on()
+    with pytest.raises(RuntimeError, match='No space left'):
+        writer.close()
+
+
+def test_an_unknown_type_is_written_without_definition(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    writer = opened_writer(tmp_path / 'bag')
+    writer.create_topic(TopicMetadata(0, 'n', 'no_such_msgs/msg/Thing', 'cdr'))
+    writer.write('n', b'1234', 1)
+    writer.close()
+    assert "Unknown package 'no_such_msgs'" in capfd.readouterr().err
+    assert rest_of(opened_reader(tmp_path / 'bag')) == [('n', b'1234', 1)]
