@@ -18,8 +18,8 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from playpen_testing.processes import find_line
 import pytest
-from ros2bag.reader import messages, read_record
-from ros2cli.errors import CommandError
+from rosbag2_py import bag_files, SequentialReader
+from rosbag2_py.errors import BagError
 import yaml
 
 
@@ -142,6 +142,15 @@ def test_a_topic_that_comes_later_is_recorded(
     assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
 
 
+def _read(file: Path) -> list[tuple[str, bytes, int]]:
+    bag_files.describe(file)
+    reader, found = SequentialReader(), []
+    reader.open_uri(str(file))
+    while reader.has_next():
+        found.append(reader.read_next())
+    return found
+
+
 def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
     file = tmp_path / 'run.mcap'
     with file.open('wb') as stream:
@@ -153,17 +162,16 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
             writer.add_message(channel, number, b'message %d' % number, number)
         writer.finish()
     whole = file.read_bytes()
-    assert len(list(messages(file, ['/chatter']))) == 100
+    assert len(_read(file)) == 100
     refused = 0
     for place in range(8, len(whole) - 8, 31):
         for length in (1, 8):
             file.write_bytes(whole[:place] + b'\xff' * length + whole[place + length :])
             try:
-                read_record(file)
-                list(messages(file, ['/chatter']))
-            except CommandError as error:
+                _read(file)
+            except BagError as error:
                 refused += 1
-                assert 'cannot be read as MCAP' in str(error) or 'has no summary' in str(error)
+                assert 'cannot be read as MCAP' in str(error)
     assert refused > 10
 
 

@@ -4,14 +4,20 @@
 from __future__ import annotations
 
 import argparse
-from datetime import datetime
-import math
 from pathlib import Path
+from typing import Any
 
 from ros2cli import arguments
 from ros2cli.verb import VerbExtension
+from rosbag2_py import bag_files
 
-from ros2bag import metadata, reader
+from ros2bag.refusals import refused_in_one_line
+
+_KEYS: dict[str, Any] = {
+    'name': lambda each: each.topic_metadata.name,
+    'type': lambda each: each.topic_metadata.type,
+    'count': lambda each: each.message_count,
+}
 
 
 class InfoVerb(VerbExtension):
@@ -29,44 +35,18 @@ class InfoVerb(VerbExtension):
         )
         parser.add_argument(
             '--sort',
-            choices=['name', 'type', 'count'],
+            choices=list(_KEYS),
             default='name',
             help='Sort topics by this key (default: %(default)s)',
         )
 
+    @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
-        bag = reader.read_record(args.bag_path)
-        topics = sorted(bag.topics, key=lambda topic: getattr(topic, args.sort))
+        bag = bag_files.describe(args.bag_path)
+        topics = sorted(bag.topics_with_message_count, key=_KEYS[args.sort])
         if args.topic_name:
             for topic in topics:
-                print(topic.name)
+                print(topic.topic_metadata.name)
             return
-        size = sum(file.stat().st_size for file in metadata.bag_files(args.bag_path))
-        described = [
-            f'Topic: {t.name} | Type: {t.type} | Count: {t.count} | Serialization Format: cdr'
-            for t in topics
-        ]
-        print(
-            f'\nFiles:             {bag.file}\n'
-            f'Bag size:          {_size(size)}\n'
-            'Storage id:        mcap\n'
-            f'ROS Distro:        {metadata.ROS_DISTRO}\n'
-            f'Duration:          {bag.duration_ns / 1e9:.9f}s\n'
-            f'Start:             {_time(bag.start_ns)}\n'
-            f'End:               {_time(bag.end_ns)}\n'
-            f'Messages:          {bag.count}\n'
-            f'Topic information: {(chr(10) + " " * 19).join(described)}\n'
-        )
-
-
-def _size(number: int) -> str:
-    if number < 1024:
-        return f'{number} B'
-    exponent = min(int(math.log2(number)) // 10, 3)
-    return f'{number / 1024**exponent:.1f} {("KiB", "MiB", "GiB")[exponent - 1]}'
-
-
-def _time(nanoseconds: int) -> str:
-    moment = datetime.fromtimestamp(nanoseconds // 10**9)
-    fraction = nanoseconds % 10**9
-    return f'{moment:%b %e %Y %H:%M:%S}.{fraction:09} ({nanoseconds // 10**9}.{fraction:09})'
+        bag.topics_with_message_count = topics
+        print(bag)

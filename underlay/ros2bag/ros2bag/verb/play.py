@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 import time
 from typing import Any
@@ -13,12 +14,13 @@ from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
+import rosbag2_py
+from rosbag2_py import bag_files
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 from rtps_graph.graph import Role
 
-from ros2bag import reader
-from ros2bag.metadata import BagRecord, TopicRecord
+from ros2bag.refusals import refused_in_one_line
 
 _MATCH_TIMEOUT_SEC = 2.0
 _DEFAULT_CLOCK_HZ = 40.0
@@ -77,15 +79,16 @@ class PlayVerb(VerbExtension):
         )
         arguments.add_flags(parser, {'--disable-keyboard-controls': 'Accepted: there are none.'})
 
+    @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
-        bag = reader.read_record(args.bag_path)
+        bag = bag_files.describe(args.bag_path)
         chosen = _chosen(bag, args.topics)
         remaps = _remaps(args.remap)
         with command_node(args, name='rosbag2_player') as node:
             publishers = {}
             for topic in chosen:
                 publishers[topic.name] = _publisher(
-                    node, topic, remaps.get(topic.name, topic.name)
+                    node, topic, remaps.get(names.expand(topic.name), topic.name)
                 )
             clock = node.node.create_publisher(Clock, '/clock', 10) if args.clock else None
             _wait_for_subscriptions(node, list(publishers.values()))
@@ -102,15 +105,15 @@ class PlayVerb(VerbExtension):
 def _play(
     node: CommandNode,
     args: argparse.Namespace,
-    bag: BagRecord,
+    bag: rosbag2_py.BagMetadata,
     publishers: dict[str, Any],
     clock: Any,
 ) -> None:
-    first_ns = bag.start_ns + int(args.start_offset * 1e9)
+    first_ns = bag.starting_time.nanoseconds + int(args.start_offset * 1e9)
     start = time.monotonic()
     tick_sec = 1.0 / args.clock if args.clock else None
     next_tick = 0.0
-    for topic, time_ns, data in reader.messages(args.bag_path, publishers):
+    for topic, data, time_ns in _messages(args.bag_path, list(publishers)):
         if time_ns < first_ns:
             continue
         due = (time_ns - first_ns) * 1e-9 / args.rate
@@ -125,17 +128,28 @@ def _play(
         publishers[topic].publish(data)
 
 
+def _messages(path: Path, topics: list[str]) -> Iterator[tuple[str, bytes, int]]:
+    reader = rosbag2_py.SequentialReader()
+    reader.open_uri(str(path))
+    reader.set_filter(rosbag2_py.StorageFilter(topics=topics, services_events=topics))
+    while reader.has_next():
+        yield reader.read_next()
+
+
 def _publish_clock(publisher: Any, now_ns: int) -> None:
     msg = Clock()
     msg.clock.sec, msg.clock.nanosec = divmod(now_ns, 10**9)
     publisher.publish(msg)
 
 
-def _publisher(node: CommandNode, topic: TopicRecord, name: str) -> Any:
+def _publisher(node: CommandNode, topic: rosbag2_py.TopicMetadata, name: str) -> Any:
     qos = QoSProfile(depth=1000)
-    if not topic.reliable:
+    offers = [
+        rosbag2_py.convert_rclcpp_qos_to_rclpy_qos(each) for each in topic.offered_qos_profiles
+    ]
+    if any(each.reliability != ReliabilityPolicy.RELIABLE for each in offers):
         qos.reliability = ReliabilityPolicy.BEST_EFFORT
-    if topic.transient_local:
+    if offers and all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offers):
         qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
     return node.node.create_publisher(interfaces.message(topic.type), name, qos)
 
@@ -151,8 +165,10 @@ def _wait_for_subscriptions(node: CommandNode, publishers: list[Any]) -> None:
     )
 
 
-def _chosen(bag: BagRecord, wanted: list[str]) -> list[TopicRecord]:
-    known = {topic.name: topic for topic in bag.topics}
+def _chosen(bag: rosbag2_py.BagMetadata, wanted: list[str]) -> list[rosbag2_py.TopicMetadata]:
+    topics = [each.topic_metadata for each in bag.topics_with_message_count]
+    # A program may have written them without the slash, as the tutorial's does.
+    known = {names.expand(topic.name): topic for topic in topics}
     for name in map(names.expand, wanted):
         if name not in known:
             raise CommandError(f"The bag has no topic '{name}'; it has {', '.join(known)}")

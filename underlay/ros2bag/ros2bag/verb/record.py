@@ -15,11 +15,12 @@ from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
+from rosbag2_py import TopicMetadata
+from rosbag2_py.bag_writer import BagWriter, COMPRESSIONS, offered_qos
 from rtps_graph import names
 from rtps_graph.graph import Endpoint, Graph, Role
 
-from ros2bag.metadata import TopicRecord
-from ros2bag.writer import BagWriter, COMPRESSIONS
+from ros2bag.refusals import refused_in_one_line
 
 _POLL_SEC = 0.3
 _QUEUE_DEPTH = 1000
@@ -85,6 +86,7 @@ class RecordVerb(VerbExtension):
             help='Use simulation time for message timestamps by subscribing to the /clock topic.',
         )
 
+    @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
         if not (
             args.topics_positional or args.topics or args.all or args.all_topics or args.regex
@@ -113,7 +115,7 @@ class RecordVerb(VerbExtension):
                         recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
             except KeyboardInterrupt:
                 writer.close()
-                log.info(f"Recording stopped: {writer.bag.count} messages in '{folder}'")
+                log.info(f"Recording stopped: {writer.message_count} messages in '{folder}'")
 
 
 def _end_with_the_terminal() -> None:
@@ -167,18 +169,15 @@ class Recorder:
         except CommandError as error:
             self._log(f"Topic '{name}' is left out: {error}")
             return
-        topic = TopicRecord(
-            name,
-            type_name,
-            publishers[0].type_hash,
-            reliable=all(p.qos.reliable for p in publishers),
-            transient_local=all(p.qos.transient_local for p in publishers),
-        )
-        self._writer.add_topic(topic)
+        reliable = all(p.qos.reliable for p in publishers)
+        transient_local = all(p.qos.transient_local for p in publishers)
+        offered = offered_qos(reliable=reliable, transient_local=transient_local)
+        type_hash = publishers[0].type_hash
+        self._writer.add_topic(TopicMetadata(0, name, type_name, 'cdr', [offered], type_hash))
         qos = QoSProfile(depth=_QUEUE_DEPTH)
-        if not topic.reliable:
+        if not reliable:
             qos.reliability = ReliabilityPolicy.BEST_EFFORT
-        if topic.transient_local:
+        if transient_local:
             qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
         clock = self._node.node.get_clock()
 
