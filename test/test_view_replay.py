@@ -87,6 +87,15 @@ def test_the_plots_are_drawn_when_they_are_opened(page: Page) -> None:
     wait_for(page, "[...document.querySelectorAll('.uplot canvas')].some((c) => c.width > 100)")
 
 
+def replayed(
+    processes: Processes, command: tuple[str, ...], browser: Browser
+) -> tuple[Process, Page]:
+    """Start a replay, and open its page."""
+    replay = processes.start(*command)
+    replay.wait_for_text('look at http://')
+    return replay, open_page(browser, replay.output.split('look at ')[1].split()[0])
+
+
 @pytest.mark.timeout(120)
 def test_a_page_outlives_its_replay_and_shows_the_next(
     report: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
@@ -94,9 +103,7 @@ def test_a_page_outlives_its_replay_and_shows_the_next(
     monkeypatch.setenv(TOKEN_VARIABLE, 'the-same-token')
     command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18280')
     with Processes() as processes:
-        first = processes.start(*command)
-        first.wait_for_text('look at http://')
-        page = open_page(browser, first.output.split('look at ')[1].split()[0])
+        first, page = replayed(processes, command, browser)
         expect(page).to_have_title('Husky replay')
         waiting = page.locator('#husky-waiting')
         expect(waiting).to_be_hidden()
@@ -118,9 +125,7 @@ def test_a_page_that_was_long_alone_shows_the_next_replay(
     monkeypatch.setenv(TOKEN_VARIABLE, 'the-same-token')
     command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18480')
     with Processes() as processes:
-        first = processes.start(*command)
-        first.wait_for_text('look at http://')
-        page = open_page(browser, first.output.split('look at ')[1].split()[0])
+        first, page = replayed(processes, command, browser)
         first.signal(signal.SIGINT)
         assert first.wait(timeout_sec=10.0) == 0
         page.evaluate(FAIL_AS_IN_MINUTES)

@@ -79,14 +79,14 @@ def test_what_fails_without_room_is_not_the_fault_of_a_student(tmp_path: Path) -
 
 def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
     write_workspace(tmp_path / 'ws')
-    mounts = ['unshare', '--map-root-user', '--mount', 'bash', '-c']
-    noexec = f'mount -t tmpfs -o noexec tmpfs {tmp_path}/report'
     (tmp_path / 'report').mkdir()
-    if subprocess.run([*mounts, noexec], capture_output=True).returncode != 0:
-        pytest.skip('nothing can be mounted here')
+    mount = f'mount -t tmpfs -o noexec tmpfs {tmp_path}/report'
     command = f'{sys.executable} -m husky_grader.grade --lab {tmp_path}/ws --sandbox none'
     graded = subprocess.run(
-        [*mounts, f'{noexec} && exec {command} --report {tmp_path}/report/r'],
+        [
+            *('unshare', '--map-root-user', '--mount', 'bash', '-c'),
+            f'{mount} && exec {command} --report {tmp_path}/report/r',
+        ],
         capture_output=True,
         text=True,
     )

@@ -87,7 +87,22 @@ class TopicInformation:
         self.message_count = message_count
 
 
-class FileInformation:
+class _Begun:
+    """What begins with a message."""
+
+    @property
+    def starting_time(self) -> Any:
+        """The time of the first message, an rclpy.time.Time."""
+        from rclpy.time import Time
+
+        return Time(nanoseconds=self._starting_time_ns)
+
+    @starting_time.setter
+    def starting_time(self, value: Any) -> None:
+        self._starting_time_ns = nanoseconds(value)
+
+
+class FileInformation(_Begun):
     """A file of a bag; its duration reads as a timedelta, as upstream's does."""
 
     path = Field(text)
@@ -100,15 +115,6 @@ class FileInformation:
         self.message_count = message_count
 
     @property
-    def starting_time(self) -> Any:
-        """The time of the first message, an rclpy.time.Time."""
-        return _time(self._starting_time_ns)
-
-    @starting_time.setter
-    def starting_time(self, value: Any) -> None:
-        self._starting_time_ns = nanoseconds(value)
-
-    @property
     def duration(self) -> timedelta:
         """The time from the first message to the last."""
         return timedelta(microseconds=self._duration_ns // 1000)
@@ -118,7 +124,7 @@ class FileInformation:
         self._duration_ns = one(timedelta)(value) // timedelta(microseconds=1) * 1000
 
 
-class BagMetadata:
+class BagMetadata(_Begun):
     """What metadata.yaml says of a bag."""
 
     version = Field(whole(32, signed=True))
@@ -174,22 +180,7 @@ class BagMetadata:
     def duration(self, value: Any) -> None:
         self._duration_ns = nanoseconds(value)
 
-    @property
-    def starting_time(self) -> Any:
-        """The time of the first message, an rclpy.time.Time."""
-        return _time(self._starting_time_ns)
-
-    @starting_time.setter
-    def starting_time(self, value: Any) -> None:
-        self._starting_time_ns = nanoseconds(value)
-
     def __repr__(self) -> str:
         from rosbag2_py._info_text import describe
 
         return describe(self)
-
-
-def _time(time_ns: int) -> Any:
-    from rclpy.time import Time
-
-    return Time(nanoseconds=time_ns)
