@@ -171,7 +171,7 @@ def test_nonsense_is_not_drawn_but_named_on_the_page(lab: Lab, page: Page) -> No
         what='a view that listens',
     )
     shown_sec = number(page, 'time').inner_text()
-    scene.data[1] = math.nan
+    scene.data[2] = math.nan
 
     def told() -> bool:
         publisher.publish(scene)
@@ -360,10 +360,23 @@ def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, p
 
 
 @pytest.mark.timeout(120)
-def test_the_page_is_made_anew_for_other_robots(lab: Lab, page: Page) -> None:
+def test_the_page_is_made_anew_for_other_robots_and_knows_what_holds_them(
+    lab: Lab, page: Page
+) -> None:
     lab.simulator.close()
+    held = [
+        lab.listener.create_publisher(Bool, f'{each}/e_stop', 10) for each in ('alpha', 'beta')
+    ]
     lab.start_simulator('alpha 0 0 0', 'beta -3 0 0')
+    for stop in held:
+        wait_until(stop.get_subscription_count, timeout_sec=20.0, what='robots')
+        stop.publish(Bool(data=True))
     page.get_by_label('Robot', exact=True).wait_for()
+    button(page, 'Release the stop').click()
+    for name in ('alpha', 'beta'):
+        lab.simulator.wait_for_text(f'{name}: emergency stop released')
+    for stop in held:
+        lab.listener.destroy_publisher(stop)
     wait_for(page, f'{FACTOR} > 0.5')
     wait_for(page, f'!{TROUBLE}')
     assert errors(page) == []

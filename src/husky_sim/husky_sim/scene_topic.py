@@ -49,6 +49,7 @@ class Scene:
 
     run: str = ''
     paused: bool
+    stopped: tuple[bool, ...] = ()  # by the emergency stop, of every robot
     qpos: Array
     time_sec: Array  # of every entry of the track; the last one is now
     track: Array  # shape (entries, robots, len(TRACK))
@@ -71,7 +72,7 @@ class SceneTopic:
         # A viewer's world has what is only seen, which the simulation may lack.
         whole = load_world(world.path, world.robots, husky=world.husky)
         self._message.layout.dim = [
-            MultiArrayDimension(label='paused', size=1),
+            MultiArrayDimension(label='paused, stopped', size=1 + len(world.robots)),
             MultiArrayDimension(label=world_key(whole), size=simulation.model.nq),
             MultiArrayDimension(label=uuid4().hex[:_KEY], size=0),
         ]
@@ -109,7 +110,8 @@ class SceneTopic:
             return
         if not self._rows or self._last_row != self._simulation.periods:
             self._append()
-        data = array('d', [float(self._is_paused())])
+        stopped = (robot.is_stopped for robot in self._simulation.robots)
+        data = array('d', [self._is_paused(), *stopped])
         data.frombytes(self._simulation.data.qpos.tobytes())
         data.extend(self._rows)
         dimensions: Any = self._message.layout.dim
@@ -147,14 +149,16 @@ def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:
     data = np.frombuffer(message.data)
     sizes = [dimension.size for dimension in message.layout.dim]
     width = 1 + len(TRACK) * robots
-    if len(sizes) != 3 or sum(sizes) != len(data) or sizes[2] % width or not sizes[2]:
+    fits = len(sizes) == 3 and sizes[0] == 1 + robots and sum(sizes) == len(data)
+    if not fits or sizes[2] % width or not sizes[2]:
         raise ValueError(f'dimensions {sizes}: no scene of {robots} robots')
-    qpos = data[1 : 1 + sizes[1]]
-    rows = data[1 + sizes[1] :].reshape(-1, width)
+    held, qpos, rows = np.split(data, np.cumsum(sizes)[:2])
+    rows = rows.reshape(-1, width)
     track = rows[:, 1:].reshape(-1, robots, len(TRACK))
     return Scene(
         run=origin_of(message)[1],
-        paused=bool(data[0]),
+        paused=bool(held[0]),
+        stopped=tuple((held[1:] != 0.0).tolist()),
         qpos=qpos,
         time_sec=rows[:, 0],
         track=track,

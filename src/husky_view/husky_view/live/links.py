@@ -114,6 +114,10 @@ class RobotLink:
         self.is_stopped = stopped
         self._stops.publish(Bool(data=stopped))
 
+    def meet(self, *, stopped: bool) -> None:
+        """Learn of a stop that held this simulator before the page heard of stops."""
+        self.is_stopped |= stopped
+
     def _on_stop(self, msg: Bool) -> None:
         self.is_stopped = msg.data
 
