@@ -246,8 +246,11 @@ def test_a_message_loads_no_generator_and_the_generator_is_there() -> None:
 
 def test_a_node_that_needs_no_arrays_does_not_load_numpy() -> None:
     program = (
-        'import sys, rclpy\n'
+        'import sys, rclpy, rosidl_runtime_py, rosidl_typesupport_python.cdr.codec\n'
         'from service_msgs.msg import ServiceEventInfo\n'
+        'from std_msgs.msg import String\n'
+        'rosidl_runtime_py.set_message_fields(message := String(), {"data": "said"})\n'
+        'assert "said" in rosidl_runtime_py.message_to_yaml(message)\n'
         'rclpy.init()\n'
         "rclpy.create_node('plain')\n"
         "print('numpy' in sys.modules, ServiceEventInfo().client_gid.dtype)\n"

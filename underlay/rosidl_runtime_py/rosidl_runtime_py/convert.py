@@ -9,11 +9,10 @@ from collections import OrderedDict
 import sys
 from typing import Any
 
-import numpy
 from rosidl_parser import definition
 import yaml
 
-_SEQUENCES = (list, tuple, array.array, numpy.ndarray)
+from rosidl_runtime_py.numpy_values import is_numpy
 
 
 class _Dumper(yaml.SafeDumper):
@@ -68,7 +67,7 @@ def message_to_csv(
     """Convert a message to its values, separated by commas; parameters as message_to_yaml."""
 
     def text(value: Any, field_type: Any = None) -> str:
-        if isinstance(value, _SEQUENCES):
+        if _is_sequence(value):
             if no_arr and field_type is not None:
                 return _abbreviated(value, field_type)
             shown = value if truncate_length is None else value[:truncate_length]
@@ -78,7 +77,7 @@ def message_to_csv(
             return f'<string length: <{len(value)}>>'
         if isinstance(value, (bytes, str)):
             return str(_cut(value, truncate_length))
-        if isinstance(value, (bool, float, int, numpy.number)):
+        if isinstance(value, (bool, float, int)) or is_numpy(value, 'number'):
             return str(value)
         return message_to_csv(value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
 
@@ -129,7 +128,7 @@ def _convert_value(
         return ''.join(map(chr, value[:truncate_length])) + _dots(value, truncate_length)
     if isinstance(value, str):
         return f'<string length: <{len(value)}>>' if no_str else _cut(value, truncate_length)
-    if isinstance(value, _SEQUENCES):
+    if _is_sequence(value):
         if no_arr and field_type is not None:
             return _abbreviated(value, field_type)
         items = [convert(item) for item in value[:truncate_length]]
@@ -137,13 +136,17 @@ def _convert_value(
         return tuple(items) if isinstance(value, tuple) else items
     if isinstance(value, dict):
         return type(value)((key, convert(item)) for key, item in value.items())
-    if isinstance(value, numpy.generic):
+    if is_numpy(value, 'generic'):
         return value.item()
     if isinstance(value, (bool, float, int)):
         return value
     return message_to_ordereddict(
         value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
     )
+
+
+def _is_sequence(value: Any) -> bool:
+    return isinstance(value, (list, tuple, array.array)) or is_numpy(value, 'ndarray')
 
 
 def _dots(value: Any, truncate_length: int | None) -> str:

@@ -13,13 +13,12 @@ import math
 import struct
 from typing import Any
 
-import numpy
 from rosidl_parser import definition
 
 from rosidl_runtime_py.convert import get_message_slot_types
 from rosidl_runtime_py.import_message import import_message_from_namespaced_type
+from rosidl_runtime_py.numpy_values import is_numpy
 
-_SEQUENCES = (list, tuple, array.array, numpy.ndarray, bytes, bytearray)
 _HEADER = (('std_msgs', 'msg'), 'Header')
 _TIME = (('builtin_interfaces', 'msg'), 'Time')
 _FLOAT32_END = 3.402823466e38
@@ -107,7 +106,8 @@ class _Filler:
 
 
 def _items(value: Any, kind: Any, path: str) -> list[Any]:
-    if not isinstance(value, _SEQUENCES):
+    known = isinstance(value, (list, tuple, array.array, bytes, bytearray))
+    if not known and not is_numpy(value, 'ndarray'):
         raise TypeError(f"{path}: '{value}' is a {type(value).__name__}, expected a list")
     if isinstance(kind, definition.Array) and len(value) != kind.size:
         raise ValueError(f'{path}: {len(value)} elements, expected exactly {kind.size}')
@@ -134,6 +134,8 @@ def _sequence(items: list[Any], kind: Any) -> Any:
     if codes is None:
         return items
     if isinstance(kind, definition.Array):
+        import numpy  # loaded only now: see numpy_values
+
         return numpy.array(items, dtype=codes[1])
     return array.array(codes[0], items)
 
@@ -156,7 +158,7 @@ def _string(value: Any, kind: Any, path: str) -> str:
 
 def _scalar(value: Any, typename: str, path: str) -> Any:
     if typename == 'boolean':
-        if isinstance(value, (bool, numpy.bool_)) or value in (0, 1):
+        if isinstance(value, bool) or is_numpy(value, 'bool_') or value in (0, 1):
             return bool(value)
         raise TypeError(f"{path}: '{value}' is refused, expected true or false")
     if typename in ('float', 'double', 'long double'):
@@ -197,12 +199,12 @@ def _float(value: Any, typename: str, path: str) -> float:
 
 
 def _integer(value: Any, typename: str, path: str) -> int:
-    if isinstance(value, (float, numpy.floating)) and float(value).is_integer():
+    if (isinstance(value, float) or is_numpy(value, 'floating')) and float(value).is_integer():
         value = int(value)
     if isinstance(value, str):
         with contextlib.suppress(ValueError):
             value = int(value, 0)
-    if isinstance(value, bool) or not isinstance(value, (int, numpy.integer)):
+    if isinstance(value, bool) or not (isinstance(value, int) or is_numpy(value, 'integer')):
         raise _refusal(value)(f"{path}: '{value}' is refused, expected a whole number")
     bits = int(typename.removeprefix('u').removeprefix('int'))
     low, high = (

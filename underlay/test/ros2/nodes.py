@@ -14,7 +14,6 @@ from typing import Any
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-import numpy
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
@@ -53,7 +52,7 @@ def latched(node: Node) -> None:
 
 
 def widest(node: Node) -> None:
-    largest = b'\x00\x01\x00\x00' + struct.pack('<f', numpy.finfo(numpy.float32).max)
+    largest = b'\x00\x01\x00\x00' + struct.pack('<f', float.fromhex('0x1.fffffep+127'))
     node.create_publisher(Float32, 'widest', LATCHED).publish(largest)
 
 

@@ -10,8 +10,6 @@ from operator import attrgetter
 import struct
 from typing import Any
 
-import numpy as np
-
 # The kinds of numbers, as the modules struct and array call them.
 CODES = {
     **{'boolean': '?', 'octet': 'c', 'float': 'f', 'double': 'd'},
@@ -77,6 +75,8 @@ class Number:
 
     def array_bytes(self, value: Any) -> bytes:
         """Return the bytes of an array."""
+        import numpy as np  # as long to load as a node without arrays is
+
         data = np.ascontiguousarray(value, f'<{self.code}').tobytes()
         if self.count is None or len(data) != self.count * self.size:
             raise ValueError(f'{self.place.name}: {len(value)} items, not {self.count}')
@@ -84,6 +84,8 @@ class Number:
 
     def array(self, data: bytes) -> Any:
         """Return the array that bytes stand for, which can be written to."""
+        import numpy as np
+
         return np.frombuffer(data, f'<{self.code}').astype(self.code)
 
 
