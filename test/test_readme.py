@@ -16,7 +16,7 @@ PAGES = [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
 # What students make, and what not every ROS that is sourced has.
 NOT_OURS = (
     *('my_driver', 'my_pkg', 'odometer'),
-    *(['demo_nodes_py', 'rqt_graph', 'tf2_', 'turtlesim'] if SOURCED else []),
+    *(['demo_nodes_py', 'robot_state_', 'rqt_graph', 'tf2_', 'turtlesim'] if SOURCED else []),
 )
 NUMBER = re.compile(r'\d+(?:\.\d+)?')
 

@@ -18,7 +18,10 @@ _COUNT = (
     '`ros2 run action_tutorials_py fibonacci_action_server` and '
     '`ros2 run action_tutorials_py fibonacci_action_client` count'
 )
-_JOINTS = '`ros2 topic pub /joint_states sensor_msgs/msg/JointState` publishes positions of joints'
+_JOINTS = (
+    '`ros2 topic pub -r 10 /joint_states sensor_msgs/msg/JointState '
+    '"{header: auto, name: [a], position: [0.5]}"` publishes positions of joints'
+)
 _NOTHING = 'nothing does its job, but a sourced ROS 2 Jazzy has it'
 
 BY_PACKAGE = {
@@ -28,8 +31,7 @@ BY_PACKAGE = {
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
-    'robot_state_publisher': '`ros2 run tf2_ros static_transform_publisher` publishes frames that '
-    'do not move; those of moving joints need a sourced ROS 2 Jazzy',
+    'xacro': '`xacro FILE` is a command of its own',
     **dict.fromkeys(('joint_state_publisher', 'joint_state_publisher_gui'), _JOINTS),
     **dict.fromkeys(
         ('turtle_tf2_py', 'turtle_tf2_cpp'),

@@ -86,6 +86,19 @@ def slerp(first: Quaternion, second: Quaternion, ratio: float) -> Quaternion:
     return (a * ax + b * bx, a * ay + b * by, a * az + b * bz, a * aw + b * bw)
 
 
+def of_angles(roll: float, pitch: float, yaw: float) -> Quaternion:
+    """Return the rotation about x, then y, then z, all of them standing still."""
+    (sr, cr), (sp, cp), (sy, cy) = (
+        (math.sin(0.5 * angle), math.cos(0.5 * angle)) for angle in (roll, pitch, yaw)
+    )
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
 def normalized(rotation: Quaternion) -> Quaternion:
     """Return a unit quaternion; zeros turn by nothing."""
     length = math.hypot(*rotation)

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-import math
 import random
 import string
 import sys
@@ -17,7 +16,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from tf2_py.motions import Quaternion, Vector
+from tf2_py.motions import of_angles, Quaternion, Vector
 
 from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 
@@ -168,19 +167,6 @@ def _value(written: str, name: str, text: str) -> str | float:
         return float(text)
     except ValueError:
         raise ValueError(f'Failed to parse {written} argument as float') from None
-
-
-def of_angles(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Return the rotation about x, then y, then z, all of them standing still."""
-    (sr, cr), (sp, cp), (sy, cy) = (
-        (math.sin(0.5 * angle), math.cos(0.5 * angle)) for angle in (roll, pitch, yaw)
-    )
-    return (
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
 
 
 def _named(group: str, numbers: tuple[float, ...]) -> dict[str, float]:
