@@ -1,10 +1,16 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is refused in definitions and in CMakeLists.txt, by file, line and what is allowed."""
+"""What is refused in definitions and in CMakeLists.txt, by file, line and what is allowed.
+
+And the tests of packages that were made with a full ROS 2.
+"""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+import subprocess
+import sys
 
 from colcon_rosidl_python.build import build, BuildError
 from colcon_rosidl_python.cmake_commands import CMakeListsError
@@ -228,3 +234,21 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
     }  # fmt: skip
     assert (prefix / 'share/one/a.txt').is_symlink()
     assert any(name.endswith('-packages/own_tools/__init__.py') for name in files)
+
+
+def test_missing_linters_do_not_keep_other_tests_from_running(tmp_path: Path) -> None:
+    for linter in ('ament_copyright', 'ament_flake8', 'ament_pep257'):
+        text = f'from {linter}.main import main\ndef test_style(): assert main([]) == 0\n'
+        (tmp_path / f'test_{linter}.py').write_text(text)
+    (tmp_path / 'test_own.py').write_text('def test_own(): pass\n')
+    options = ['-c', os.devnull, '-p', 'no:cacheprovider', '-rs', '--rootdir=.']
+    done = subprocess.run(
+        [sys.executable, '-m', 'pytest', *options, '.'],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert '1 passed, 3 skipped' in done.stdout, done.stdout + done.stderr
+    assert 'ament_flake8 is part of a full ROS 2, and has no wheel' in done.stdout
+    assert done.returncode == 0
