@@ -16,6 +16,7 @@ from colcon_rosidl_python.build import build, BuildError
 from colcon_rosidl_python.cmake_commands import CMakeListsError
 from colcon_rosidl_python.cmake_package import Install, read_cmake_package
 import pytest
+from setuptools import Distribution
 
 MANIFEST = """\
 <?xml version="1.0"?>
@@ -234,6 +235,11 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
     }  # fmt: skip
     assert (prefix / 'share/one/a.txt').is_symlink()
     assert any(name.endswith('-packages/own_tools/__init__.py') for name in files)
+
+
+def test_setuptools_knows_tests_require() -> None:
+    package = Distribution({'name': 'demo', 'tests_require': ['pytest']})
+    assert vars(package)['tests_require'] == ['pytest']  # colcon reads it there
 
 
 def test_missing_linters_do_not_keep_other_tests_from_running(tmp_path: Path) -> None:
