@@ -126,13 +126,15 @@ def test_a_mistake_in_other_definitions_is_told_by_its_line(
 
 
 def test_every_mistake_is_told_at_once(folder: Path) -> None:
-    reasons = refusal(folder, 'msg/Own.msg', 'int a\nint8\nint8 b', 'geometry_msgs std_msgs')
+    manifest = MANIFEST.replace('<member_of_group>rosidl_interface_packages</member_of_group>', '')
+    (folder / 'package.xml').write_text(manifest)
+    reasons = refusal(folder, 'msg/Own.msg', 'int a\nint8\nint8 b')
     assert [line.partition(': ')[0] for line in reasons.splitlines()] == [
         'package.xml',
         'msg/Own.msg:1',
         'msg/Own.msg:2',
     ]
-    assert 'package.xml: add <depend>std_msgs</depend>; CMakeLists.txt names it' in reasons
+    assert reasons.startswith('package.xml: add <member_of_group')
 
 
 def test_a_text_that_is_no_utf8_is_told_by_its_line(folder: Path) -> None:
@@ -146,12 +148,33 @@ def test_what_is_named_and_not_there_is_told(folder: Path) -> None:
     write_cmake(folder, 'rosidl_generate_interfaces(${PROJECT_NAME} "msg/Lost.msg")')
     with pytest.raises(BuildError, match=r'msg/Lost\.msg: there is no such file'):
         build(folder, folder / 'prefix', link=False)
-    assert 'DEPENDENCIES names lost_msgs, which is not found' in refusal(
-        folder, 'msg/Own.msg', 'int8 a', 'lost_msgs'
+    reason = refusal(folder, 'msg/Own.msg', 'int8 a', 'lost_msgs')
+    assert 'DEPENDENCIES names lost_msgs, which is not found' in reason
+    assert reason.endswith('; package.xml: add <depend>lost_msgs</depend>')
+
+
+def test_definitions_may_name_what_cmake_finds(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, text in (
+        (
+            'msg/Own.msg',
+            'std_msgs/Header header\nnav_msgs/Path path',
+        ),  # geometry_msgs has std_msgs
+        ('srv/Own.srv', 'builtin_interfaces/Duration d\n---\nservice_msgs/ServiceEventInfo i'),
+        ('action/Own.action', 'unique_identifier_msgs/UUID id\n---\n---\n'),
+    ):
+        (folder / name).parent.mkdir()
+        (folder / name).write_text(text)
+    write_cmake(
+        folder,
+        'rosidl_generate_interfaces(own_msgs "msg/Own.msg" "srv/Own.srv" "action/Own.action"\n'
+        '  DEPENDENCIES geometry_msgs nav_msgs)',
     )
-    manifest = MANIFEST.replace('<member_of_group>rosidl_interface_packages</member_of_group>', '')
-    (folder / 'package.xml').write_text(manifest)
-    assert refusal(folder, 'msg/Own.msg', 'int8 a').startswith('package.xml: add <member_of_group')
+    build(folder, folder / 'prefix', link=False)
+    assert (folder / 'prefix/share/own_msgs/msg/Own.json').is_file()
+    hint = 'own_msgs: package.xml: add <depend>nav_msgs</depend>; CMakeLists.txt names it\n'
+    assert capsys.readouterr().err == hint
 
 
 @pytest.mark.parametrize(

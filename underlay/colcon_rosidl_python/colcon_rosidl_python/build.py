@@ -81,9 +81,9 @@ def build(folder: Path, prefix: Path, *, link: bool) -> None:
 def _build_interfaces(
     folder: Path, prefix: Path, manifest: Package, package: CMakePackage
 ) -> None:
-    shares = dict(_shares(package))
+    shares = _shares(manifest, package)
     known = _Known(manifest.name, package, shares)
-    reasons = list(_wrong_in_manifest(manifest, package))
+    reasons = list(_wrong_in_manifest(manifest))
     for path in package.interfaces:
         reasons += mistakes(manifest.name, folder, path, known)
     if reasons:
@@ -105,24 +105,47 @@ def _build_interfaces(
     stamp.write_text(key)
 
 
-def _shares(package: CMakePackage) -> Iterator[tuple[str, Path]]:
+def _shares(manifest: Package, package: CMakePackage) -> dict[str, Path]:
+    """
+    Find the packages whose messages definitions may name.
+
+    They are those in DEPENDENCIES and those that these depend on, as in rosidl_cmake.
+    """
+    declared = {dependency.name for dependency in manifest.build_depends}
+    shares: dict[str, Path] = {}
     for name in package.dependencies:
-        try:
-            yield name, Path(get_package_share_directory(name))
-        except PackageNotFoundError:
+        add = '' if name in declared else f'package.xml: add <depend>{name}</depend>'
+        if not _add_share(name, shares):
             raise BuildError(
                 f'CMakeLists.txt: DEPENDENCIES names {name}, which is not found: mend the name, '
-                'or put that package into the workspace'
-            ) from None
+                f'or put that package into the workspace{add and f"; {add}"}'
+            )
+        if add:  # CMake asks no manifest, but colcon does, for what to build first
+            print(f'{manifest.name}: {add}; CMakeLists.txt names it', file=sys.stderr)
+    kinds = {_kind(path) for path in package.interfaces}
+    for kind, name in (('action', 'action_msgs'), ('srv', 'service_msgs')):
+        if kind in kinds:
+            _add_share(name, shares)
+    return shares
 
 
-def _wrong_in_manifest(manifest: Package, package: CMakePackage) -> Iterator[str]:
+def _add_share(name: str, shares: dict[str, Path]) -> bool:
+    """Add a package of interfaces and those that it depends on; tell whether there is one."""
+    if name in shares:
+        return True
+    try:
+        share = Path(get_package_share_directory(name))
+    except PackageNotFoundError:
+        return False
+    shares[name] = share
+    for dependency in parse_package(share).build_export_depends:
+        _add_share(dependency.name, shares)
+    return True
+
+
+def _wrong_in_manifest(manifest: Package) -> Iterator[str]:
     if not any(group.name == GROUP for group in manifest.member_of_groups):
         yield f'package.xml: add <member_of_group>{GROUP}</member_of_group>'
-    declared = {dependency.name for dependency in manifest.build_depends}
-    for name in package.dependencies:
-        if name not in declared:
-            yield f'package.xml: add <depend>{name}</depend>; CMakeLists.txt names it'
 
 
 class _Known:
