@@ -7,9 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from launch import Condition, LaunchContext, LaunchDescription
-from launch.actions import AppendEnvironmentVariable, DeclareLaunchArgument, GroupAction
+from launch.actions import (
+    AppendEnvironmentVariable,
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+)
 from launch.conditions import IfCondition, LaunchConfigurationNotEquals
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
+from launch.substitutions import LaunchConfiguration
 import pytest
 
 LaunchFile = Callable[..., Path]
@@ -188,6 +194,7 @@ def test_arguments_are_found_also_in_includes_and_groups(
     python_launch_file: LaunchFile,
 ) -> None:
     inner = python_launch_file(INNER, 'inner.launch.py')
+    deep = python_launch_file("DeclareLaunchArgument('deep')", 'deep.launch.py')
     description = LaunchDescription(
         [
             DeclareLaunchArgument('top', description='at the top'),
@@ -197,12 +204,35 @@ def test_arguments_are_found_also_in_includes_and_groups(
             ),
             get_launch_description_from_any_launch_file(str(inner)),
             DeclareLaunchArgument('top', description='once more'),
+            *(
+                IncludeLaunchDescription([*folder, '/deep.launch.py'])
+                for folder in (
+                    [LaunchConfiguration('folder', default=str(deep.parent))],
+                    [LaunchConfiguration('folder')],  # not known before the launch
+                    ['/no/such/folder'],
+                )
+            ),
         ]
     )
     arguments = description.get_launch_arguments()
-    assert [argument.name for argument in arguments] == ['top', 'maybe', 'name']
+    assert [argument.name for argument in arguments] == ['top', 'maybe', 'name', 'deep']
     assert arguments[0].description == 'at the top'
     assert arguments[1]._conditionally_included
+
+
+def test_an_included_file_sees_the_environment_that_was_set_before(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    inner = python_launch_file(
+        "LogInfo(msg=os.environ['MODEL_OF_ROBOT'])", 'inner.launch.py', 'import os'
+    )
+    path = python_launch_file(
+        f"""
+        SetEnvironmentVariable('MODEL_OF_ROBOT', 'burger'),
+        IncludeLaunchDescription({str(inner)!r}),
+        """
+    )
+    assert _logged(run_launch(path).output) == ['burger']
 
 
 def test_a_missing_launch_file_is_one_line(run_launch: Run, tmp_path: Path) -> None:

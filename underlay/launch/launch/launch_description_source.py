@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
+from .logging import get_logger
 from .some_substitutions_type import SomeSubstitutionsType
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -25,18 +26,19 @@ class LaunchDescriptionSource:
         self.method = method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """Return the description where its place is plain text, else None."""
-        from .substitutions import TextSubstitution
+        """
+        Return the description, or None where it is known only while the launch runs.
 
-        if self.__launch_description is None:
-            location = ''
-            for sub in self.__location:
-                if not isinstance(sub, TextSubstitution):
-                    return None
-                location += sub.text
-            self.__expanded_location = location
-            self.__launch_description = self._get_launch_description(location)
-        return self.__launch_description
+        The file is read again then: actions may set what it asks for, as environment variables.
+        """
+        if self.__launch_description is not None:
+            return self.__launch_description
+        try:
+            location = perform_substitutions(LaunchContext(), self.__location)
+            return self._get_launch_description(location)
+        except Exception as error:  # the launch says so, if it comes to that
+            get_logger('launch').debug(f'not loaded without a context: {error}')
+            return None
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """Return the description, read when this is called first."""
