@@ -302,8 +302,28 @@ def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab) -> None:
     button(page, 'Release the stop').wait_for()
     button(page, 'Release the stop').click()
     button(page, 'STOP').wait_for()
+    for end in ('touchEnd', 'touchCancel'):
+        let_go_beside(page, '▼', end)
+        wait_for(page, 'window.released')  # and not only by the timeout
     assert errors(page) == []
     page.close()
+
+
+def let_go_beside(page: Page, sign: str, end: str) -> None:
+    """Press a pad's button with a finger that ends on the scene."""
+    pad = button(page, sign)
+    pad.evaluate('b => { released = false; b.onclick = () => { released = true; }; }')
+    place = pad.bounding_box()
+    assert place is not None
+    finger = {'x': place['x'] + 5.0, 'y': place['y'] + 5.0}
+    devtools = page.context.new_cdp_session(page)
+    for kind, points in (
+        ('touchStart', [finger]),
+        ('touchMove', [{**finger, 'y': 50.0}]),
+        (end, []),
+    ):
+        devtools.send('Input.dispatchTouchEvent', {'type': kind, 'touchPoints': points})
+    devtools.detach()
 
 
 @pytest.mark.timeout(120)

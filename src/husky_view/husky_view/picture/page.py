@@ -104,6 +104,11 @@ window.addEventListener('keyup', (e) => {
   if (held.has(e.key)) { consume(e); release(e.key); }
 }, true);
 const releaseAll = () => [...held].forEach(release);
+// A finger that lets go beside its button, or whose touch is cancelled, clicks nothing.
+window.addEventListener('lostpointercapture', (e) => {
+  const sign = e.target.closest && e.target.closest('button')?.textContent.trim();
+  if (sign in areas) send(sign, 'click');
+}, true);
 window.addEventListener('blur', releaseAll);
 window.addEventListener('pagehide', releaseAll);
 document.addEventListener('visibilitychange', releaseAll);
