@@ -19,6 +19,7 @@ import pytest
 
 from husky_sim.config import SimulationConfig
 
+LAB = Path(__file__).resolve().parent.parent / 'lab'
 SECONDS = 6.0
 TIME = "parseFloat(document.querySelector('[data-number=time]').textContent)"
 SLIDER = "document.querySelector('[role=slider]').getAttribute('aria-valuenow')"
@@ -32,7 +33,8 @@ FAIL_AS_IN_MINUTES = """() => Promise.all([...Array(80)].map(() => new Promise((
 @pytest.fixture(scope='module')
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Drive into the barrier in the middle, and keep the record as a report does."""
-    folder = tmp_path_factory.mktemp('report')
+    folder = tmp_path_factory.mktemp('driven') / 'report'
+    folder.mkdir()
     simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
     record = RunRecorder(simulation, folder / 'run.record')
     for _ in range(round(SECONDS / 0.02)):
@@ -101,7 +103,8 @@ def test_a_page_outlives_its_replay_and_shows_the_next(
     report: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(TOKEN_VARIABLE, 'the-same-token')
-    command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18280')
+    monkeypatch.chdir(report.parent)
+    command = (str(LAB), 'view', '--port', '18280')  # the last report is what is played
     with Processes() as processes:
         first, page = replayed(processes, command, browser)
         expect(page).to_have_title('Husky replay')

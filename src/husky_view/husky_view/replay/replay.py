@@ -111,7 +111,12 @@ class Replay:
 def main(args: Sequence[str] | None = None) -> int:
     """Replay a run until interrupted."""
     parser = Parser(prog='replay', description=__doc__, allow_abbrev=False)
-    parser.add_argument('record', help="the record of a run, or the folder of its report's")
+    parser.add_argument(
+        'record',
+        nargs='?',
+        default='report',
+        help="the record of a run, or the folder of its report's (default: %(default)s)",
+    )
     parser.add_argument('--host', default='127.0.0.1', help='address to serve the page at')
     parser.add_argument('--port', type=int, default=8080, help='port; the next free one if taken')
     parser.add_argument(
