@@ -110,7 +110,7 @@ def test_a_view_that_builds_its_page_ends_within_the_time_of_a_drive(
 @pytest.mark.parametrize(
     ('given', 'why'),
     [
-        ('viewer_host:=192.0.2.1', "viewer_host='192.0.2.1'"),
+        ('viewer_host:=192.0.2.1', "host '192.0.2.1'"),
         ('viewer_host:=5', "'5' of type 'INTEGER', expecting type 'STRING'"),
         ('simulator:=a b', 'Invalid service name'),
     ],

@@ -11,6 +11,7 @@ import socket
 from husky_runtime.domains import Lock
 
 PORTS_TRIED = 100
+LAST_PORT = 65535
 
 TOKEN_VARIABLE = 'HUSKY_VIEW_TOKEN'
 """Environment variable with the token to ask for, so that one page can take over from another."""
@@ -32,16 +33,17 @@ def free_port(host: str, port: int) -> int:
 
     :raises AddressError: if the host is not one of this machine's, or every port is taken.
     """
-    if port < 0:
-        raise AddressError(f'viewer_port={port}: a port is from 1 to 65535')
+    if not 0 <= port <= LAST_PORT:
+        raise AddressError(f'port {port}: a port is from 1 to {LAST_PORT}')
     try:
         address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except OSError as error:
         raise AddressError(
-            f'viewer_host={host!r}: {error.strerror}; 127.0.0.1 is this machine alone, '
+            f'host {host!r}: {error.strerror}; 127.0.0.1 is this machine alone, '
             '0.0.0.0 lets others of the network look'
         ) from error
-    for candidate in range(port, min(port + PORTS_TRIED, 65536)):
+    last = min(port + PORTS_TRIED - 1, LAST_PORT)
+    for candidate in range(port, last + 1):
         if TOKEN_VARIABLE not in os.environ and _is_reserved(candidate):
             continue
         with socket.socket(address[0], socket.SOCK_STREAM) as trial:
@@ -51,11 +53,9 @@ def free_port(host: str, port: int) -> int:
             except OSError as error:
                 if error.errno in (errno.EADDRINUSE, errno.EACCES, errno.EPERM):
                     continue
-                raise AddressError(f'viewer_host={host!r}: {error.strerror}') from error
+                raise AddressError(f'host {host!r}: {error.strerror}') from error
             return candidate
-    raise AddressError(
-        f'viewer_port={port}: no free port from {port} to {port + PORTS_TRIED - 1}; give another'
-    )
+    raise AddressError(f'no free port from {port} to {last}; give another')
 
 
 def reserve_port(host: str, port: int) -> tuple[int, Lock]:

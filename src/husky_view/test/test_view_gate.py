@@ -79,7 +79,7 @@ def test_only_the_page_with_its_token_is_admitted(
 
 
 def test_a_name_with_more_than_a_name_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"viewer_names: 'http://lab' is no name .* without http"):
+    with pytest.raises(ValueError, match=r"^'http://lab' is no name .* without http"):
         Admission(TOKEN, host='127.0.0.1', names=['http://lab'])
 
 

@@ -215,12 +215,13 @@ def test_a_taken_port_is_skipped_and_a_foreign_host_refused() -> None:
         taken.listen()
         port = taken.getsockname()[1]
         assert port < free_port('127.0.0.1', port) < port + 100
-    with pytest.raises(AddressError, match=r"viewer_host='192\.0\.2\.1'"):
+    with pytest.raises(AddressError, match=r"host '192\.0\.2\.1'"):
         free_port('192.0.2.1', 8080)
-    with pytest.raises(AddressError, match="viewer_host='no such host'"):
+    with pytest.raises(AddressError, match="host 'no such host'"):
         free_port('no such host', 8080)
-    with pytest.raises(AddressError, match='viewer_port=-1: a port is from 1 to 65535'):
-        free_port('127.0.0.1', -1)
+    for port in (-1, 65536):
+        with pytest.raises(AddressError, match=f'port {port}: a port is from 1 to 65535'):
+            free_port('127.0.0.1', port)
 
 
 def test_a_reserved_port_is_for_whom_it_is_reserved(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -44,8 +44,8 @@ class Admission:
         for name in self._allowed:
             if _name_in(name) != name:
                 raise ValueError(
-                    f'viewer_names: {name!r} is no name of a machine; write it as in '
-                    'lab.example.edu, without http:// and without a port'
+                    f'{name!r} is no name of a machine; write it as in lab.example.edu, without '
+                    'http:// and without a port'
                 )
         self._own = {'localhost', socket.gethostname().lower(), host.lower()} - {''}
 
@@ -63,7 +63,7 @@ class Admission:
             return Refusal(
                 HTTPStatus.MISDIRECTED_REQUEST,
                 f'This page is not served under the name {name!r}. If it is to be, start it with '
-                'that name among its viewer_names.',
+                'that name among its viewer_names, or --names of a replay.',
             )
         if len(origins) > 1 or any(not self._is_own_page(each, host) for each in origins):
             return Refusal(HTTPStatus.FORBIDDEN, 'This page is used from itself alone.')
