@@ -159,6 +159,23 @@ def test_a_file_in_another_encoding_is_refused_on_the_page(lab: Lab, page: Page)
     assert lab.view.returncode is None, lab.view.output
 
 
+@pytest.mark.timeout(120)
+def test_a_file_changed_by_others_is_replaced_by_a_second_save(lab: Lab, page: Page) -> None:
+    file = lab.folder / 'shared.yaml'
+    file.write_text('waypoints: [[0, 0], [-2, 1], [-4, 0], [-3, 0]]\n')
+    open_file(page, file.stem)
+    expect(page.locator('[data-verdict]')).to_contain_text('4 waypoints')
+    others = 'waypoints: [[0, 0], [-4, 0]]\n'
+    file.write_text(others)
+    button(page, 'Save').click()
+    expect(page.get_by_text('shared.yaml is not as it was opened or saved here')).to_be_visible()
+    assert file.read_text() == others
+    button(page, 'Save').click()
+    wait_until(
+        lambda: len(load_course(file).waypoints) == 4, timeout_sec=20.0, what='what was opened'
+    )
+
+
 def open_file(page: Page, name: str) -> None:
     """Choose a waypoint file, as soon as it is offered."""
     page.locator('//label[.="Open"]/following::input').first.click()

@@ -214,17 +214,35 @@ def path_of(file: Path) -> tuple[Array, Array]:
     return _path(course)[:, :2], waypoints
 
 
+def file_of(folder: Path, name: str) -> Path:
+    """
+    Return the waypoint file of a name, whether it is there or not.
+
+    :raises CourseRefused: if the name is invalid.
+    """
+    if not NAME.fullmatch(name):
+        raise CourseRefused(f'name {name!r}: letters, digits, _ and - are allowed, 1 to 61')
+    return folder / f'{name}.yaml'
+
+
+def stamp(file: Path) -> tuple[int, ...] | None:
+    """Return what is another after each change of a file; None where there is no such file."""
+    try:
+        found = file.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_size, found.st_mtime_ns
+
+
 def save(course: Course, folder: Path, name: str) -> Path:
     """
     Write a course as NAME.yaml, whole or not at all.
 
     :raises CourseRefused: if the driver would refuse it, or the name or the folder is invalid.
     """
-    if not NAME.fullmatch(name):
-        raise CourseRefused(f'name {name!r}: letters, digits, _ and - are allowed, 1 to 61')
+    file = file_of(folder, name)
     text = text_of(course)
-    _parsed(text, f'{name}.yaml')
-    file = folder / f'{name}.yaml'
+    _parsed(text, file.name)
     try:
         with replacing(file) as part:
             part.write_text(text, encoding='utf-8')

@@ -83,6 +83,7 @@ class Editor:
             highlight=palette.SELECTED,
             on_drag=self._on_drag,
         )
+        self._seen: dict[Path, tuple[int, ...] | None] = {}  # files, as they were read or written
         self._dragged: int | None = None
         self._editing = False
         self._changed = False  # since it was drawn
@@ -183,8 +184,10 @@ class Editor:
         if name == NEW:
             self._edited.clear()
         else:
+            file = self._folder / f'{name}.yaml'
+            self._seen[file] = course.stamp(file)
             try:
-                self._edited.load(course.load(self._folder / f'{name}.yaml'))
+                self._edited.load(course.load(file))
             except course.CourseRefused as error:
                 self._notify(f'{name} cannot be edited', str(error), True)
                 return
@@ -263,14 +266,28 @@ class Editor:
         )
 
     def _save(self) -> Path | None:
+        name = self._name.value.strip()
         try:
-            file = course.save(self._edited.course, self._folder, self._name.value.strip())
+            self._check_seen(course.file_of(self._folder, name))
+            file = course.save(self._edited.course, self._folder, name)
         except course.CourseRefused as error:
             self._notify('Not saved', str(error), True)
             return None
+        self._seen[file] = course.stamp(file)
         self.look_for_files()
         self._notify('Saved', str(file), False)
         return file
+
+    def _check_seen(self, file: Path) -> None:
+        """Refuse, once, to replace what somebody else has written."""
+        now = course.stamp(file)
+        if now is None or now == self._seen.get(file):
+            return
+        self._seen[file] = now
+        raise course.CourseRefused(
+            f'{file.name} is not as it was opened or saved here: save again to replace it, or '
+            'take another name'
+        )
 
     def look_for_files(self) -> None:
         """Offer the files that are there now."""
