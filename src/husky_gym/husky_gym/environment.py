@@ -7,6 +7,7 @@ An episode is a function of the settings, of the seeds that `reset` is given and
 bit for bit. Its rewards add up to the score that the grader gives it, from 0 to 100.
 """
 
+from dataclasses import fields
 import math
 from typing import Any
 
@@ -54,6 +55,9 @@ class HuskyPlaypen(gymnasium.Env[Observation, Action]):
         if render_mode not in (None, 'rgb_array'):
             raise ValueError(f'render_mode={render_mode!r}: allowed is rgb_array or None')
         self.render_mode = render_mode
+        known = [each.name for each in fields(EnvironmentSettings)]
+        for name in settings.keys() - known:
+            raise ValueError(f'{name}: no such setting; allowed are {", ".join(known)}')
         self.settings = EnvironmentSettings(**settings)
         self.metadata = {
             **self.metadata,

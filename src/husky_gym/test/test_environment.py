@@ -153,6 +153,7 @@ def test_a_bad_action_is_refused_in_one_line(make: Make, action: Any) -> None:
         ({'course': 'none.yaml'}, 'none.yaml: no such file'),
         ({'world': 'none.xml'}, "world='none.xml': no such file"),
         ({'start_x': -8.0, 'start_y': -10.0}, 'would start inside jersey_barrier'),
+        ({'lasers': 0}, 'lasers: no such setting; allowed are course, world, start_x'),
         ({'render_mode': 'human'}, "render_mode='human': allowed is rgb_array or None"),
     ],
 )
