@@ -27,6 +27,7 @@ from std_msgs.msg import Bool, Float64MultiArray, UInt32
 PHONE = (390, 844)
 FACTOR = "parseFloat((document.querySelector('[data-number=factor]') || {}).textContent)"
 TROUBLE = "(document.querySelector('[data-trouble]') || {textContent: ''}).textContent"
+SCENE = "document.querySelector('canvas[data-engine]')"
 PANEL = """(() => {
   let e = document.querySelector('.husky-page');
   while (getComputedStyle(e).position !== 'fixed') e = e.parentElement;
@@ -305,6 +306,8 @@ def test_a_phone_shows_the_scene_and_can_stop_the_robot(lab: Lab) -> None:
     for end in ('touchEnd', 'touchCancel'):
         let_go_beside(page, '▼', end)
         wait_for(page, 'window.released')  # and not only by the timeout
+    page.set_viewport_size({'width': PHONE[1], 'height': PHONE[0]})
+    wait_for(page, f'{SCENE}.clientHeight === {PHONE[0]}')  # turned, it has room beside the panel
     assert errors(page) == []
     page.close()
 

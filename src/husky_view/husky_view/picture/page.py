@@ -114,10 +114,10 @@ window.addEventListener('pagehide', releaseAll);
 document.addEventListener('visibilitychange', releaseAll);
 const makeRoom = () => {
   const canvas = [...document.querySelectorAll('canvas')].find((c) => c.clientWidth > 100);
-  let panel = document.querySelector('.husky-page');
-  while (panel && getComputedStyle(panel).position !== 'fixed') panel = panel.parentElement;
-  if (!canvas || !panel) return;
   const over = window.matchMedia('(max-width: 576px)').matches;
+  let panel = over && document.querySelector('.husky-page');
+  while (panel && getComputedStyle(panel).position !== 'fixed') panel = panel.parentElement;
+  if (!canvas || (over && !panel)) return;
   const height = over ? `${Math.round(panel.getBoundingClientRect().top)}px` : '100%';
   const box = canvas.parentElement.parentElement;
   if (box.style.height !== height) box.style.height = height;
