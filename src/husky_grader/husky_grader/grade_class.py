@@ -125,12 +125,13 @@ def _without_report(
 
     :raises ValueError: if the report on one would be written into what was handed in.
     """
-    report = Path(options.report).resolve()
-    named = report in [Path(given).resolve() for given in options.lab]
-    found = [each for each in submissions if named or each.source.resolve() != report]
+    # By os.path: Path.resolve fails where links lead in a circle.
+    report = os.path.realpath(options.report)
+    named = report in map(os.path.realpath, options.lab)
+    found = [each for each in submissions if named or os.path.realpath(each.source) != report]
     for each in found:
-        place = report if _is_alone(found, options) else report / each.id
-        if each.source.resolve() == place:
+        place = report if _is_alone(found, options) else os.path.join(report, each.id)
+        if os.path.realpath(each.source) == place:
             raise ValueError(
                 f'--report {options.report}: there the report on {each.id} would lie in what was '
                 'handed in; name another folder'

@@ -81,7 +81,8 @@ def test_a_folder_in_which_another_writes_is_refused(courses: Path, tmp_path: Pa
         'there/..: another drive or grading writes its report there; wait for its end, or name '
         'another folder with --report DIR\n'
     )
-    with alone_in(tmp_path):
+    (tmp_path / 'circle').symlink_to('circle')
+    with alone_in(tmp_path), alone_in(tmp_path / 'circle'):
         pass
 
 

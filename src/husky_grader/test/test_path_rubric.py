@@ -95,6 +95,7 @@ def test_a_report_among_what_was_handed_in_is_none_of_it(
     entries = json.loads((tmp_path / 'report' / 'grades.json').read_text())['submissions']
     assert [each['id'] for each in entries] == ['ann', 'bob']
     (tmp_path / 'cem').mkdir()
+    (tmp_path / 'dan').symlink_to('dan')
     capsys.readouterr()
     assert grade(['--lab', '.', '--rubric', str(RUBRIC), '--report', '.']) == 2
     told = '--report .: there the report on cem would lie in what was handed in; name another'

@@ -24,7 +24,8 @@ def alone_in(folder: Path) -> Iterator[None]:
 
     :raises ValueError: if another process is in it.
     """
-    place = os.fsencode(folder.resolve())
+    # By os.path: Path.resolve fails where links lead in a circle.
+    place = os.fsencode(os.path.realpath(folder))
     name = f'husky_report_{hashlib.sha256(place).hexdigest()}'
     if name in _held:
         yield
