@@ -17,6 +17,7 @@ from husky_runtime.command_line import BAD_INPUT
 
 from husky_grader.batch.shards import parse_shard
 from husky_grader.playpen import default_rubric
+from husky_grader.submission.limits import COPY, IGNORED
 from husky_grader.tally import Tally
 
 if TYPE_CHECKING:  # they take their time
@@ -130,13 +131,21 @@ def _without_report(
     named = report in map(os.path.realpath, options.lab)
     found = [each for each in submissions if named or os.path.realpath(each.source) != report]
     for each in found:
-        place = report if _is_alone(found, options) else os.path.join(report, each.id)
-        if os.path.realpath(each.source) == place:
+        place = Path(report) if _is_alone(found, options) else Path(report, each.id)
+        source = Path(os.path.realpath(each.source))
+        if source == place or _is_taken(place / COPY, source):
             raise ValueError(
                 f'--report {options.report}: there the report on {each.id} would lie in what was '
                 'handed in; name another folder'
             )
     return found or list(submissions)
+
+
+def _is_taken(copy: Path, source: Path) -> bool:
+    """Tell whether the folder for the copy is a person's, or has what was handed in."""
+    return source.is_relative_to(copy) or (
+        copy.is_dir() and not (copy / IGNORED).exists() and any(copy.iterdir())
+    )
 
 
 def _is_alone(submissions: Sequence[Submission], options: argparse.Namespace) -> bool:

@@ -84,6 +84,20 @@ def test_a_rubric_is_for_files_or_for_workspaces() -> None:
         parse_rubric(f'title: Both\nsteps:\n  - {STEP}\n  - {{kind: build, points: 1}}\n')
 
 
+def test_no_copy_takes_the_place_of_what_was_handed_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    handed_in = tmp_path / 'handed_in'
+    handed_in.mkdir()
+    monkeypatch.chdir(tmp_path)
+    for file in (handed_in / 'ann.yaml', tmp_path / 'bob.yaml'):
+        shutil.copyfile(default_course(), file)
+        assert grade(['--lab', str(file), '--rubric', str(RUBRIC), '--report', '.']) == 2
+        told = f'--report .: there the report on {file.stem} would lie in what was handed in; '
+        assert capsys.readouterr().err == f'{told}name another folder\n'
+    assert list(handed_in.iterdir()) == [handed_in / 'ann.yaml']
+
+
 def test_a_report_among_what_was_handed_in_is_none_of_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
