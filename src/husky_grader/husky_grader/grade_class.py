@@ -172,9 +172,10 @@ def _grade_lab(
     submission: Submission, rubric: Rubric, sandbox: Sandbox | None, options: argparse.Namespace
 ) -> int:
     """Grade one submission, and say each step that is done."""
+    from husky_grader.graded import LAB_FILE
     from husky_grader.lab.lab import table as lab_table
     from husky_grader.lab_grading import grade_submission
-    from husky_grader.lab_job import LAB_FILE, write_result
+    from husky_grader.lab_job import write_result
     from husky_grader.outputs import write_student_page
 
     folder = Path(options.report)
@@ -186,10 +187,10 @@ def _grade_lab(
         real_time_factor=options.real_time_factor,
         done=lambda step: _tell(f'{submission.id}: {step.name}: done'),
     )
+    write_student_page(folder, graded)
     if graded.refused:
         raise ValueError(graded.refused)
     write_result(graded, rubric, folder)
-    write_student_page(folder, graded)
     if options.json:
         print((folder / LAB_FILE).read_text(encoding='utf-8'), end='')
     else:

@@ -10,6 +10,8 @@ from husky_course.printable import printable
 
 from husky_grader.submission import Submission
 
+LAB_FILE = 'lab.json'  # of one, in the folder of its report
+
 
 @dataclass(frozen=True)
 class StepGrade:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 import shutil
 
-from husky_grader.graded import Graded
+from husky_grader.graded import Graded, LAB_FILE
 from husky_grader.jail import Sandbox
 from husky_grader.lab.drive_step import FOR_STAFF
 from husky_grader.lab.lab import grade_lab, grade_path
@@ -37,7 +37,7 @@ def grade_submission(
     """
     name = sandbox.name if sandbox else ''
     graded = Graded(submission, rubric.points, sandbox=name, notes=submission.notes)
-    _forget_drives(folder, rubric)
+    _forget_earlier(folder, rubric)
     copy = folder / COPY
     copy.mkdir(parents=True, exist_ok=True)
     (copy / IGNORED).touch()
@@ -73,9 +73,12 @@ def grade_submission(
     return replace(graded, steps=steps)
 
 
-def _forget_drives(folder: Path, rubric: Rubric) -> None:
-    """Remove the reports on earlier drives: of an older submission, or of what is hidden now."""
+def _forget_earlier(folder: Path, rubric: Rubric) -> None:
+    """Remove what an earlier grading left: of an older submission, or of what is hidden now."""
+    shutil.rmtree(folder / COPY, ignore_errors=True)
+    (folder / LAB_FILE).unlink(missing_ok=True)
     for step in rubric.steps:
+        (folder / f'{step.file_name}.log').unlink(missing_ok=True)
         for place in (folder, folder / FOR_STAFF):
             for drive in drives_in(place, step.file_name):
                 shutil.rmtree(drive, ignore_errors=True)

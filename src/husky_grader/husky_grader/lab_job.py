@@ -13,13 +13,12 @@ from husky_course.files import replacing
 
 from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, versions, world_digest
-from husky_grader.graded import Graded, StepGrade
+from husky_grader.graded import Graded, LAB_FILE, StepGrade
 from husky_grader.jail import find_sandbox, Sandbox
 from husky_grader.lab_grading import grade_submission
 from husky_grader.rubric.steps import Rubric
 from husky_grader.submission import digest_of, Submission
 
-LAB_FILE = 'lab.json'
 _FIELDS: dict[str, type | tuple[type, ...]] = {
     'rubric': str,
     'sandbox': str,

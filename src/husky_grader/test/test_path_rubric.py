@@ -46,9 +46,11 @@ def test_a_class_of_waypoint_files_is_graded_without_a_sandbox(tmp_path: Path) -
     assert (report / 'ann' / 'path' / 'report.html').is_file()
 
 
-def test_no_drive_of_an_older_submission_is_shown(tmp_path: Path) -> None:
-    file, report = tmp_path / 'ann.yaml', tmp_path / 'report'
-    command = ['--lab', str(file), '--rubric', str(RUBRIC), '--report', str(report)]
+def test_nothing_of_an_older_submission_is_shown(tmp_path: Path) -> None:
+    handed_in, report = tmp_path / 'ann', tmp_path / 'report'
+    file = handed_in / 'ann.yaml'
+    command = ['--lab', str(handed_in), '--rubric', str(RUBRIC), '--report', str(report)]
+    handed_in.mkdir()
     shutil.copyfile(default_course(), file)
     assert grade(command) == 0
     assert 'path/report.html' in (report / 'index.html').read_text()
@@ -60,6 +62,16 @@ def test_no_drive_of_an_older_submission_is_shown(tmp_path: Path) -> None:
     assert 'report.html' not in (report / 'index.html').read_text()
     kept = sorted(path.parent.name for path in report.rglob('report.html'))
     assert kept == ['path_like']  # which is somebody else's
+    file = file.rename(handed_in / 'second try.yaml')
+    assert grade(command) == 1
+    assert [copy.name for copy in (report / 'handed_in').glob('*.yaml')] == [file.name]
+    file.write_bytes(b'Rar!')
+    file.rename(handed_in / 'third try.rar')
+    assert grade(command) == 2
+    assert '100.0' not in (report / 'index.html').read_text()
+    assert 'refused' in (report / 'index.html').read_text()
+    assert not (report / 'lab.json').exists()
+    assert list((report / 'handed_in').glob('*.*')) == []
 
 
 @pytest.mark.parametrize(
