@@ -323,6 +323,10 @@ def test_a_workspace_of_another_name_is_told_the_right_one(tmp_path: Path) -> No
     assert found.defects == {'name': 'named ws; the lab asks for CSE461_<digits>_<digits>'}
     assert WORKSPACE.cost_percent('name') == 50.0
     assert workspace_step(WORKSPACE, tmp_path).score == 0.0
+    for name in ('CSE461-7-3', 'CSE461_07_03-1', 'CSE461_07_03 (2)'):
+        found = workspace_step(WORKSPACE, (tmp_path / 'ws').rename(tmp_path / name))
+        assert found.defects == {}, name
+        (tmp_path / name).rename(tmp_path / 'ws')
 
 
 def test_a_manifest_that_lacks_a_dependency_is_told_the_line(workspace: Path) -> None:
