@@ -24,6 +24,7 @@ from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessI
 from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import matches_name, ShutdownProcess
 from launch.utilities import AsyncSafeSignalManager
+import psutil
 import pytest
 
 LaunchFile = Callable[..., Path]
@@ -225,6 +226,14 @@ def test_an_error_on_shutdown_leaves_no_process_behind(
     assert status == 1
     assert sleeper.return_code == -2
     assert 'cannot end: so' in capsys.readouterr().out
+
+
+def test_an_error_starts_nothing_of_what_stands_before_it() -> None:
+    def fail(_: LaunchContext) -> None:
+        raise RuntimeError('no such robot')
+
+    assert _run(ExecuteProcess(cmd=['sleep', '31']), OpaqueFunction(function=fail)) == 1
+    assert ['sleep', '31'] not in [child.cmdline() for child in psutil.Process().children()]
 
 
 def test_shutdown_may_come_from_another_thread() -> None:

@@ -108,6 +108,8 @@ class ProcessRun:
 
     async def _run_once(self) -> bool:
         """Run the process to its end and return whether it is to run again."""
+        if self._context.is_shutdown:  # an error came before this task had its turn
+            return False
         if self._log_cmd:
             cwd = self._details['cwd']
             self._logger.info(f"process details: cmd='{self._cmd}', cwd='{cwd}'")
