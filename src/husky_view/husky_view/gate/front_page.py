@@ -19,8 +19,8 @@ NO_WEBGL = (
     'chrome://flags/#ignore-gpu-blocklist set to Enabled.'
 )
 LOST = (
-    'This has ended. If a replay of it follows, that opens here by itself; a new start has an '
-    'address of its own.'
+    'This has ended, or the network is gone. What comes back, or a replay that follows, opens '
+    'here by itself; a new start has an address of its own.'
 )
 
 # viser looks for a lost server only while somebody types into the page, and writes the address of
