@@ -14,6 +14,11 @@ import pytest
 
 DRIVE = DriveStep(points=10, package_with='follow_path.py', executable='follow_path', courses=())
 
+ABOUT = (
+    '<version>0.0.0</version><description>d</description><license>MIT</license>'
+    '<maintainer email="a@example.org">a</maintainer>'
+)
+
 
 def write_package(folder: Path, *lines: str) -> Path:
     """Write a manifest, and a program's source beside it."""
@@ -94,15 +99,24 @@ def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path
 
 
 def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:
-    about = '<version>0.0.0</version><description>d</description><license>MIT</license>'
-    about += '<maintainer email="a@example.org">a</maintainer>'
     for place in ('src', 'src/copy'):
-        write_package(tmp_path / 'ws' / place / 'my_driver', about)
+        write_package(tmp_path / 'ws' / place / 'my_driver', ABOUT)
     (tmp_path / 'built').mkdir()
     with Jail(find_sandbox('none'), tmp_path / 'built') as jail:
         found = build_step(tmp_path / 'ws', jail, tmp_path / 'log')
     twice = 'package my_driver is in src twice; take one of the two out'
     assert found.why == f'colcon build failed: {twice}'
+
+
+def test_a_setup_py_that_fails_is_told_by_its_own_error(tmp_path: Path) -> None:
+    export = '<export><build_type>ament_python</build_type></export>'
+    package = write_package(tmp_path / 'ws' / 'src' / 'my_driver', ABOUT, export)
+    (package / 'setup.py').write_text('import setup_tools')
+    (tmp_path / 'built').mkdir()
+    with Jail(find_sandbox('none'), tmp_path / 'built') as jail:
+        found = build_step(tmp_path / 'ws', jail, tmp_path / 'log')
+    why = "setup.py line 1: ModuleNotFoundError: No module named 'setup_tools'"
+    assert found.why == f'colcon build failed: {why}'
 
 
 def test_what_a_killed_grading_has_left_is_removed(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests
 from husky_grader.lab.finding import Finding, nothing
-from husky_grader.rubric.colcon_errors import first_error
+from husky_grader.rubric.colcon_errors import first_error, without_own_errors
 from husky_grader.run.diagnosis import crash, how_ended
 
 BUILD_WITHIN_SEC = 300.0
@@ -51,7 +51,8 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
                 f'({text.strip()})'
             )
         how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
-        why = crash(text) or first_error(text) or how
+        told = without_own_errors(text)
+        why = crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
 

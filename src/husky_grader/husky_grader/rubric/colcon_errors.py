@@ -7,6 +7,21 @@ import re
 _FAILED = re.compile(r'^--- stderr: .*\n((?:(?!---$).*\n)*)---\nFailed ', re.MULTILINE)
 _CMAKE = 'CMake Error at '
 _TWICE = re.compile(r'Duplicate package names not supported:\n- (.*):\n  - ')
+# What colcon raises where a setup.py that it runs has failed: the error of that is told beside it.
+_OF_COLCON = re.compile(
+    r'^Traceback .*\n  File ".*/colcon_core/executor/__init__\.py", .*\n(?: .*\n)*'
+    r'(?:subprocess\.CalledProcessError: .*\n|AssertionError: Expected .* to pass: )',
+    re.MULTILINE,
+)
+_BEGINS_SETUP = re.compile(
+    r'^(Traceback .*\n)  File "<string>", line 1, in <module>\n', re.MULTILINE
+)
+
+
+def without_own_errors(printed: str) -> str:
+    """Return it without the errors by which colcon tells that a setup.py has failed."""
+    told = _BEGINS_SETUP.sub(r'\1', _OF_COLCON.sub('', printed))
+    return told.replace('  File "<string>", line ', '  File "setup.py", line ')
 
 
 def first_error(printed: str) -> str:
