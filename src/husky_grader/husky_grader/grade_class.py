@@ -29,6 +29,7 @@ if TYPE_CHECKING:  # they take their time
 
 PASSED, NOT_PASSED = 0, 1
 AJob = TypeVar('AJob', bound='Job')
+_NOT_BUILT_IN = ':${}'  # parts lists of folders; begin and end variables of setuptools
 FEW_FILES = 8  # so many are told by their names
 
 
@@ -156,10 +157,16 @@ def _is_alone(submissions: Sequence[Submission], options: argparse.Namespace) ->
 
 def _check_programs_run(folder: Path) -> None:
     """
-    Check that what is built in a folder can be run there.
+    Check that programs can be built in a folder and run there.
 
     :raises ValueError: if it cannot, for which each student would lose points.
     """
+    for char in _NOT_BUILT_IN:
+        if char in os.path.realpath(folder):
+            raise ValueError(
+                f"{folder}: nothing can be built in a folder with a '{char}' in its name; name "
+                'another folder with --report DIR'
+            )
     folder.mkdir(parents=True, exist_ok=True)
     if os.statvfs(folder).f_flag & os.ST_NOEXEC:
         raise ValueError(

@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 
+from husky_grader.grade import main as grade
 from husky_grader.jail import find_sandbox, Jail
 from husky_grader.lab.build_step import build_step, ColconMissing
 from husky_grader.lab.lab import grade_lab
@@ -95,6 +96,21 @@ def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
         f'{tmp_path}/report/r: no program can run on this file system, which is mounted with '
         'noexec; name another folder with --report DIR\n',
     )
+
+
+@pytest.mark.parametrize('char', ':${}')
+def test_a_report_where_nothing_can_be_built_is_refused(
+    tmp_path: Path, char: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_workspace(tmp_path / 'ws')
+    report = tmp_path / f'a{char}b'
+    words = ['--lab', str(tmp_path / 'ws'), '--sandbox', 'none', '--report', str(report)]
+    assert grade(words) == 2
+    assert capsys.readouterr().err == (
+        f"{report}: nothing can be built in a folder with a '{char}' in its name; name another "
+        'folder with --report DIR\n'
+    )
+    assert not report.exists()
 
 
 def test_a_missing_colcon_is_not_the_fault_of_a_student(
