@@ -62,6 +62,7 @@ class RobotLink:
         is_stopped: bool,
     ) -> None:
         self.is_stopped = is_stopped
+        self._has_heard = False  # of a stop, by which it knows more than a scene of before
         self._node = node
         self._invalid = invalid
         self._picture = picture
@@ -111,15 +112,20 @@ class RobotLink:
 
     def stop(self, stopped: bool) -> None:
         """Press or release the emergency stop."""
-        self.is_stopped = stopped
+        self._learn(stopped)
         self._stops.publish(Bool(data=stopped))
 
     def meet(self, *, stopped: bool) -> None:
-        """Learn of a stop that held this simulator before the page heard of stops."""
-        self.is_stopped |= stopped
+        """Learn of a stop that held the robot before the page heard of any."""
+        if stopped and not self._has_heard:
+            self.is_stopped = True
+
+    def _learn(self, stopped: bool) -> None:
+        self.is_stopped = stopped
+        self._has_heard = True
 
     def _on_stop(self, msg: Bool) -> None:
-        self.is_stopped = msg.data
+        self._learn(msg.data)
 
     def _on_stop_match(self, event: Any) -> None:
         # The next simulator does not ask for what was published before it began.

@@ -184,10 +184,11 @@ class LiveView:
             self._on_invalid(f'~/scene: {reason}')
             return
         self._factor.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
-        if self._scene is None or self._scene.run != scene.run:  # of a simulator not seen before
-            self._control.factor = None
+        if self._scene is None:
             for link, stopped in zip(self._links, scene.stopped, strict=True):
                 link.meet(stopped=stopped)
+        elif self._scene.run != scene.run:
+            self._control.factor = None  # it is another simulator
         self._scene = scene
         if self._picture.show(scene):
             for link in self._links:
