@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator, Sequence
 import math
+from pathlib import Path
 
 from husky_course.robot import RobotStart
 from husky_course.waypoints import load_course
@@ -136,10 +137,7 @@ def test_waypoints_may_go_while_another_tab_drags_one(lab: Lab, page: Page) -> N
 
 @pytest.mark.timeout(120)
 def test_a_change_of_the_loop_leaves_the_speed_of_a_file(lab: Lab, page: Page) -> None:
-    file = lab.folder / 'between_tenths.yaml'
-    file.write_text('speed: 0.85\nwaypoints:\n  - [0, 0]\n  - [-2, 1]\n  - [-3, 0]\n')
-    open_file(page, file.stem)
-    expect(page.locator('[data-verdict]')).to_contain_text('3 waypoints')
+    file = opened(lab, page, 'speed: 0.85\nwaypoints: [[0, 0], [-2, 1], [-3, 0]]\n', count=3)
     page.get_by_label('Back to the first (loop)').check()
 
     def is_saved() -> bool:
@@ -161,19 +159,25 @@ def test_a_file_in_another_encoding_is_refused_on_the_page(lab: Lab, page: Page)
 
 @pytest.mark.timeout(120)
 def test_a_file_changed_by_others_is_replaced_by_a_second_save(lab: Lab, page: Page) -> None:
-    file = lab.folder / 'shared.yaml'
-    file.write_text('waypoints: [[0, 0], [-2, 1], [-4, 0], [-3, 0]]\n')
-    open_file(page, file.stem)
-    expect(page.locator('[data-verdict]')).to_contain_text('4 waypoints')
+    file = opened(lab, page, 'waypoints: [[0, 0], [-2, 1], [-4, 0], [-3, 0]]\n', count=4)
     others = 'waypoints: [[0, 0], [-4, 0]]\n'
     file.write_text(others)
     button(page, 'Save').click()
-    expect(page.get_by_text('shared.yaml is not as it was opened or saved here')).to_be_visible()
+    expect(page.get_by_text(f'{file.name} is not as it was opened or saved here')).to_be_visible()
     assert file.read_text() == others
     button(page, 'Save').click()
     wait_until(
         lambda: len(load_course(file).waypoints) == 4, timeout_sec=20.0, what='what was opened'
     )
+
+
+def opened(lab: Lab, page: Page, text: str, *, count: int) -> Path:
+    """Write a file of so many waypoints, and open it on the page."""
+    file = lab.folder / f'of_{count}.yaml'
+    file.write_text(text)
+    open_file(page, file.stem)
+    expect(page.locator('[data-verdict]')).to_contain_text(f'{count} waypoints')
+    return file
 
 
 def open_file(page: Page, name: str) -> None:

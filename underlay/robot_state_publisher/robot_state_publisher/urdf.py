@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 import math
 from xml.etree import ElementTree
@@ -12,10 +13,10 @@ from xml.etree.ElementTree import Element
 
 from tf2_py.motions import compose, Motion, NO_ROTATION, of_angles, Vector
 
-TURNING = ('revolute', 'continuous')
-SLIDING = 'prismatic'
+_TURNING = ('revolute', 'continuous')
+_SLIDING = 'prismatic'
 _STANDING = ('fixed', 'floating', 'planar')
-_LIMITED = ('revolute', SLIDING)
+_LIMITED = ('revolute', _SLIDING)
 _XACRO = '{http://www.ros.org/wiki/xacro}'
 
 
@@ -59,7 +60,7 @@ class Joint:
         if not self.moves:
             return self.origin
         x, y, z = self.axis
-        if self.kind == SLIDING:
+        if self.kind == _SLIDING:
             slide = (x * position, y * position, z * position)
             return compose(self.origin, Motion(NO_ROTATION, slide))
         sine = math.sin(0.5 * position)
@@ -88,17 +89,17 @@ def read_joints(text: str) -> list[Joint]:
     joints = [_joint(element) for element in robot.iterfind('joint')]
     _check_unique('link', links)
     _check_unique('joint', [joint.name for joint in joints])
-    _check_tree(links, joints)
+    _check_tree(dict.fromkeys(links), joints)  # in their order, and found at once
     return sorted(joints, key=lambda joint: joint.name)
 
 
 def _check_unique(what: str, names: Sequence[str]) -> None:
-    for name in names:
-        if names.count(name) > 1:
+    for name, count in Counter(names).items():
+        if count > 1:
             raise UrdfError(f"there are two {what}s '{name}'; each needs a name of its own")
 
 
-def _check_tree(links: Sequence[str], joints: Sequence[Joint]) -> None:
+def _check_tree(links: Collection[str], joints: Sequence[Joint]) -> None:
     if not links:
         raise UrdfError('it has no link')
     parents: dict[str, str] = {}
@@ -125,8 +126,8 @@ def _joint(element: Element) -> Joint:
     name = _attribute(element, 'name', 'a joint')
     where = f"joint '{name}'"
     kind = _attribute(element, 'type', where)
-    if kind not in (*TURNING, SLIDING, *_STANDING):
-        allowed = ', '.join((*TURNING, SLIDING, *_STANDING))
+    if kind not in (*_TURNING, _SLIDING, *_STANDING):
+        allowed = ', '.join((*_TURNING, _SLIDING, *_STANDING))
         raise UrdfError(f"{where}: the type '{kind}' is unknown; there are {allowed}")
     if kind in _LIMITED and element.find('limit') is None:
         raise UrdfError(f'{where}: a {kind} joint needs a <limit>')

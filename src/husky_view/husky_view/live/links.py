@@ -115,7 +115,7 @@ class RobotLink:
         self._learn(stopped)
         self._stops.publish(Bool(data=stopped))
 
-    def meet(self, *, stopped: bool) -> None:
+    def adopt_stop(self, *, stopped: bool) -> None:
         """Learn of a stop that held the robot before the page heard of any."""
         if stopped and not self._has_heard:
             self.is_stopped = True

@@ -186,7 +186,7 @@ class LiveView:
         self._factor.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
         if self._scene is None:
             for link, stopped in zip(self._links, scene.stopped, strict=True):
-                link.meet(stopped=stopped)
+                link.adopt_stop(stopped=stopped)
         elif self._scene.run != scene.run:
             self._control.factor = None  # it is another simulator
         self._scene = scene
