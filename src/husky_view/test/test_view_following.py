@@ -67,6 +67,18 @@ def test_a_pose_that_reaches_the_page_late_undoes_no_input() -> None:
     assert camera.offset is NEARER
 
 
+def test_nor_does_it_where_a_turn_of_the_wheel_is_reported_in_parts() -> None:
+    camera, nearest = zoomed_camera(), 0.8 * NEARER
+    assert not camera.step(ROBOT, now_sec=0.2)
+    camera.report(nearest)
+    assert not camera.step(ROBOT, now_sec=0.25)
+    late_sec = 0.3 + 2.0 * USER_PAUSE_SEC
+    assert camera.step(ROBOT, now_sec=late_sec)
+    camera.report(BEHIND)  # the pose sent at 0.1 s
+    camera.step(ROBOT, now_sec=late_sec + 0.01)
+    assert camera.offset is nearest
+
+
 def test_a_report_older_than_the_first_pose_is_not_input() -> None:
     behind, before = np.array([-3.0, 0.0, 1.9]), np.array([-9.0, -8.0, 9.0])
     camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)

@@ -104,7 +104,9 @@ class ChaseCamera:
         elif self._confirmed:  # else the report is older than the first pose
             self.offset = offset
             self._paused_until_sec = now_sec + USER_PAUSE_SEC
-            self._stale_until_sec = now_sec + (DELIVERY_SEC if on_its_way else USER_PAUSE_SEC)
+            # One turn of the wheel is several reports; a pose may be on its way through all.
+            stale_until_sec = now_sec + (DELIVERY_SEC if on_its_way else USER_PAUSE_SEC)
+            self._stale_until_sec = max(self._stale_until_sec, stale_until_sec)
 
 
 def _same(one: Array, other: Array) -> bool:
