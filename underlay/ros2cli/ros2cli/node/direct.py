@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
+import math
 import os
 import signal
 import sys
@@ -76,14 +77,15 @@ class CommandNode:
 
     def spin_until(self, done: Callable[[], bool], timeout_sec: float | None = None) -> bool:
         """Spin until `done()`; False where `timeout_sec` passed before that."""
-        end = None if timeout_sec is None else time.monotonic() + timeout_sec
+        end = math.inf if timeout_sec is None else time.monotonic() + timeout_sec
         while not done():
-            if end is not None and time.monotonic() >= end:
+            left_sec = end - time.monotonic()  # asked once: below 0 rclpy would wait for ever
+            if left_sec <= 0.0:
                 return False
             if self._interrupted.is_set():
                 self._interrupted.clear()
                 raise KeyboardInterrupt
-            self.spin_once(0.02 if end is None else min(0.02, end - time.monotonic()))
+            self.spin_once(min(0.02, left_sec))
         return True
 
     def spin_until_answered(self, future: Any, service: str) -> None:
