@@ -11,7 +11,7 @@ from husky_runtime.web_address import TOKEN_VARIABLE
 from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
-from husky_view.gate.front_page import LOST
+from husky_view.gate.front_page import LOST, SILENT
 from playpen_testing.browser import button, errors, number, open_page, wait_for
 from playpen_testing.processes import Process, Processes
 from playwright.sync_api import Browser, expect, Page
@@ -136,4 +136,19 @@ def test_a_page_that_was_long_alone_shows_the_next_replay(
         expect(waiting).to_have_text('Husky replay' + LOST)
         processes.start(*command)
         expect(waiting).to_be_hidden(timeout=40_000)
+        page.close()
+
+
+@pytest.mark.timeout(120)
+def test_a_page_whose_replay_stands_still_says_so(report: Path, browser: Browser) -> None:
+    with Processes() as processes:
+        command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '19080')
+        stopped, page = replayed(processes, command, browser)
+        waiting = page.locator('#husky-waiting')
+        expect(waiting).to_be_hidden()
+        stopped.signal(signal.SIGSTOP)
+        expect(waiting).to_have_text('Husky replay' + SILENT, timeout=20_000)
+        stopped.signal(signal.SIGCONT)
+        expect(waiting).to_be_hidden(timeout=20_000)
+        assert errors(page) == []
         page.close()

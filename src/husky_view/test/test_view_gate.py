@@ -14,6 +14,7 @@ import urllib.error
 import urllib.request
 
 from husky_view.gate.admission import Admission
+from husky_view.gate.front_page import ALIVE
 from husky_view.gate.gate import (
     BURST,
     MOST_BYTES,
@@ -321,10 +322,13 @@ def test_the_page_has_its_title_and_asks_for_no_other_file(page: Page) -> None:
     with pytest.raises(urllib.error.HTTPError, match='404') as missing:
         urllib.request.urlopen(f'{page.server.address}../index.html/x', timeout=10.0)
     missing.value.close()
-    with pytest.raises(urllib.error.HTTPError, match='403') as refused:
-        urllib.request.urlopen(f'http://127.0.0.1:{page.port}/', timeout=10.0)
-    with refused.value as answer:
-        assert b'the terminal' in answer.read()
+    with urllib.request.urlopen(f'{page.server.address}{ALIVE}', timeout=10.0) as answer:
+        assert (answer.status, answer.read()) == (204, b'')
+    for path in ('', ALIVE, f'x/{ALIVE}'):
+        with pytest.raises(urllib.error.HTTPError, match='403') as refused:
+            urllib.request.urlopen(f'http://127.0.0.1:{page.port}/{path}', timeout=10.0)
+        with refused.value as answer:
+            assert b'the terminal' in answer.read()
 
 
 def test_no_request_at_all_says_nothing_in_the_terminal(

@@ -22,6 +22,12 @@ LOST = (
     'This has ended, or the network is gone. What comes back, or a replay that follows, opens '
     'here by itself; a new start has an address of its own.'
 )
+SILENT = (
+    'No answer: nothing that is pressed here arrives, STOP neither. What serves this page stands '
+    'still, or the network swallows all; this page goes on by itself when they do.'
+)
+ALIVE = 'alive'
+"""What a page asks for below its own address, to hear whether it is answered."""
 
 # viser looks for a lost server only while somebody types into the page, and writes the address of
 # its websocket behind ours. Until the scene comes it takes its light from a picture that is in the
@@ -63,7 +69,7 @@ _STYLE = """
 _SCRIPT = """
 const cover = document.getElementById('husky-waiting'), words = cover.lastElementChild;
 const told = TOLD;
-let since = performance.now(), draws;
+let since = performance.now(), connected = false, unanswered = 0, draws;
 const canDraw = () => {
   const drawing = document.createElement('canvas').getContext('webgl2');
   drawing?.getExtension('WEBGL_lose_context')?.loseContext();
@@ -74,13 +80,23 @@ const say = (text, lost) => {
   cover.hidden = !text;
   if (text && words.textContent !== text) words.textContent = text;
 };
+// Where the other side stands still or nothing comes through, no connection is closed for minutes.
+const alive = `${location.pathname.replace(/[/]+$/, '')}/${told.alive}`;
+const ask = async () => {
+  const options = {cache: 'no-store', signal: AbortSignal.timeout(2000)};
+  const answered = !connected || await fetch(alive, options).then((a) => a.ok, () => false);
+  unanswered = answered ? 0 : unanswered + 1;
+  setTimeout(ask, 1000);
+};
+ask();
 setInterval(() => {
   const panel = document.querySelector('.husky-page, [data-trouble]');
-  const connected = panel && getComputedStyle(panel).pointerEvents !== 'none';
+  connected = panel && getComputedStyle(panel).pointerEvents !== 'none';
   const now = performance.now();
   if (connected) since = now;
   const waits = now - since;
-  if (connected || (panel && waits < 1500)) say('', false);
+  if (connected && unanswered > 1) say(told.silent, true);
+  else if (connected || (panel && waits < 1500)) say('', false);
   else if (panel) say(told.lost, true);
   else if (waits < 2000) say(told.loading, false);
   else if (!(draws ??= canDraw())) say(told.noWebgl, false);
@@ -97,7 +113,8 @@ def front_page(title: str) -> bytes:
     gone, by which that is found out.
     """
     file = Path(viser.__file__).parent / 'client' / 'build' / 'index.html'
-    words = json.dumps({'loading': LOADING, 'noWebgl': NO_WEBGL, 'late': LATE, 'lost': LOST})
+    told = {'loading': LOADING, 'noWebgl': NO_WEBGL, 'late': LATE, 'lost': LOST, 'silent': SILENT}
+    words = json.dumps({**told, 'alive': ALIVE})
     cover = (
         f'<div id="husky-waiting"><b>{escape(title)}</b><span>{LOADING}</span></div>'
         f'<script>(() => {{{_SCRIPT.replace("TOLD", words)}}})();</script>'

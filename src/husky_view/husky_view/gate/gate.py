@@ -25,7 +25,7 @@ from websockets.protocol import Event
 
 from husky_view.gate.admission import Admission
 from husky_view.gate.controls import accepts
-from husky_view.gate.front_page import front_page
+from husky_view.gate.front_page import ALIVE, front_page
 from husky_view.gate.incoming import GuiUpdateMessage, read_message, Refused
 
 MOST_BYTES = 4096
@@ -120,7 +120,10 @@ class Gate:
                 return None
             full = f'{MOST_TABS} tabs look at this page already: close one.\n'
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, full)
-        if request.path.partition('?')[0].rstrip('/').count('/') > 1:
+        path = request.path.partition('?')[0].rstrip('/')
+        if path == f'/{self._admission.token}/{ALIVE}':
+            return Response(204, 'No Content', Headers({'Connection': 'close', **_HEADERS}))
+        if path.count('/') > 1:
             return connection.respond(HTTPStatus.NOT_FOUND, 'There is one page here.\n')
         described = {'Content-Type': 'text/html; charset=utf-8', 'Connection': 'close'}
         length = {'Content-Length': str(len(self._page))}
