@@ -9,6 +9,9 @@ _HUSKY = '`ros2 launch husky_sim husky_playpen.launch.py` starts a robot in a wo
 _TELEOP = '`ros2 run husky_driver teleop` drives by the keys'
 _FRAMES = '`ros2 run tf2_tools view_frames --live` shows the tree of frames in the browser'
 _VIEW = f'{_HUSKY}, and with `viewer:=true` shows it in the browser'
+_CAMERA = (
+    'with `camera_rate_hz` of `husky_sim` on, the page of its view shows what the camera sees'
+)
 _TALK = '`ros2 run demo_nodes_py talker` and `ros2 run demo_nodes_py listener` talk'
 _ADD = (
     '`ros2 run demo_nodes_py add_two_ints_server` and `ros2 run demo_nodes_py add_two_ints_client`'
@@ -28,6 +31,7 @@ BY_PACKAGE = {
     **dict.fromkeys(('rviz2', 'foxglove_bridge'), _VIEW),
     **dict.fromkeys(('rqt', 'rqt_gui', 'rqt_topic', 'rqt_console', 'rqt_common_plugins'), _GRAPH),
     'rqt_tf_tree': _FRAMES,
+    **dict.fromkeys(('rqt_image_view', 'image_view'), _CAMERA),
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
