@@ -321,7 +321,8 @@ def test_a_cancelled_service_ends_its_processes_and_returns_1(
 
     async def run() -> int:
         running = asyncio.create_task(service.run_async())
-        await asyncio.sleep(0.1)
+        while 'pid' not in (sleeper.process_details or {}):
+            await asyncio.sleep(0.001)
         running.cancel()
         return await asyncio.wait_for(running, 10.0)
 
@@ -341,16 +342,20 @@ def test_signals_reach_every_manager_that_is_entered() -> None:
     seen: list[tuple[str, int]] = []
     before = signal.signal(signal.SIGUSR1, lambda *_: seen.append(('before', 0)))
 
+    async def came(count: int) -> None:
+        while len(seen) < count:
+            await asyncio.sleep(0.001)
+
     async def run() -> None:
         outer = AsyncSafeSignalManager(asyncio.get_running_loop())
         outer.handle(signal.SIGUSR1, lambda number: seen.append(('outer', number)))
         with outer:
             inner = AsyncSafeSignalManager(asyncio.get_running_loop())
             inner.handle(signal.SIGUSR1, lambda number: seen.append(('inner', number)))
-            for manager in (inner, contextlib.nullcontext()):
+            for manager, count in ((inner, 2), (contextlib.nullcontext(), 4)):
                 with manager:
                     signal.raise_signal(signal.SIGUSR1)
-                    await asyncio.sleep(0.01)
+                    await asyncio.wait_for(came(count), 10.0)
                 seen.append(('left', 0))
         signal.raise_signal(signal.SIGUSR1)
 
