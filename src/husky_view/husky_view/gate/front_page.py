@@ -81,10 +81,12 @@ const say = (text, lost) => {
   if (text && words.textContent !== text) words.textContent = text;
 };
 // Where the other side stands still or nothing comes through, no connection is closed for minutes.
+// A new one that is refused tells nothing: where too many are open, that of the page goes on.
 const alive = `${location.pathname.replace(/[/]+$/, '')}/${told.alive}`;
 const ask = async () => {
   const options = {cache: 'no-store', signal: AbortSignal.timeout(2000)};
-  const answered = !connected || await fetch(alive, options).then((a) => a.ok, () => false);
+  const isRefused = (e) => e.name !== 'TimeoutError' && navigator.onLine;
+  const answered = !connected || await fetch(alive, options).then((a) => a.ok, isRefused);
   unanswered = answered ? 0 : unanswered + 1;
   setTimeout(ask, 1000);
 };
