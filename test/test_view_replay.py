@@ -126,7 +126,7 @@ def test_a_page_that_was_long_alone_shows_the_next_replay(
     report: Path, browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(TOKEN_VARIABLE, 'the-same-token')
-    command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '18480')
+    command = ('ros2', 'run', 'husky_view', 'replay', str(report), '--port', '19180')
     with Processes() as processes:
         first, page = replayed(processes, command, browser)
         first.signal(signal.SIGINT)
