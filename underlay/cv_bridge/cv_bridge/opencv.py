@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import Any
 
 
@@ -14,10 +13,11 @@ def opencv() -> Any:
     :raises ModuleNotFoundError: it is not installed; the message says how it is.
     """
     try:
-        return importlib.import_module('cv2')
+        import cv2
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
             f"{error}: the set-up of the lab leaves OpenCV out; in the lab's folder, `./lab exec "
             'pip install -c requirements/constraints.txt -r requirements/vision.in` installs it',
             name=error.name,
         ) from None
+    return cv2
