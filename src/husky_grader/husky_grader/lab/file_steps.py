@@ -18,15 +18,17 @@ PACKAGE_NAME = re.compile(r'[A-Za-z][\w-]*', re.ASCII)  # REP-149: no way to ano
 # colcon passes over a folder in which one of these lies, with all that is below it.
 IGNORED = {'COLCON_IGNORE', 'AMENT_IGNORE', 'CATKIN_IGNORE'}
 # A workspace that was packed without a folder around it has the name of the archive: Canvas adds
-# "-1" to it when a student hands in again, a browser " (1)".
-_COPY_NUMBER = re.compile(r'(-\d+| \(\d+\))$', re.ASCII)
+# "-1" to it when a student hands in again, a browser " (1)", "Download ZIP" of GitHub the branch.
+_ADDED = re.compile(r'(-\d+| \(\d+\)|-main|-master)$', re.ASCII)
 
 
 def workspace_step(step: WorkspaceStep, workspace: Path) -> Finding:
     """Look at the workspace's name and its src folder."""
     if not (workspace / 'src').is_dir():
         return nothing(f'{workspace.name} has no folder src; packages live in it')
-    names = (workspace.name, _COPY_NUMBER.sub('', workspace.name))
+    names = [workspace.name]
+    while (shorter := _ADDED.sub('', names[-1])) != names[-1]:
+        names.append(shorter)
     if step.forms and not any(form.fits(name) for form in step.forms for name in names):
         return Finding('', defects={'name': f'named {workspace.name}; {asked(step.forms[0])}'})
     return Finding(f'{workspace.name} with a folder src')
