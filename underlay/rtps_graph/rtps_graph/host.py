@@ -23,20 +23,20 @@ def discovery_ports(domain_id: int) -> range:
     return range(first, first + _PARTICIPANT_GAIN * MAX_PARTICIPANTS, _PARTICIPANT_GAIN)
 
 
-def participant_ports(domain_id: int) -> set[int] | None:
-    """Tell the discovery ports that are bound on this host; None where the kernel does not say.
+def participant_ports(domain_id: int, bound: set[int]) -> set[int]:
+    """Tell which of the UDP ports that are bound on this host are discovery ports of a domain.
 
     A participant binds two neighbouring ports, for discovery and for data, which tells it from
     other programs.
     """
-    bound = bound_udp_ports()
-    if bound is None:
-        return None
     return {port for port in discovery_ports(domain_id) if {port, port + 1} <= bound}
 
 
 def bound_udp_ports(*, own: bool = False) -> set[int] | None:
-    """Return the UDP ports that are bound on this host (or `own`: by this user's processes)."""
+    """Return the UDP ports that are bound on this host (or `own`: by this user's processes).
+
+    None where the kernel does not say.
+    """
     ports: set[int] = set()
     found = False
     for table in ('/proc/net/udp', '/proc/net/udp6'):

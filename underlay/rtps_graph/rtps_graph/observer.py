@@ -11,6 +11,7 @@ again after milliseconds. It joins the domain as a participant that has one read
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import contextlib
 import os
 import socket
@@ -43,6 +44,7 @@ class Observer:
         self.unanswered: set[int] = set()  # ports of this host's participants that kept silent
         self._subnet = subnet
         self._static_peers = static_peers
+        self._addresses = _own_addresses(remote=subnet or bool(static_peers))
         self._prefix = bytes((0, 0)) + os.urandom(10)
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
@@ -72,7 +74,7 @@ class Observer:
         retry = 0.0
         while (now := time.monotonic()) < start + timeout_sec:
             if now >= retry:
-                expected = host.participant_ports(self.domain_id)
+                expected = self._count()
                 self._ask_again(expected)
                 retry = now + _RETRY_SEC
             counted = expected is not None and not self._subnet and not self._static_peers
@@ -86,11 +88,25 @@ class Observer:
         self.unanswered = (expected or set()) - answered
         return not self.unanswered and all(p.complete for p in self.participants.values())
 
+    def _count(self) -> set[int] | None:
+        """Return the discovery ports of this host's participants; None if it cannot be known."""
+        bound = host.bound_udp_ports()
+        if bound is None:
+            return None
+        self._forget(lambda known: known.discovery_port not in bound)
+        return host.participant_ports(self.domain_id, bound)
+
+    def _forget(self, has_ended: Callable[[Participant], bool]) -> None:
+        """Leave out participants of this host that have ended without a farewell: killed ones."""
+        for participant in [*self.participants.values()]:
+            if participant.address in self._addresses and has_ended(participant):
+                del self.participants[participant.prefix]
+
     # Asking
 
     def _ask_again(self, expected: set[int] | None) -> None:
         announcement = announcements.participant(
-            self._prefix, self._addresses(), self._socket.getsockname()[1]
+            self._prefix, self._addresses, self._socket.getsockname()[1]
         )
         answered = {p.discovery_port for p in self.participants.values()}
         ports = host.discovery_ports(self.domain_id) if expected is None else expected
@@ -131,18 +147,6 @@ class Observer:
         graph = samples is participant.graph
         port = participant.data_port if graph else participant.discovery_port
         self._send(message, participant.address, port)
-
-    def _addresses(self) -> list[str]:
-        addresses = ['127.0.0.1']
-        if self._subnet or self._static_peers:
-            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-                try:
-                    # Sends nothing: asks the kernel which interface it would take.
-                    probe.connect((host.MULTICAST_ADDRESS, 9))
-                    addresses.insert(0, probe.getsockname()[0])
-                except OSError:
-                    pass
-        return addresses
 
     def _offer_graph_reader(self, participant: Participant) -> None:
         participant.graph.acknowledgements += 1
@@ -207,6 +211,7 @@ class Observer:
         data = _udp_port(values.get(wire.PID_DEFAULT_UNICAST_LOCATOR, []))
         if discovery is None or data is None:
             return
+        self._forget(lambda known: known.discovery_port == discovery)  # one holds a port
         participant = Participant(message.source, address, discovery, data)
         self.participants[message.source] = participant
         self._news_sec = time.monotonic()
@@ -233,6 +238,20 @@ class Observer:
         if writer_id == wire.SUBSCRIPTIONS_WRITER:
             return participant.subscriptions
         return participant.graph
+
+
+def _own_addresses(*, remote: bool) -> list[str]:
+    """Return those of this host; with `remote` the one first under which others know it."""
+    addresses = ['127.0.0.1']
+    if remote:
+        with (
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe,
+            contextlib.suppress(OSError),
+        ):
+            # Sends nothing: asks the kernel which interface it would take.
+            probe.connect((host.MULTICAST_ADDRESS, 9))
+            addresses.insert(0, probe.getsockname()[0])
+    return addresses
 
 
 def _udp_port(locators: list[bytes]) -> int | None:

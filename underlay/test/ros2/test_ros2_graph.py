@@ -12,6 +12,8 @@ import time
 from typing import Any
 
 import pytest
+from rtps_graph.observer import Observer
+from rtps_graph.participant import Participant
 
 NUMBER = 12
 
@@ -194,6 +196,22 @@ def test_a_node_that_has_ended_is_gone_at_once(processes: Any, ros2: Callable[..
     goes.kill()
     goes.wait()
     assert ros2('node', 'list').lines == ['/stays']
+
+
+def test_a_node_that_is_killed_while_it_is_asked_holds_nobody_up(
+    processes: Any, domain: int
+) -> None:
+    goes = processes.node('plain', 'goes')
+
+    class Killing(Observer):
+        def _ask_participant(self, participant: Participant) -> None:
+            goes.kill()
+            goes.wait()
+            super()._ask_participant(participant)
+
+    with Killing(domain_id=domain) as observer:
+        assert observer.observe(timeout_sec=8.0), 'it waits for one that is dead'
+        assert observer.participants == {}
 
 
 @pytest.mark.usefixtures('domain')
