@@ -14,15 +14,15 @@ SIMULATOR = ('ros2', 'run', 'husky_sim', 'husky_sim', '--ros-args', '-p', 'camer
 AHEAD = re.compile(r'the cone is [+-]0\.0[0-2] of')
 
 
-@pytest.mark.timeout(90)
+@pytest.mark.timeout(180)
 def test_the_cone_comes_ahead(tmp_path: Path, processes: Processes) -> None:
     (node,) = re.findall(r'```python\n(.*?)```', DOCUMENT.read_text(), re.DOTALL)
     (tmp_path / 'cone_seeker.py').write_text(node)
     processes.start(*SIMULATOR)
     seeker = processes.start('python3', 'cone_seeker.py', cwd=tmp_path)
-    seeker.wait_for_text('the cone is -0.4', timeout_sec=30.0)  # at the right edge
+    seeker.wait_for_text('the cone is -0.4', timeout_sec=60.0)  # at the right edge
     wait_until(
         lambda: any(AHEAD.search(line) for line in seeker.lines),
-        timeout_sec=30.0,
+        timeout_sec=90.0,
         what=lambda: f'the cone ahead of the robot; the node told:\n{seeker.output}',
     )
