@@ -372,6 +372,12 @@ def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, p
     stop.publish(Bool(data=False))
     button(page, 'STOP').wait_for()
     stop.publish(Bool(data=True))
+    # One that is released before the simulator has noticed it is none for it.
+    wait_until(
+        lambda: sum(line.endswith('emergency stop') for line in lab.simulator.lines) == 2,
+        timeout_sec=10.0,
+        what='a second stop of the simulator',
+    )
     button(page, 'Release the stop').click()
     button(page, 'STOP').wait_for()
     wait_until(

@@ -62,4 +62,5 @@ def test_a_participant_that_never_ends_holds_no_command_up(
 ) -> None:
     command = [sys.executable, '-c', NEVER_ENDS, *words]
     done = subprocess.run(command, capture_output=True, text=True, timeout=15)
-    assert (done.returncode, done.stderr) == (status, said)
+    # Other lines may tell of nodes in other domains of this computer.
+    assert (done.returncode, said in done.stderr) == (status, True), done.stderr
