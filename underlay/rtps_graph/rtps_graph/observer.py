@@ -11,7 +11,6 @@ again after milliseconds. It joins the domain as a participant that has one read
 
 from __future__ import annotations
 
-from collections.abc import Callable
 import contextlib
 import os
 import socket
@@ -45,6 +44,7 @@ class Observer:
         self._subnet = subnet
         self._static_peers = static_peers
         self._addresses = _own_addresses(remote=subnet or bool(static_peers))
+        self._bound: set[int] = set()  # the UDP ports of this host, at the last look
         self._prefix = bytes((0, 0)) + os.urandom(10)
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
@@ -89,18 +89,18 @@ class Observer:
         return not self.unanswered and all(p.complete for p in self.participants.values())
 
     def _count(self) -> set[int] | None:
-        """Return the discovery ports of this host's participants; None if it cannot be known."""
+        """Return the discovery ports of this host's participants; None if it cannot be known.
+
+        A participant whose port is no longer bound was killed, without a farewell: it is left out.
+        """
         bound = host.bound_udp_ports()
         if bound is None:
             return None
-        self._forget(lambda known: known.discovery_port not in bound)
-        return host.participant_ports(self.domain_id, bound)
-
-    def _forget(self, has_ended: Callable[[Participant], bool]) -> None:
-        """Leave out participants of this host that have ended without a farewell: killed ones."""
+        closed, self._bound = self._bound - bound, bound
         for participant in [*self.participants.values()]:
-            if participant.address in self._addresses and has_ended(participant):
+            if participant.address in self._addresses and participant.discovery_port in closed:
                 del self.participants[participant.prefix]
+        return host.participant_ports(self.domain_id, bound)
 
     # Asking
 
@@ -211,7 +211,6 @@ class Observer:
         data = _udp_port(values.get(wire.PID_DEFAULT_UNICAST_LOCATOR, []))
         if discovery is None or data is None:
             return
-        self._forget(lambda known: known.discovery_port == discovery)  # one holds a port
         participant = Participant(message.source, address, discovery, data)
         self.participants[message.source] = participant
         self._news_sec = time.monotonic()

@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 import signal
+import socket
 import sys
 import time
 from typing import Any
 
 import pytest
+from rtps_graph import announcements
 from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant
 
@@ -212,6 +214,29 @@ def test_a_node_that_is_killed_while_it_is_asked_holds_nobody_up(
     with Killing(domain_id=domain) as observer:
         assert observer.observe(timeout_sec=8.0), 'it waits for one that is dead'
         assert observer.participants == {}
+
+
+def test_one_of_another_host_may_have_the_port_of_one_here(processes: Any, domain: int) -> None:
+    """As mostly: the first participant of each host has the same."""
+    processes.node('plain', 'here')
+
+    class Meeting(Observer):
+        def _ask_participant(self, participant: Participant) -> None:
+            if participant.address == '127.0.0.1':
+                other = announcements.participant(
+                    b'other  host ', ['127.0.0.2'], participant.discovery_port
+                )
+                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+                    sender.bind(('127.0.0.2', 0))
+                    sender.sendto(other, self._socket.getsockname())
+            super()._ask_participant(participant)
+
+    with Meeting(domain_id=domain) as observer:
+        assert not observer.observe(timeout_sec=1.0), 'the other one never answers'
+        known = {each.address: each for each in observer.participants.values()}
+    assert known.keys() == {'127.0.0.1', '127.0.0.2'}
+    assert known['127.0.0.1'].complete
+    assert len({each.discovery_port for each in known.values()}) == 1
 
 
 @pytest.mark.usefixtures('domain')
