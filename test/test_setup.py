@@ -319,6 +319,24 @@ def test_a_new_waypoint_file_builds_the_package_that_installs_it(clone: Path) ->
     assert changed == ['husky_driver']
 
 
+def test_what_python_compiles_sets_nothing_up_anew(clone: Path) -> None:
+    examples = clone / 'underlay' / 'launch_testing' / 'prefix' / 'share' / 'launch_testing'
+    script = 'source "$0" help >/dev/null; setup_key pip python3 3.11'
+
+    def key() -> str:
+        done = subprocess.run(
+            ['bash', '-c', script, clone / 'lab'], capture_output=True, text=True, check=True
+        )
+        return done.stdout
+
+    before = key()
+    (examples / '__pycache__').mkdir()
+    (examples / '__pycache__' / 'examples.pyc').write_text('compiled')
+    assert key() == before
+    (examples / 'package.xml').write_text('<package/>')
+    assert key() != before, 'a change of what is installed sets up anew'
+
+
 def test_a_platform_without_wheels_is_told_what_to_do(clone: Path, tmp_path: Path) -> None:
     path = program(tmp_path / 'bin', 'uname', 'echo Darwin arm64')
     refused(lab(clone, 'exec', 'true', PATH=path), 'Darwin arm64', 'RoboStack', 'source')
