@@ -28,7 +28,6 @@ from husky_grader.run.trusted import trusted
 from husky_grader.scoring.report import Report
 
 SIMULATOR_WITHIN_SEC = 30.0  # wall time, for its first word
-CLOSED_WITHIN_SEC = 5.0  # wall time, for a simulator and its record
 SILENCE_SEC = 20.0  # wall time: a simulator that tells no news for so long has died
 CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'  # an int in a float's place is an error, not 5e-324
 WALL_SEC = 600.0  # for a whole run: one that answers each message late would take hours
