@@ -22,8 +22,9 @@ _COUNT = (
     '`ros2 run action_tutorials_py fibonacci_action_client` count'
 )
 _JOINTS = (
-    '`ros2 topic pub -r 10 /joint_states sensor_msgs/msg/JointState '
-    '"{header: auto, name: [a], position: [0.5]}"` publishes positions of joints'
+    '`ros2 run joint_state_publisher joint_state_publisher --ros-args -p delta:=0.05` moves all '
+    'joints, and `ros2 topic pub -r 10 /joint_states sensor_msgs/msg/JointState '
+    '"{header: auto, name: [a], position: [0.5]}"` publishes one position'
 )
 _NOTHING = 'nothing does its job, but a sourced ROS 2 Jazzy has it'
 
@@ -36,7 +37,7 @@ BY_PACKAGE = {
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
     'xacro': '`xacro FILE` is a command of its own',
-    **dict.fromkeys(('joint_state_publisher', 'joint_state_publisher_gui'), _JOINTS),
+    'joint_state_publisher_gui': _JOINTS,
     **dict.fromkeys(
         ('turtle_tf2_py', 'turtle_tf2_cpp'),
         "`turtlesim` and `tf2_ros` run the tutorials' own nodes in Python, as they are typed in",
