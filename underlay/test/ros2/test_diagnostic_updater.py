@@ -191,6 +191,14 @@ def test_of_two_summaries_the_worse_counts(before: Any, new: Any, after: Any) ->
     assert (stat.level, stat.message) == (OK, '')
 
 
+def test_a_task_of_several_does_not_see_what_the_one_before_said() -> None:
+    tasks = CompositeDiagnosticTask('both')
+    tasks.addTask(FunctionDiagnosticTask('one', says(WARN, 'hot')))
+    tasks.addTask(FunctionDiagnosticTask('silent', lambda stat: stat))
+    both = tasks.run(DiagnosticStatusWrapper(level=ERROR, message='nothing yet'))
+    assert (both.level, both.message) == (ERROR, 'hot; nothing yet')
+
+
 @pytest.fixture
 def at(monkeypatch: pytest.MonkeyPatch) -> Callable[[float], None]:
     """Return a function that sets the time of the tasks, in s."""
