@@ -18,7 +18,6 @@ import threading
 from interrupt_while_loading import leave
 from ros2_diagnosis import PackageError
 
-from ros2cli import ending
 from ros2cli.command import add_subparsers_on_demand, CommandExtension, CommandLineParser
 from ros2cli.errors import CommandError
 
@@ -44,18 +43,12 @@ def main(
     )
     gc.set_threshold(_OBJECTS)
     _open_closed_streams()
-    words = list(sys.argv[1:] if argv is None else argv)
     try:
-        return ending.run_command(lambda: _interruptible(build, words))
-    finally:
-        gc.freeze()  # the last collection, of a process that ends, would look at all there is
-
-
-def _interruptible(build: _Build, words: Sequence[str]) -> int:
-    try:
-        return _run(build, words)
+        return _run(build, list(sys.argv[1:] if argv is None else argv))
     except KeyboardInterrupt:
         return int(signal.SIGINT)
+    finally:
+        gc.freeze()  # the last collection, of a process that ends, would look at all there is
 
 
 def _open_closed_streams() -> None:

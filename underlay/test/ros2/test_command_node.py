@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The node of a command: a wait ends when its time is over, and so does its own end."""
+"""The node of a command: a wait ends when its time is over."""
 
 from __future__ import annotations
 
@@ -33,35 +33,3 @@ def test_a_wait_that_is_over_while_it_is_prepared_ends() -> None:
             process.kill()
             pytest.fail(f'wait {process.communicate()[0].split()[-1]} of 500 does not end')
     assert out.endswith('all\n'), out
-
-
-# As Fast DDS of the wheels does at times, see ros2cli/ending.py: it holds Python's lock for ever.
-NEVER_ENDS = """
-import sys
-from ros2cli.cli import main
-from ros2cli.node.direct import CommandNode
-CommandNode._destroy = lambda self: sum(range(10**12))
-sys.exit(main(sys.argv[1:]))
-"""
-
-
-@pytest.mark.usefixtures('domain')
-@pytest.mark.parametrize(
-    ('words', 'status', 'said'),
-    [
-        (('topic', 'echo', '/silence', 'std_msgs/msg/String', '--timeout', '0.1'), 0, []),
-        (
-            ('action', 'send_goal', '/none', 'turtlesim/action/RotateAbsolute', '{}', '-t', '0.1'),
-            1,
-            ["No action server for '/none' within 0.1 s"],
-        ),
-    ],
-)
-def test_a_participant_that_never_ends_holds_no_command_up(
-    words: tuple[str, ...], status: int, said: list[str]
-) -> None:
-    command = [sys.executable, '-c', NEVER_ENDS, *words]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=15)
-    # Tests beside this one run nodes in other domains.
-    told = [line for line in done.stderr.splitlines() if not line.startswith('hint: domain ')]
-    assert (done.returncode, told) == (status, said)

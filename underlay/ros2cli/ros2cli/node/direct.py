@@ -25,7 +25,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rtps_graph import names
 
-from ros2cli import discovery, ending
+from ros2cli import discovery
 from ros2cli.discovery import add_direct_arguments as add_arguments
 from ros2cli.errors import CommandError
 from ros2cli.node import NODE_NAME_PREFIX
@@ -50,7 +50,6 @@ class CommandNode:
         interrupted: threading.Event | None = None,
         **options: Any,
     ) -> None:
-        ending.run_now()  # one node at a time
         discovery.settings_from_environment()
         handled = SignalHandlerOptions.ALL if interrupted is None else SignalHandlerOptions.NO
         rclpy.init(args=getattr(args, 'argv', []), signal_handler_options=handled)
@@ -97,10 +96,6 @@ class CommandNode:
             self.spin_until(future.done)
 
     def destroy(self) -> None:
-        """Give everything back; in a command, when it has said all it has to say."""
-        ending.at_end(self._destroy)
-
-    def _destroy(self) -> None:
         self._executor.shutdown()
         self.node.destroy_node()
         rclpy.try_shutdown()
