@@ -135,3 +135,14 @@ def test_other_handlers_of_logging_can_be_used() -> None:
     assert len(made) == 1
     with pytest.raises(AttributeError, match='no attribute'):
         _ = handlers.NoSuchHandler
+
+
+def test_a_disk_that_is_full_is_said_once_and_stops_nothing(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    launch_config.log_handler_factory = lambda _, encoding: handlers.FileHandler('/dev/full')
+    assert _run(LogInfo(msg='one'), LogInfo(msg='two')) == 0
+    said = capsys.readouterr()
+    assert '[launch.user]: two' in said.out
+    assert said.err.startswith('cannot write /dev/full (No space left on device): ')
+    assert said.err.count('\n') == 1

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import sys
 from typing import Any
@@ -49,10 +50,33 @@ class ScreenHandler(FormatPerLogger):
 
 
 class FileHandler(FormatPerLogger, logging.FileHandler):
-    """Writes to a file, made with the first line."""
+    """Writes to a file, made with the first line, while the disk has room for it."""
 
     def __init__(self, filename: str, *, encoding: str = 'utf-8') -> None:
         super().__init__(filename, encoding=encoding, delay=True)
+        self._fails = False
+
+    def emit(self, record: logging.LogRecord) -> None:
+        try:
+            super().emit(record)
+        except OSError:  # it cannot be made
+            self.handleError(record)
+
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802
+        error = sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            super().handleError(record)
+        elif not self._fails:
+            self._fails = True
+            print(
+                f'cannot write {self.baseFilename} ({error.strerror}): what the launch says is '
+                'missing there from here on',
+                file=sys.stderr,
+            )
+
+    def close(self) -> None:
+        with contextlib.suppress(OSError):  # said above
+            super().close()
 
 
 def __getattr__(name: str) -> type[logging.Handler]:
