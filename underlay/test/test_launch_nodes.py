@@ -237,6 +237,16 @@ def test_a_missing_parameter_file_is_warned_about(
     assert 'plain_node-1' in _nodes(launched.output)
 
 
+def test_a_script_with_line_ends_of_windows_is_warned_about(
+    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+) -> None:
+    program = ros_package / 'lib' / 'some_pkg' / 'plain_node'
+    program.write_bytes(b'#!/usr/bin/env python3\r\n')
+    launched = run_launch(python_launch_file('node(),', before=BEFORE))
+    (line,) = [line for line in launched.lines if line.startswith('[WARNING] [launch_ros]')]
+    assert f"executable '{program}' cannot be run: its lines end as those of Windows" in line
+
+
 def test_component_containers_are_refused_in_one_line(
     launch_environment: None, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -86,6 +86,7 @@ def test_a_signal_reaches_the_program_once_and_nothing_is_left(
         (('demo',), 2, "the name of the executable is missing; package 'demo' has show"),
         (('--prefix', '"', 'demo', 'show'), 2, 'is refused: No closing quotation'),
         (('demo', 'broken'), 1, "its first line names '/no/python'"),
+        (('demo', 'dos'), 1, "as those of Windows (CRLF), so that it asks for '/usr/bin/env sh' "),
         (('empty', 'x'), 1, "package 'empty' has none"),
     ],
 )  # fmt: skip
@@ -99,6 +100,8 @@ def test_what_cannot_run_is_explained(
     programs = {'show': _SHOW}
     if 'broken' in words:
         programs['broken'] = '#!/no/python\n'
+    if 'dos' in words:
+        programs['dos'] = '#!/usr/bin/env sh\r\necho\r\n'
     installed_package('demo', **programs)
     installed_package('empty')
     answer = ros2('run', *words)

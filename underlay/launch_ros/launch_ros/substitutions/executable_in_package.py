@@ -10,10 +10,13 @@ from pathlib import Path
 
 from launch.frontend import expose_substitution
 from launch.launch_context import LaunchContext
+from launch.logging import get_logger
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import MarkupArguments
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+from ros2_diagnosis import programs
 
 from .find_package import FindPackagePrefix
 
@@ -41,6 +44,9 @@ class ExecutableInPackage(FindPackagePrefix):
         folder = Path(super().perform(context)) / 'lib' / package
         path = folder / executable
         if path.is_file() and os.access(path, os.X_OK):
+            why = programs.why_unrunnable(path)
+            if why is not None:  # a prefix may yet run it
+                get_logger('launch_ros').warning(f"executable '{path}' cannot be run: {why}")
             return str(path)
         known = _executables(folder)
         near = difflib.get_close_matches(executable, known, 1)

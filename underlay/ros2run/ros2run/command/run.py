@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 import shlex
 
-from ros2_diagnosis import packages, workspaces
+from ros2_diagnosis import packages, programs, workspaces
 from ros2cli import arguments
 from ros2cli.command import CommandExtension
 from ros2cli.discovery import settings_from_environment
@@ -56,21 +56,15 @@ class RunCommand(CommandExtension):
 
 
 def _run(path: str, words: list[str], prefix: list[str]) -> int:
+    why = programs.why_unrunnable(Path(path))
+    if why is not None and not prefix:  # `python3` would run it
+        raise CommandError(f"'{path}' cannot be run: {why}")
     try:
         return run_executable(path=path, argv=words, prefix=prefix)
     except OSError as error:
         program = (prefix or [path])[0]
         reason = error.strerror or str(error)
-        shebang = _shebang(Path(program))
-        if isinstance(error, FileNotFoundError) and shebang:
-            reason = f"its first line names '{shebang}', which does not exist; build it again"
+        named = programs.interpreter(Path(program))
+        if isinstance(error, FileNotFoundError) and named:
+            reason = f"its first line names '{named}', which does not exist; build it again"
         raise CommandError(f"'{program}' cannot be run: {reason}") from None
-
-
-def _shebang(path: Path) -> str:
-    try:
-        with path.open('rb') as file:
-            line = file.readline(256)
-    except OSError:
-        return ''
-    return line[2:].decode(errors='replace').strip() if line.startswith(b'#!') else ''
