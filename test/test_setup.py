@@ -251,10 +251,12 @@ def test_another_ros_than_jazzy_is_refused(clone: Path) -> None:
     refused(done, 'humble', 'ROS 2 Jazzy', 'source')
 
 
-def test_an_old_python_is_refused(clone: Path, tmp_path: Path) -> None:
+def test_an_old_python_and_one_that_is_not_there_are_refused(clone: Path, tmp_path: Path) -> None:
     program(tmp_path / 'bin', 'old', '[ "$1" = --version ] && echo Python 3.8.18 || echo 308')
     done = lab(clone, 'exec', 'true', PYTHON=str(tmp_path / 'bin' / 'old'))
     refused(done, 'Python 3.8.18', '3.10', 'PYTHON=')
+    gone = str(tmp_path / 'bin' / 'gone')
+    refused(lab(clone, 'exec', 'true', PYTHON=gone), f'no {gone} found', '3.10')
 
 
 @pytest.mark.parametrize('has_rclpy', [True, False])
