@@ -140,7 +140,7 @@ def test_other_handlers_of_logging_can_be_used() -> None:
 def test_a_disk_that_is_full_is_said_once_and_stops_nothing(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    launch_config.log_handler_factory = lambda _, encoding: handlers.FileHandler('/dev/full')
+    launch_config.log_handler_factory = lambda *_, **_options: handlers.FileHandler('/dev/full')
     assert _run(LogInfo(msg='one'), LogInfo(msg='two')) == 0
     said = capsys.readouterr()
     assert '[launch.user]: two' in said.out

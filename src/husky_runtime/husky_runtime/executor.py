@@ -44,9 +44,8 @@ def spin(node: Node, *, until: 'Future[Any]') -> None:
     """Spin a node until a future is done."""
     executor = make_executor()
     executor.add_node(node)
-    # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up. One event at
-    # a time: it handles signals only between two spins, and ignores the timeout of a longer one
-    # while a timer is always due.
+    # Always with a timeout, and one event at a time: rclpy 7.1.6's EventsExecutor handles signals
+    # only between two spins, and ignores the timeout of a longer one while a timer is always due.
     while not until.done():
         executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
     executor.remove_node(node)  # before it is destroyed: the executor may hold its events

@@ -31,8 +31,7 @@ def spin(node: Node, stop: threading.Event, executor: Executor | None = None) ->
     """
     executor = executor or SingleThreadedExecutor()
     executor.add_node(node)
-    # Always with a timeout: without one rclpy 7.1.6's EventsExecutor never wakes up, and no
-    # executor for an event that is set just before it waits.
+    # Always with a timeout: no executor wakes up for an event that is set just before it waits.
     while not stop.is_set():
         executor.spin_once(timeout_sec=_LATENCY_SEC)
     executor.remove_node(node)  # before it is destroyed: the executor may hold its events

@@ -15,7 +15,6 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import MarkupArguments
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-
 from ros2_diagnosis import programs
 
 from .find_package import FindPackagePrefix

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fast DDS waits without a limit where its time has overflowed, and else as it did."""
+"""ROS of the wheels waits without a limit where its time has overflowed, and else as it did."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ import errno
 import os
 from pathlib import Path
 import re
+import signal
 import subprocess
 import sys
 import threading
+from typing import Any
 
 import pytest
+import rclpy
 
 LIB = Path(sys.prefix, 'lib')
 WAITS = 'libunlimited_waits.so'
@@ -37,8 +40,17 @@ def load_waits() -> ctypes.CDLL:
     return ctypes.CDLL(str(LIB / WAITS))
 
 
-@pytest.mark.parametrize('file', sorted(LIB.glob('libfastrtps.so*')), ids=lambda file: file.name)
-def test_fast_dds_waits_by_the_function_that_is_made_for_it(file: Path) -> None:
+# patchelf leaves the old name where it stood.
+@pytest.mark.parametrize(
+    'file',
+    [
+        file
+        for file in sorted((*LIB.glob('*.so*'), *Path(rclpy.__file__).parent.glob('*.so')))
+        if not file.is_symlink() and b'\0pthread_cond_timedwait\0' in file.read_bytes()
+    ],
+    ids=lambda file: file.name,
+)
+def test_each_library_of_ros_waits_by_the_function_that_is_made_for_it(file: Path) -> None:
     told = subprocess.run(
         [sys.executable, '-c', 'import ctypes, sys; ctypes.CDLL(sys.argv[1])', file],
         env={**os.environ, 'LD_DEBUG': 'bindings', 'LD_BIND_NOW': '1'},
@@ -46,10 +58,42 @@ def test_fast_dds_waits_by_the_function_that_is_made_for_it(file: Path) -> None:
         text=True,
         check=True,
     ).stderr
-    waits = re.findall(
-        r'binding file \S*/libfastrtps\S+ .* to (\S+) .*`(\w+_cond_timedwait)', told
-    )
-    assert waits == [(str(LIB / WAITS), 'unlimited_cond_timedwait')]
+    bound = rf'binding file {re.escape(str(file))} .* to (\S+) .*`(\w+_cond_timedwait)'
+    assert re.findall(bound, told) == [(str(LIB / WAITS), 'unlimited_cond_timedwait')]
+
+
+EVENTS = """
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.experimental import EventsExecutor
+from std_msgs.msg import Empty
+
+heard = []
+
+def hear(message):
+    heard.append(message)
+    print(f'heard {len(heard)}', flush=True)
+
+rclpy.init()
+node = rclpy.create_node('events')
+publisher = node.create_publisher(Empty, 'events', 1)
+node.create_subscription(Empty, 'events', hear, 1)
+node.create_timer(0.01, lambda: publisher.publish(Empty()))
+executor = EventsExecutor()
+executor.add_node(node)
+try:
+    executor.spin()
+except (KeyboardInterrupt, ExternalShutdownException):
+    print('ended')
+"""
+
+
+@pytest.mark.usefixtures('domain')
+def test_an_executor_of_events_hears_of_them_and_of_an_interrupt(processes: Any) -> None:
+    process = processes.start(sys.executable, '-c', EVENTS, ready='heard 3')
+    process.send_signal(signal.SIGINT)
+    assert 'ended' in process.communicate(timeout=10)[0].splitlines()
+    assert process.returncode == 0
 
 
 @pytest.mark.parametrize('time', OVERFLOWED)
