@@ -32,6 +32,8 @@ _IMPORT = ('importlib', 'zipimport')  # parts of their file names
 _RUNPY = ('<frozen runpy>', 'runpy.py')
 _ENTRY_POINT_LOADERS = ('importlib_load_entry_point', 'load_entry_point')
 _AGAIN_SEC = 0.01
+# What pybind11 makes of any error, as while rclpy makes an object of a message.
+_LOST_BY_PYBIND11 = "Unable to convert call argument '0' to Python object"
 
 _print_uncaught = sys.excepthook
 _print_unraisable = sys.unraisablehook
@@ -105,7 +107,11 @@ def _interrupt_again() -> None:
 
 
 def _is_of_interrupt(error: BaseException) -> bool:
-    return isinstance(error, KeyboardInterrupt) or type(error).__module__.startswith('rclpy.')
+    return (
+        isinstance(error, KeyboardInterrupt)
+        or type(error).__module__.startswith('rclpy.')
+        or str(error).startswith(_LOST_BY_PYBIND11)
+    )
 
 
 def _chain(error: BaseException | None) -> 'Iterator[BaseException]':
