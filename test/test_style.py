@@ -74,6 +74,15 @@ def test_no_module_is_longer_than_500_lines() -> None:
     assert long == []
 
 
+def test_a_script_in_a_clone_by_git_of_windows_has_no_line_ends_of_windows(tmp_path: Path) -> None:
+    clone = ['git', 'clone', '--quiet', '--config', 'core.autocrlf=true', str(ROOT), str(tmp_path)]
+    subprocess.run(clone, check=True)
+    files = [path for path in tmp_path.rglob('*') if path.is_file()]
+    scripts = [path for path in files if path.read_bytes().startswith(b'#!')]
+    assert tmp_path / 'lab' in scripts
+    assert [path for path in scripts if b'\r\n' in path.read_bytes()] == []
+
+
 def test_the_repository_holds_no_archives_and_nothing_large() -> None:
     archives = tracked('*.whl', '*.zip', '*.gz', '*.xz', '*.bz2', '*.deb')
     large = [path for path in tracked() if path.is_file() and path.stat().st_size > MOST_BYTES]
