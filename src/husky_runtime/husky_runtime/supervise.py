@@ -36,7 +36,10 @@ def run_to_end(
     asked: list[int] = []
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     before = {
-        number: signal.signal(number, lambda number, _: asked.append(number)) for number in numbers
+        number: signal.signal(number, lambda number, _: asked.append(number))
+        for number in numbers
+        # Under nohup the run goes on when its terminal is closed.
+        if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN
     }
     firm_sec = FIRM_SEC
     try:

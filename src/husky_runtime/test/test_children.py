@@ -70,6 +70,13 @@ child = ChildProcess([sys.executable, '-c', {IGNORING!r}], os.environ, parent_de
 print(child.pid, flush=True)
 sys.stdin.read()
 """
+NOHUP = """
+import os, sys
+from husky_runtime.supervise import run_to_end
+hang_up = 'import os, signal, time; os.kill(os.getppid(), signal.SIGHUP); '
+hang_up += 'time.sleep(0.5); print("goes on")'
+sys.exit(run_to_end([sys.executable, '-c', hang_up], os.environ))
+"""
 PARTICIPANT = """
 import sys, rclpy
 rclpy.init()
@@ -162,6 +169,18 @@ def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
         child.end()
         assert is_running(daemon), 'it has no mark'
     assert not is_running(daemon)
+
+
+def test_under_nohup_a_run_outlives_its_terminal(tmp_path: Path) -> None:
+    for prefix, said, status in ([], '', 128 + signal.SIGHUP), (['nohup'], 'goes on\n', 0):
+        run = subprocess.run(
+            [*prefix, sys.executable, '-c', NOHUP],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=20.0,
+        )
+        assert (run.stdout, run.returncode) == (said, status), run.stderr
 
 
 def test_the_shared_memory_of_the_dead_goes() -> None:
