@@ -9,8 +9,9 @@ Python itself would print a traceback from the middle of an import.
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 import gc
 import os
 from pathlib import Path
@@ -44,9 +45,20 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
     def leave(number: int, _: object) -> NoReturn:
         if number != signal.SIGTERM and _is_at_keyboard():
             os.write(2, b'\ninterrupted\n')
+        if number == signal.SIGINT and interrupted == INTERRUPTED:
+            _end_by_interrupt()
         os._exit(interrupted)  # an exception would be raised inside an import
 
     _open_closed_streams()
+    status = 0
+
+    def end() -> None:
+        if status == INTERRUPTED:
+            with suppress(OSError, ValueError):  # nobody reads it any more
+                sys.stdout.flush()
+            _end_by_interrupt()
+
+    atexit.register(end)  # what is registered later comes before
     # MuJoCo would start a second Python to find out whether it can open a window, and fail for
     # lack of what a variable names. The camera takes what there is, see husky_sim.sensors.camera.
     os.environ['MUJOCO_GL'] = 'disabled'
@@ -79,9 +91,12 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
             sys.unraisablehook = interrupt_again
             for number in _SIGNALS:
                 signal.signal(number, interrupt)
-        return int(main())
+        status = int(main())
     except KeyboardInterrupt:
-        return interrupted
+        status = interrupted
+    except SystemExit as asked:
+        status = asked.code if isinstance(asked.code, int) else 0
+        raise
     except ModuleNotFoundError as error:
         if (error.name or 'husky').startswith('husky'):
             raise
@@ -91,6 +106,19 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
         # An interrupt while the interpreter shuts down would kill it.
         for number in (*_SIGNALS, signal.SIGHUP, signal.SIGALRM):
             signal.signal(number, signal.SIG_IGN)
+    return status
+
+
+def _end_by_interrupt() -> None:
+    """
+    Let SIGINT end this process, where it is in the foreground of a terminal.
+
+    A shell goes on with its loop after a program that exits with 130, as if Ctrl-C had been meant
+    for that program alone: https://www.cons.org/cracauer/sigint.html
+    """
+    if _is_at_keyboard():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.raise_signal(signal.SIGINT)
 
 
 def _open_closed_streams() -> None:

@@ -2,9 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Programs that can be interrupted at any moment."""
 
+import fcntl
+import os
 from pathlib import Path
+import pty
+import signal
 import subprocess
 import sys
+import termios
 
 import pytest
 
@@ -34,6 +39,20 @@ def main():
         print('to nobody')
         print('what was there to read:', sys.stdin.read(), file=file)
     return 0
+"""
+
+
+# Ctrl-C, as a terminal hands it to all of its foreground: to the shell and to the program.
+WAITS = """
+import os, signal, sys, time
+from husky_runtime.start import run
+
+def main():
+    os.killpg(0, signal.SIGINT)
+    time.sleep(20.0)
+    return 0
+
+sys.exit(run(lambda: main, interrupted=130, catches=True))
 """
 
 
@@ -104,3 +123,23 @@ def test_an_interrupt_in_a_weakref_callback_is_not_lost(tmp_path: Path) -> None:
     )
     ended = started(tmp_path, program)
     assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, '', '')
+
+
+def test_ctrl_c_ends_the_loop_of_a_shell(tmp_path: Path) -> None:
+    (tmp_path / 'waits.py').write_text(WAITS)
+    keyboard, terminal = pty.openpty()
+    loop = f'for course in 1 2; do {sys.executable} waits.py; echo the next; done'
+    with subprocess.Popen(
+        ['bash', '-c', loop],
+        cwd=tmp_path,
+        stdin=terminal,
+        stdout=subprocess.PIPE,
+        stderr=terminal,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+    ) as shell:
+        os.close(terminal)
+        said, _ = shell.communicate(timeout=30.0)
+    os.close(keyboard)
+    assert (said, shell.returncode) == ('', -signal.SIGINT)
