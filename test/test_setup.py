@@ -153,6 +153,11 @@ def test_a_folder_that_no_tool_can_name_is_refused(clone: Path, char: str) -> No
     refused(lab(other, 'exec', 'true'), f"a '{char}' in a folder's name", 'rename it')
 
 
+def test_a_folder_with_a_line_break_in_its_name_is_refused(clone: Path) -> None:
+    other = clone.rename(clone.with_name('a\nb'))
+    refused(lab(other, 'exec', 'true'), 'a\\nb: a line break in a folder', 'rename it')
+
+
 @pytest.mark.parametrize('char', ['"', '`', '*'])
 def test_a_folder_that_colcon_cannot_build_in_is_refused(clone: Path, char: str) -> None:
     other = clone.rename(clone.with_name(f'a{char}b'))
@@ -191,7 +196,7 @@ def sourced(function: str, **environment: str) -> subprocess.CompletedProcess[st
     )
 
 
-@pytest.mark.parametrize('file', ['numpy.py', 'mujoco/__init__.py'])
+@pytest.mark.parametrize('file', ['numpy.py', 'mujoco/__init__.py', 'launch.py'])
 def test_packages_that_would_take_the_place_of_the_labs_are_refused(
     tmp_path: Path, file: str
 ) -> None:
@@ -199,6 +204,18 @@ def test_packages_that_would_take_the_place_of_the_labs_are_refused(
     (tmp_path / file).touch()
     done = sourced('enter_venv pip', PYTHONPATH=f'/none:{tmp_path}')
     refused(done, f'PYTHONPATH has a {file.split("/")[0].split(".")[0]} in {tmp_path}')
+
+
+def test_messages_of_ros_1_in_the_place_of_the_labs_are_refused(tmp_path: Path) -> None:
+    (tmp_path / 'rospy').mkdir()
+    (tmp_path / 'rospy' / '__init__.py').touch()
+    refused(sourced('enter_venv pip', PYTHONPATH=str(tmp_path)), f'leads to ROS 1 in {tmp_path}')
+
+
+def test_a_folder_of_launch_files_in_pythonpath_is_allowed(tmp_path: Path) -> None:
+    (tmp_path / 'launch').mkdir()
+    done = sourced('enter_venv pip', PYTHONPATH=str(tmp_path))
+    assert (done.returncode, done.stderr) == (0, '')
 
 
 def test_what_another_ros_chose_is_left_where_there_are_wheels() -> None:
@@ -222,8 +239,9 @@ def test_a_folder_of_logs_that_cannot_be_written_is_refused() -> None:
     refused(sourced('choose_log_folder', ROS_HOME='/proc/none'), 'logs in /proc/none/log, which')
 
 
-def test_a_folder_in_place_of_the_link_to_a_clone_is_left(tmp_path: Path) -> None:
-    root, cache = tmp_path / 'a clone', tmp_path / 'cache'
+@pytest.mark.parametrize('name', ['a clone', 'l' * 110])
+def test_a_folder_in_place_of_the_link_to_a_clone_is_left(tmp_path: Path, name: str) -> None:
+    root, cache = tmp_path / name, tmp_path / 'cache'
     root.mkdir()
     text = (ROOT / 'lab').read_text()
     function = text[text.index('plain_way() {') :].partition('\n}\n')[0]
