@@ -45,6 +45,18 @@ def drive(processes: Processes, folder: Path, *options: str) -> Process:
     )
 
 
+def test_a_course_that_is_edited_meanwhile_is_judged_as_driven(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    course = tmp_path / 'short.yaml'
+    course.write_bytes(short_course.read_bytes())
+    run = drive(processes, tmp_path, str(course), '--fast')
+    run.wait_for_text('process started')
+    course.write_text('what will be the next course')
+    assert run.wait(timeout_sec=60.0) == 0, run.output
+    assert 'short: passed' in run.output
+
+
 def test_drive_ends_with_a_report_and_success(
     processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
