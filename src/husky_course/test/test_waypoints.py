@@ -92,6 +92,8 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
             'column 22: waypoints[1].x: true is not a number',
         ),
         ('waypoints: [[0, 0], ["3", 1]]', "waypoints[1].x: '3' is not a number (a number without"),
+        ('waypoints: [[0, 0], [0x1, 1]]', 'waypoints[1].x: 0x1 is not a number; allowed'),
+        ('waypoints: [[0, 0], [\u22123, 1]]', 'is not a number (write -3, with the minus'),
         ('waypoints: [[0, 0], [3m, 1]]', 'waypoints[1].x: 3m is not a number (write 3, without'),
         ('waypoints: [[0, 0], [0, 0.01]]', 'waypoints[1]: 0.010 m from waypoints[0]'),
         ('loop: true\nwaypoints: [[0, 0], [1, 0]]', 'waypoints: 2 given; a loop needs at least 3'),

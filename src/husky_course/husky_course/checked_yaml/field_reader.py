@@ -210,5 +210,7 @@ def _number_hint(value: Value) -> str:
     text = value.text if value.kind == 'scalar' else ''
     if re.fullmatch(r'[-+]?\d+,\d+', text, re.ASCII):
         return f' (write {text.replace(",", ".")})'
-    unit = re.fullmatch(r'([-+]?\d*\.?\d+)\s*[a-zA-Z/%°]+\d?', text, re.ASCII)
+    if re.fullmatch(r'[\u2010-\u2015\u2212]\d*\.?\d+', text, re.ASCII):
+        return f' (write -{text[1:]}, with the minus sign of the keyboard)'
+    unit = re.fullmatch(r'([-+]?\d*\.?\d+)\s*(?!(?<=0)[xob])[a-zA-Z/%°]+\d?', text, re.ASCII)
     return f' (write {unit[1]}, without the unit)' if unit else ''
