@@ -147,7 +147,7 @@ def test_the_lines_of_a_step_tell_how_far_it_is(
     assert shown in step.doing
 
 
-@pytest.mark.parametrize('char', [':', ';', '=', '$', '{', '}'])
+@pytest.mark.parametrize('char', [':', ';', '=', '$', '{', '}', '\\'])
 def test_a_folder_that_no_tool_can_name_is_refused(clone: Path, char: str) -> None:
     other = clone.rename(clone.with_name(f'a{char}b'))
     refused(lab(other, 'exec', 'true'), f"a '{char}' in a folder's name", 'rename it')
