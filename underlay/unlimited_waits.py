@@ -50,7 +50,8 @@ def waiting_libraries() -> list[Path]:
 
 def redirect(library: Path) -> None:
     """Change the name that a library waits by, in a copy that then takes its place."""
-    new, names = library.with_suffix('.new'), library.with_suffix('.names')
+    # What an interrupted set-up leaves is not taken for a library.
+    new, names = (library.with_name(f'.{library.name}.{kind}') for kind in ('new', 'names'))
     names.write_text(_RENAMED, encoding='utf-8')
     shutil.copy2(library, new)
     _patchelf('--rename-dynamic-symbols', names, new)
