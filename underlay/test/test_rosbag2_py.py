@@ -106,7 +106,11 @@ def _read(name: str, storage_id: str = 'mcap') -> Callable[[Path], object]:
 @pytest.mark.parametrize(
     ('run', 'error', 'message'),
     [
-        (_open(storage_id='sqlite3'), RuntimeError, "write storage_id='mcap'"),
+        (
+            _open(storage_id='csv'),
+            RuntimeError,
+            "stored as 'mcap' here, other storages need a full",
+        ),
         (_open(uri='.'), RuntimeError, "'.' already exists"),
         (_open(storage_preset_profile='best'), RuntimeError, 'it is one of none, fastwrite'),
         (_open(snapshot_mode=True, max_cache_size=1), RuntimeError, 'is not offered here'),
@@ -121,8 +125,8 @@ def _read(name: str, storage_id: str = 'mcap') -> Callable[[Path], object]:
         (lambda _: SequentialReader().has_next(), RuntimeError, r'call open\(\) first'),
         (lambda _: SequentialReader().open('bag', 'mcap'), TypeError, 'rosbag2_py.StorageOptions'),  # type: ignore[arg-type]
         (_read('nowhere'), RuntimeError, "Bag path 'nowhere' does not exist"),
-        (_read('old'), RuntimeError, 'stored as sqlite3, which needs a full ROS 2'),
-        (_read('old', 'sqlite3'), RuntimeError, "write storage_id='mcap'"),
+        (_read('old'), RuntimeError, "'old' holds no file of a bag that ends with .mcap"),
+        (_read('old', 'csv'), RuntimeError, "stored as 'mcap' here, other storages need a full"),
         (_read('old/x.db3'), RuntimeError, 'cannot be read as MCAP'),
         (_read('zipped'), RuntimeError, 'call `zstd -d` on it and remove zipped/metadata.yaml'),
         (_read('torn'), RuntimeError, 'metadata.yaml.*lacks'),

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import Any
 
 from mcap.writer import Writer
 from playpen_testing.bags import (
@@ -195,9 +196,10 @@ def test_a_writer_begins_new_files(tmp_path: Path) -> None:
 
 def test_full_disks_are_told(tmp_path: Path) -> None:
     writer = opened_writer(tmp_path / 'bag', 'n')
-    writer._writer._file.close()  # as if the system had
-    writer._writer._file = Path('/dev/full').open('wb')  # noqa: SIM115
-    writer._writer._writer = Writer(writer._writer._file, 100)
+    mcap: Any = writer._writer._file
+    mcap._file.close()  # as if the system had
+    mcap._file = Path('/dev/full').open('wb')  # noqa: SIM115
+    mcap._writer = Writer(mcap._file, 100)
 
     def write_on() -> None:
         for number in count():

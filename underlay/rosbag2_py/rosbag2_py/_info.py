@@ -10,6 +10,7 @@ from rosbag2_py import bag_files
 from rosbag2_py._metadata import BagMetadata
 from rosbag2_py._metadata_io import MetadataIo
 from rosbag2_py.errors import BagError
+from rosbag2_py.storages import storage_of
 
 
 class Info:
@@ -19,10 +20,9 @@ class Info:
         """
         Read the metadata.yaml of a bag, or the files themselves where there is none.
 
-        :raises BagError: there is no bag, or it is not stored as MCAP.
+        :raises BagError: there is no bag, or it is stored in another way.
         """
-        bag_files.check_storage(storage_id)
-        return read_metadata(Path(uri))
+        return read_metadata(Path(uri), storage_id)
 
     def read_metadata_and_output_service_verbose(self, uri: str, storage_id: str, /) -> None:
         raise BagError(
@@ -31,8 +31,10 @@ class Info:
         )
 
 
-def read_metadata(path: Path) -> BagMetadata:
+def read_metadata(path: Path, storage_id: str) -> BagMetadata:
+    if storage_id:
+        storage_of(storage_id)
     metadata_io = MetadataIo()
     if metadata_io.metadata_file_exists(str(path)):
         return metadata_io.read_metadata(str(path))
-    return bag_files.describe(path)
+    return bag_files.describe(path, storage_id)

@@ -15,6 +15,8 @@ from rosbag2_py.errors import BagError
 
 FILE_NAME = 'metadata.yaml'
 _ROOT = 'rosbag2_bagfile_information'
+# What yaml and from_dict raise of a text that is something else.
+_WRONG = (yaml.YAMLError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
 
 
 class MetadataIo:
@@ -34,7 +36,7 @@ class MetadataIo:
             metadata = from_dict(yaml.safe_load(path.read_text(encoding='utf-8'))[_ROOT])
             files = (file for file in path.parent.rglob('*') if file.is_file())
             metadata.bag_size = sum(file.stat().st_size for file in files)
-        except (yaml.YAMLError, OSError, LookupError, TypeError, ValueError) as error:
+        except (*_WRONG, OSError) as error:
             raise BagError(f"'{path}' cannot be read: {_why(error)}") from None
         return metadata
 
@@ -47,7 +49,7 @@ class MetadataIo:
     def deserialize_metadata(self, serialized_metadata: str) -> BagMetadata:
         try:
             return from_dict(yaml.safe_load(serialized_metadata))
-        except (yaml.YAMLError, LookupError, TypeError, ValueError) as error:
+        except _WRONG as error:
             raise BagError(f'no metadata of a bag: {_why(error)}') from None
 
 

@@ -198,15 +198,23 @@ def from_dicts(content: Any) -> list[QoS]:
 
 
 def to_rclcpp_qos_vector(serialized: str, version: int) -> list[QoS]:
-    """Read the qualities of service that an MCAP file or an old metadata.yaml has as a text."""
+    """Read the qualities of service that a file or an old metadata.yaml has as a text."""
     import yaml
 
     del version  # The text shows by itself whether it has numbers or words.
     try:
         return from_dicts(yaml.safe_load(serialized))
-    except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
+    except (yaml.YAMLError, KeyError, TypeError, ValueError, RecursionError) as error:
         why = ' '.join(str(error).split())
         raise BagError(f'no list of qualities of service: {serialized!r}: {why}') from None
+
+
+def profiles_or_none(serialized: str) -> list[QoS]:
+    """Read what a file has, or nothing of it: the defaults suit every subscription."""
+    try:
+        return to_rclcpp_qos_vector(serialized, 9)
+    except BagError:
+        return []
 
 
 def convert_rclcpp_qos_to_rclpy_qos(qos: QoS) -> Any:

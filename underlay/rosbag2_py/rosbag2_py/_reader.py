@@ -23,7 +23,8 @@ from rosbag2_py._options import (
     StorageOptions,
 )
 from rosbag2_py.errors import BagError
-from rosbag2_py.mcap_file import Key, McapFile, Start, StoredMessage
+from rosbag2_py.storages import STORAGES
+from rosbag2_py.storages.interface import Key, Start, Storage, StoredFile, StoredMessage
 
 _EVENTS = '/_service_event'
 
@@ -32,12 +33,13 @@ class SequentialReader:
     """Reads the messages of a bag one after another, file by file."""
 
     def __init__(self) -> None:
+        self._storage: Storage
         self._files: list[Path] = []
         self._metadata = BagMetadata()
         self._filter = StorageFilter()
         self._order = ReadOrder()
         self._sought_ns = 0
-        self._file: McapFile | None = None
+        self._file: StoredFile | None = None
         self._number = 0
         self._close: Callable[[], object] = _nothing
         # The place: a time, and the message of it that was read last.
@@ -53,33 +55,25 @@ class SequentialReader:
         self, storage_options: StorageOptions, converter_options: ConverterOptions, /
     ) -> None:
         """
-        Open a bag, or an MCAP file alone, before its first message.
+        Open a bag, or one of its files alone, before its first message.
 
-        :raises BagError: there is none, or it is not stored as MCAP, or it is damaged.
+        :raises BagError: there is none, or it is stored in another way, or it is damaged.
         """
         check_kind(storage_options, StorageOptions)
         check_kind(converter_options, ConverterOptions)
-        bag_files.check_storage(storage_options.storage_id)
         path = Path(storage_options.uri)
-        files = bag_files.find(path)
-        metadata = read_metadata(path)
+        storage, files = bag_files.find(path, storage_options.storage_id)
+        metadata = read_metadata(path, storage.id)
         _check_formats(metadata, converter_options.output_serialization_format)
-        self._files, self._metadata = files, metadata
+        self._storage, self._files, self._metadata = storage, files, metadata
         self._load(0)
 
     def set_read_order(self, order: ReadOrder, /) -> bool:
         """Choose the order; return whether the storage can read in it."""
         check_kind(order, ReadOrder)
         file = self._opened()
-        if order.sort_by == ReadOrderSortBy.PublishedTimestamp:
-            warn('MCAP files cannot be read in the order in which messages were published')
-            return False
-        by_time = order.sort_by == ReadOrderSortBy.ReceivedTimestamp
-        if order.reverse and not by_time:
-            warn('MCAP files cannot be read backwards but by ReadOrderSortBy.ReceivedTimestamp')
-            return False
-        if by_time and not file.has_index:
-            warn(f"'{file.path}' has no index: it is read in the order in which it was written")
+        if reason := file.why_not(order):
+            warn(reason)
             return False
         if order.sort_by != self._order.sort_by:
             self._key = None  # Places are other ones there.
@@ -123,11 +117,7 @@ class SequentialReader:
 
     def get_all_message_definitions(self) -> list[MessageDefinition]:
         """Return the definitions that the file has which is read now."""
-        schemas = self._opened().summary.schemas.values()
-        return [
-            MessageDefinition(each.name, each.encoding, each.data.decode(errors='replace'), '')
-            for each in schemas
-        ]
+        return self._opened().definitions()
 
     def set_filter(self, storage_filter: StorageFilter, /) -> None:
         """Read some topics only, from the place where the reader is."""
@@ -145,32 +135,31 @@ class SequentialReader:
         """
         Go to the first message of a time or after, or before where the order is reverse.
 
-        As upstream, to the time of the message that was read last goes behind that message.
+        As upstream, to the time of the message that was read last goes behind that message in
+        MCAP files, and before the first of that time in others.
         """
         file = self._opened()
         timestamp = self._sought_ns = nanoseconds_of(timestamp)
         while True:
-            start_ns = file.statistics.message_start_time
-            end_ns = file.statistics.message_end_time
-            if timestamp < start_ns and self._number > 0:
+            if self._number > 0 and timestamp < file.contents.span.start_ns:
                 file = self._load(self._number - 1)
-            elif timestamp > end_ns and self._number + 1 < len(self._files):
+            elif self._number + 1 < len(self._files) and timestamp > file.contents.span.end_ns:
                 file = self._load(self._number + 1)
             else:
                 break
-        if timestamp != self._time_ns or not self._is_by_time:
+        if not (file.seek_goes_on and self._is_by_time and timestamp == self._time_ns):
             self._key = None
         self._time_ns = timestamp
         self._restart()
 
-    def _opened(self) -> McapFile:
+    def _opened(self) -> StoredFile:
         if self._file is None:
             raise BagError('The bag is not open: call open() first')
         return self._file
 
-    def _load(self, number: int) -> McapFile:
+    def _load(self, number: int) -> StoredFile:
         """Open a file of the bag in place of the one before."""
-        file = McapFile(self._files[number])
+        file = self._storage.read(self._files[number])
         self._close()
         self._file, self._number = file, number
         self._close = weakref.finalize(self, file.close)
@@ -198,7 +187,7 @@ def _nothing() -> None:
 
 
 def get_registered_readers() -> set[str]:
-    return {'mcap'}
+    return set(STORAGES)
 
 
 def wanted(storage_filter: StorageFilter) -> Callable[[str], bool]:

@@ -19,11 +19,11 @@ class Reindexer:
         """
         Write the metadata.yaml of a folder.
 
-        :raises BagError: it has no MCAP files, or one of them is damaged.
+        :raises BagError: it has no files of a bag, or one of them is damaged.
         """
-        bag_files.check_storage(storage_options.storage_id)
         folder = Path(storage_options.uri)
         if not folder.is_dir():
             raise BagError(f"'{folder}' is no folder of a bag")
         (folder / FILE_NAME).unlink(missing_ok=True)
-        MetadataIo().write_metadata(str(folder), bag_files.describe(folder))
+        bag = bag_files.describe(folder, storage_options.storage_id)
+        MetadataIo().write_metadata(str(folder), bag)

@@ -27,6 +27,7 @@ from rosbag2_py._qos import (
     rmw_qos_reliability_policy_t,
     to_rclcpp_qos_vector,
 )
+from rosbag2_py.storages import DEFAULT_ID
 
 __all__ = [
     'BagMetadata',
@@ -53,4 +54,4 @@ __all__ = [
 
 
 def get_default_storage_id() -> str:
-    return 'mcap'
+    return DEFAULT_ID

@@ -16,11 +16,11 @@ from rosbag2_py._message_definitions import empty, LocalMessageDefinitionSource
 from rosbag2_py._metadata import TopicMetadata
 from rosbag2_py._options import ConverterOptions, StorageOptions
 from rosbag2_py._writing_thread import WritingThread
-from rosbag2_py.bag_files import check_storage
-from rosbag2_py.bag_writer import BagWriter, COMPRESSIONS, Limits
+from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.errors import BagError
+from rosbag2_py.storages import DEFAULT_ID, storage_of, STORAGES
+from rosbag2_py.storages.interface import Storage
 
-_SMALLEST_FILE = 1024
 _EVENT = '_Event'
 
 
@@ -49,10 +49,12 @@ class SequentialWriter:
         with self._lock:
             if self._close is not None:
                 return
-            _check(storage_options, converter_options)
+            storage = storage_of(storage_options.storage_id or DEFAULT_ID)
+            _check(storage, storage_options, converter_options)
             self._options = copy.copy(storage_options)
             self._writer = BagWriter(
                 Path(storage_options.uri),
+                storage,
                 preset=storage_options.storage_preset_profile or 'none',
                 limits=Limits(
                     storage_options.max_bagfile_size, storage_options.max_bagfile_duration
@@ -155,7 +157,7 @@ class SequentialWriter:
 
 
 def get_registered_writers() -> set[str]:
-    return {'mcap'}
+    return set(STORAGES)
 
 
 def get_registered_compressors() -> set[str]:
@@ -168,27 +170,26 @@ def get_registered_serializers() -> set[str]:
     return set()
 
 
-def _check(storage: StorageOptions, converter: ConverterOptions) -> None:
-    check_storage(storage.storage_id)
-    if storage.storage_preset_profile not in ('', *COMPRESSIONS):
+def _check(storage: Storage, options: StorageOptions, converter: ConverterOptions) -> None:
+    if options.storage_preset_profile not in ('', *storage.presets):
         raise BagError(
-            f"storage_preset_profile='{storage.storage_preset_profile}': it is one of "
-            f'{", ".join(COMPRESSIONS)}'
+            f"storage_preset_profile='{options.storage_preset_profile}': for {storage.id} it is "
+            f'one of {", ".join(storage.presets)}'
         )
-    if storage.storage_config_uri:
+    if options.storage_config_uri:
         raise BagError(
-            f"storage_config_uri='{storage.storage_config_uri}': files of settings are not read "
+            f"storage_config_uri='{options.storage_config_uri}': files of settings are not read "
             'here; use storage_preset_profile'
         )
-    if storage.snapshot_mode:
+    if options.snapshot_mode:
         raise BagError(
             'snapshot_mode=True is not offered here: keep the last messages in a '
             'collections.deque and write them when they are wanted'
         )
-    if 0 < storage.max_bagfile_size < _SMALLEST_FILE:
+    if 0 < options.max_bagfile_size < storage.smallest_file_bytes:
         raise BagError(
-            f'max_bagfile_size={storage.max_bagfile_size}: it is {_SMALLEST_FILE} bytes at least, '
-            'or 0 for no limit'
+            f'max_bagfile_size={options.max_bagfile_size}: it is {storage.smallest_file_bytes} '
+            f'bytes at least for {storage.id}, or 0 for no limit'
         )
     given, kept = converter.input_serialization_format, converter.output_serialization_format
     if given != kept:

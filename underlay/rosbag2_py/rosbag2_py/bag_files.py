@@ -4,127 +4,148 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
-from rosbag2_py import _qos
-from rosbag2_py._metadata import BagMetadata, FileInformation, TopicInformation, TopicMetadata
-from rosbag2_py._metadata_io import FILE_NAME, MetadataIo, Nanoseconds
+from rosbag2_py._metadata import BagMetadata, FileInformation, TopicInformation, VERSION
+from rosbag2_py._metadata_io import FILE_NAME, MetadataIo
 from rosbag2_py.errors import BagError
-from rosbag2_py.mcap_file import McapFile
+from rosbag2_py.storages import DEFAULT_ID, storage_of, STORAGES
+from rosbag2_py.storages.interface import Contents, Span, Storage
+
+_FIRST_WITH_NAMES_INSIDE = 4
+"""Older versions of metadata.yaml name the files from the folder above that of the bag."""
 
 
-def find(path: Path) -> list[Path]:
+class Files(NamedTuple):
+    """The files of a bag in their order, and how they are stored."""
+
+    storage: Storage
+    paths: list[Path]
+
+
+def find(path: Path, storage_id: str = '') -> Files:
     """
-    List the MCAP files of a bag, given as its folder or as one file.
+    List the files of a bag, given as its folder or as one file.
 
-    :raises BagError: there is no bag, or it is stored in another format.
+    :param storage_id: how it is stored, or '' to find that out.
+    :raises BagError: there is no bag, or it is stored in another way.
     """
+    asked = storage_of(storage_id) if storage_id else None
     if path.is_file():
-        return [path]
+        return Files(asked or _storage_of_file(path), [path])
     if not path.is_dir():
         raise BagError(f"Bag path '{path}' does not exist!")
-    named: list[str] = []
-    if (path / FILE_NAME).is_file():
-        named = MetadataIo().read_metadata(str(path)).relative_file_paths
-    # behind file 9 comes file 10
-    found = sorted(path.glob('*.mcap'), key=lambda file: (len(file.name), file.name))
-    files = [path / name for name in named] or found
-    if not files:
-        others = sorted(path.glob('*.db3'))
-        reason = 'it is stored as sqlite3, which needs a full ROS 2' if others else 'it has none'
-        raise BagError(f"'{path}' holds no MCAP file: {reason}")
-    for file in files:
-        if file.suffixes[-2:] == ['.mcap', '.zstd']:
+    list_files = _named if (path / FILE_NAME).is_file() else _lying_about
+    files = list_files(path, asked)
+    for file in files.paths:
+        if file.suffix == '.zstd':
             raise BagError(
                 f"'{file}' is compressed as a whole, which is not read here: call `zstd -d` on it "
                 f'and remove {path / FILE_NAME}'
             )
-        if file.suffix != '.mcap':
-            raise BagError(f"'{file}' is no MCAP file; other storages need a full ROS 2")
         if not file.is_file():
-            raise BagError(f"'{file}', named in {path / FILE_NAME}, does not exist")
+            what = 'is no file' if file.exists() else 'does not exist'
+            raise BagError(f"'{file}', named in {path / FILE_NAME}, {what}")
     return files
 
 
-def check_storage(storage_id: str) -> None:
-    """
-    Take 'mcap', and '' for the same.
-
-    :raises BagError: it is another one.
-    """
-    if storage_id not in ('', 'mcap'):
-        raise BagError(
-            f"storage_id='{storage_id}': bags are stored as 'mcap' here, other storages need "
-            "a full ROS 2; write storage_id='mcap'"
-        )
-
-
-def describe(path: Path) -> BagMetadata:
+def describe(path: Path, storage_id: str = '') -> BagMetadata:
     """
     Tell what a bag holds from its files alone, whatever its metadata.yaml says.
 
-    :raises BagError: there is no bag, or a file of it is no MCAP file.
+    :raises BagError: there is no bag, or a file of it is damaged or stored in another way.
     """
-    names = find(path)
-    files = []
-    for name in names:
-        with McapFile(name) as file:
-            files.append(file)
-    bag = _told(files[-1])
-    inside = [str(name.relative_to(path)) if path.is_dir() else str(name) for name in names]
-    bag.storage_identifier = 'mcap'
-    bag.bag_size = sum(name.stat().st_size for name in names)
-    bag.relative_file_paths = inside
-    bag.files = [_file(file, name) for file, name in zip(files, inside, strict=True)]
-    bag.topics_with_message_count = _topics(files)
-    bag.message_count = sum(file.statistics.message_count for file in files)
-    filled = [file.statistics for file in files if file.statistics.message_count]
-    start = min((each.message_start_time for each in filled), default=0)
-    end = max((each.message_end_time for each in filled), default=0)
-    bag.starting_time, bag.duration = Nanoseconds(start), Nanoseconds(end - start)
+    storage, paths = find(path, storage_id)
+    contents = []
+    for each in paths:
+        with storage.read(each) as file:
+            contents.append(file.contents)
+    bag, names = contents[-1].told, [_inside(each, path) for each in paths]
+    bag.version = VERSION
+    bag.storage_identifier = storage.id
+    bag.bag_size = sum(each.stat().st_size for each in paths)
+    bag.relative_file_paths = names
+    bag.files = [
+        FileInformation(name, span.start, span.duration, span.count)
+        for name, (_, span, _) in zip(names, contents, strict=True)
+    ]
+    bag.topics_with_message_count = _topics(contents)
+    whole = Span()
+    for _, span, _ in contents:
+        whole.extend(span)
+    bag.message_count = whole.count
+    bag.starting_time, bag.duration = whole.start, whole.duration
     return bag
 
 
-def _told(file: McapFile) -> BagMetadata:
-    """Return what only who recorded the file knew."""
-    told = file.rosbag2_record
-    bag = BagMetadata()
-    with suppress(KeyError, BagError):  # All but custom_data is in the file itself.
-        bag = MetadataIo().deserialize_metadata(told['serialized_metadata'])
-    bag.ros_distro = told.get('ROS_DISTRO', bag.ros_distro)
-    return bag
-
-
-def _file(file: McapFile, name: str) -> FileInformation:
-    of = file.statistics
-    start, duration = of.message_start_time, of.message_end_time - of.message_start_time
-    return FileInformation(name, Nanoseconds(start), Nanoseconds(duration), of.message_count)
-
-
-def _topics(files: Sequence[McapFile]) -> list[TopicInformation]:
-    found: dict[str, TopicInformation] = {}
-    for file in files:
-        for channel in file.summary.channels.values():
-            if channel.topic not in found:
-                schema = file.summary.schemas.get(channel.schema_id)
-                topic = TopicMetadata(
-                    channel.id,
-                    channel.topic,
-                    schema.name if schema else '',
-                    channel.message_encoding,
-                    _profiles(channel.metadata.get('offered_qos_profiles', '')),
-                    channel.metadata.get('topic_type_hash', ''),
-                )
-                found[channel.topic] = TopicInformation(topic, 0)
-            count = file.statistics.channel_message_counts.get(channel.id, 0)
-            found[channel.topic].message_count += count
-    return [found[name] for name in sorted(found)]
-
-
-def _profiles(text: str) -> list[_qos.QoS]:
+def _storage_of_file(path: Path) -> Storage:
+    """Tell it by the first bytes, or by the name where they tell nothing."""
     try:
-        return _qos.to_rclcpp_qos_vector(text, 9)
-    except BagError:
-        return []  # The defaults suit every subscription.
+        with path.open('rb') as file:
+            head = file.read(max(len(each.magic) for each in STORAGES.values()))
+    except OSError as error:
+        raise BagError(f"'{path}' cannot be read: {error.strerror}") from None
+    for each in STORAGES.values():
+        if head.startswith(each.magic):
+            return each
+    by_suffix = {each.suffix: each for each in STORAGES.values()}
+    return by_suffix.get(path.suffix, STORAGES[DEFAULT_ID])
+
+
+def _named(folder: Path, asked: Storage | None) -> Files:
+    """Return what metadata.yaml names."""
+    metadata = MetadataIo().read_metadata(str(folder))
+    storage = storage_of(metadata.storage_identifier)
+    if asked not in (None, storage):
+        raise BagError(
+            f"'{folder}' is stored as {storage.id}: write storage_id='{storage.id}', or '' to "
+            'have it found out'
+        )
+    base = folder
+    if metadata.version < _FIRST_WITH_NAMES_INSIDE:
+        base = folder.parent if folder.name not in ('', '..') else folder.resolve().parent
+    paths = [base / name for name in metadata.relative_file_paths]
+    return Files(storage, paths) if paths else _lying_about(folder, storage)
+
+
+def _lying_about(folder: Path, asked: Storage | None) -> Files:
+    """Return what is in a folder without a metadata.yaml that names it."""
+    found = {}
+    for storage in STORAGES.values():
+        # behind file 9 comes file 10
+        paths = sorted(
+            folder.glob(f'*{storage.suffix}'), key=lambda file: (len(file.name), file.name)
+        )
+        if paths:
+            found[storage.id] = Files(storage, paths)
+    if asked and asked.id in found:
+        return found[asked.id]
+    suffixes = ' or '.join(each.suffix for each in ([asked] if asked else STORAGES.values()))
+    if asked or not found:
+        others = ', '.join(found)
+        reason = f": its files are stored as {others}, write storage_id='{others}'" * bool(others)
+        raise BagError(f"'{folder}' holds no file of a bag that ends with {suffixes}{reason}")
+    if len(found) > 1:
+        raise BagError(
+            f"'{folder}' holds files that are stored as {' and as '.join(found)}, and no "
+            f'{FILE_NAME} that says which are the bag: name one of them'
+        )
+    return next(iter(found.values()))
+
+
+def _inside(file: Path, bag: Path) -> str:
+    return str(file.relative_to(bag)) if file.is_relative_to(bag) and file != bag else str(file)
+
+
+def _topics(contents: Iterable[Contents]) -> list[TopicInformation]:
+    """Return the topics of all files by their names, each with all its messages."""
+    found: dict[str, TopicInformation] = {}
+    for topics, _, _ in contents:
+        for each in topics:
+            if each.topic_metadata.name in found:
+                found[each.topic_metadata.name].message_count += each.message_count
+            else:
+                found[each.topic_metadata.name] = each
+    return [found[name] for name in sorted(found)]

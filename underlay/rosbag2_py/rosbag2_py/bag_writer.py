@@ -7,8 +7,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from mcap.writer import CompressionType, Writer
-
 from rosbag2_py import _qos
 from rosbag2_py._message_definitions import LocalMessageDefinitionSource
 from rosbag2_py._metadata import (
@@ -18,19 +16,12 @@ from rosbag2_py._metadata import (
     TopicInformation,
     TopicMetadata,
 )
-from rosbag2_py._metadata_io import dump, MetadataIo, Nanoseconds
+from rosbag2_py._metadata_io import MetadataIo
 from rosbag2_py.errors import BagError
+from rosbag2_py.storages.interface import ROS_DISTRO, Span, Storage
 
-ROS_DISTRO = 'jazzy'
 # What rosbag2 writes for a duration without end.
 _FOREVER = {'sec': 9223372036, 'nsec': 854775807}
-COMPRESSIONS = {
-    'none': CompressionType.NONE,
-    'fastwrite': CompressionType.NONE,
-    'zstd_fast': CompressionType.ZSTD,
-    'zstd_small': CompressionType.ZSTD,
-}
-"""The preset profiles of the storage."""
 
 
 @dataclass
@@ -45,30 +36,7 @@ class Limits:
 class _Topic:
     metadata: TopicMetadata
     definition: MessageDefinition
-    channel: int = 0
     count: int = 0
-
-
-@dataclass
-class _Span:
-    """The times of some messages, and how many they are."""
-
-    start_ns: int = 0
-    end_ns: int = 0
-    count: int = 0
-
-    def add(self, time_ns: int) -> None:
-        self.start_ns = min(self.start_ns, time_ns) if self.count else time_ns
-        self.end_ns = max(self.end_ns, time_ns)
-        self.count += 1
-
-    @property
-    def start(self) -> Nanoseconds:
-        return Nanoseconds(self.start_ns)
-
-    @property
-    def duration(self) -> Nanoseconds:
-        return Nanoseconds(self.end_ns - self.start_ns)
 
 
 def offered_qos(*, reliable: bool, transient_local: bool) -> _qos.QoS:
@@ -102,6 +70,7 @@ class BagWriter:
     def __init__(
         self,
         folder: Path,
+        storage: Storage,
         *,
         preset: str = 'none',
         limits: Limits | None = None,
@@ -117,12 +86,14 @@ class BagWriter:
         except OSError as error:
             raise BagError(f"'{folder}' cannot be made: {error.strerror}") from None
         self.folder = folder
+        self._storage = storage
         self._preset = preset
         self._limits = limits or Limits()
         self._custom_data = custom_data or {}
+        self._is_closed = False
         self._topics: dict[str, _Topic] = {}
-        self._all = _Span()
-        self._files: list[tuple[str, _Span]] = []
+        self._all = Span()
+        self._files: list[tuple[str, Span]] = []
         self._begin_file()
 
     def __enter__(self) -> BagWriter:
@@ -146,41 +117,42 @@ class BagWriter:
         if definition is None:
             definition = LocalMessageDefinitionSource().get_full_text(metadata.type)
         self._topics[metadata.name] = _Topic(metadata, definition)
-        self._register(self._topics[metadata.name])
+        self._file.add_topic(metadata, definition)
 
     def remove_topic(self, name: str) -> None:
-        """Leave a topic out of metadata.yaml; what was written stays in the file."""
+        """Leave a topic out of metadata.yaml, and of the files as far as the storage can."""
         del self._topics[name]
+        self._file.remove_topic(name)
 
     def write(self, topic_name: str, data: bytes, received_ns: int, published_ns: int) -> None:
         topic = self._topics[topic_name]
         if self._is_full(received_ns):
             self.split()
-        self._writer.add_message(topic.channel, received_ns, data, published_ns, topic.count)
+        self._file.write(topic_name, data, received_ns, published_ns, topic.count)
         topic.count += 1
         self._all.add(received_ns)
         self._files[-1][1].add(received_ns)
 
     def flush(self) -> None:
-        """Give all chunks that are full to the operating system."""
-        if not self._file.closed:
-            self._file.flush()
+        """Let other programs read what was written, as far as that is cheap."""
+        self._file.flush()
 
     def split(self) -> None:
         """Begin a new file."""
-        self._finish_file()
+        self._file.finish(self._metadata())
         self._begin_file()
 
     def close(self) -> None:
         """Finish the files; may be called twice."""
-        if self._file.closed:
+        if self._is_closed:
             return
-        self._finish_file()
+        self._is_closed = True
+        self._file.finish(self._metadata())
         MetadataIo().write_metadata(str(self.folder), self._metadata())
 
     def _is_full(self, time_ns: int) -> bool:
         span, limits = self._files[-1][1], self._limits
-        if limits.file_bytes and self._file.tell() >= limits.file_bytes:
+        if limits.file_bytes and self._file.size >= limits.file_bytes:
             return True
         return bool(
             limits.file_sec
@@ -189,42 +161,17 @@ class BagWriter:
         )
 
     def _begin_file(self) -> None:
-        name = f'{self.folder.name or self.folder.resolve().name}_{len(self._files)}.mcap'
-        self._files.append((name, _Span()))
-        self._file = (self.folder / name).open('wb')
-        self._writer = Writer(self._file, compression=COMPRESSIONS[self._preset])
-        self._writer.start(profile='ros2', library='husky playpen lab rosbag2_py')
-        self._schemas: dict[str, int] = {}
+        stem = f'{self.folder.name or self.folder.resolve().name}_{len(self._files)}'
+        name = f'{stem}{self._storage.suffix}'
+        self._files.append((name, Span()))
+        self._file = self._storage.write(self.folder / name, self._preset)
         for topic in self._topics.values():
-            self._register(topic)
-
-    def _register(self, topic: _Topic) -> None:
-        metadata, definition = topic.metadata, topic.definition
-        if metadata.type not in self._schemas:
-            text = definition.encoded_message_definition.encode()
-            schema = self._writer.register_schema(metadata.type, definition.encoding, text)
-            self._schemas[metadata.type] = schema
-        topic.channel = self._writer.register_channel(
-            metadata.name,
-            metadata.serialization_format,
-            self._schemas[metadata.type],
-            {
-                'offered_qos_profiles': dump(_qos.to_dicts(metadata.offered_qos_profiles)),
-                'topic_type_hash': metadata.type_description_hash,
-            },
-        )
-
-    def _finish_file(self) -> None:
-        told = MetadataIo().serialize_metadata(self._metadata())
-        record = {'ROS_DISTRO': ROS_DISTRO, 'serialized_metadata': told}
-        with self._file:
-            self._writer.add_metadata('rosbag2', record)
-            self._writer.finish()
+            self._file.add_topic(topic.metadata, topic.definition)
 
     def _metadata(self) -> BagMetadata:
         topics = self._topics.values()
         return BagMetadata(
-            storage_identifier='mcap',
+            storage_identifier=self._storage.id,
             relative_file_paths=[name for name, _ in self._files],
             files=[
                 FileInformation(name, span.start, span.duration, span.count)

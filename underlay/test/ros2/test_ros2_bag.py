@@ -184,7 +184,7 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
         (('record', '-a', '-o', '.'), 1, 'already exists'),
         (('info', 'nothing'), 1, "Bag path 'nothing' does not exist!"),
         (('info', 'broken.mcap'), 1, 'cannot be read as MCAP'),
-        (('info', '.'), 1, 'holds no MCAP file'),
+        (('info', '.'), 1, 'holds no file of a bag that ends with .mcap'),
         (('play', 'broken.mcap'), 1, 'cannot be read as MCAP'),
         (('play', 'x', '-r', '-1'), 2, 'must be a number above 0'),
     ],

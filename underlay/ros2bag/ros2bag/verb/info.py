@@ -10,6 +10,7 @@ from typing import Any
 from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 from rosbag2_py import bag_files
+from rosbag2_py.storages import STORAGES
 
 from ros2bag.refusals import refused_in_one_line
 
@@ -29,9 +30,9 @@ class InfoVerb(VerbExtension):
         parser.add_argument(
             '-s',
             '--storage',
-            choices=['mcap'],
-            default='mcap',
-            help='Storage implementation of bag.',
+            choices=sorted(STORAGES),
+            default='',
+            help='Storage implementation of bag (default: found out from its files)',
         )
         parser.add_argument(
             '--sort',
@@ -42,7 +43,7 @@ class InfoVerb(VerbExtension):
 
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
-        bag = bag_files.describe(args.bag_path)
+        bag = bag_files.describe(args.bag_path, args.storage)
         topics = sorted(bag.topics_with_message_count, key=_KEYS[args.sort])
         if args.topic_name:
             for topic in topics:

@@ -16,6 +16,7 @@ from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 import rosbag2_py
 from rosbag2_py import bag_files
+from rosbag2_py.storages import STORAGES
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 from rtps_graph.graph import Role
@@ -34,9 +35,9 @@ class PlayVerb(VerbExtension):
         parser.add_argument(
             '-s',
             '--storage',
-            choices=['mcap'],
-            default='mcap',
-            help='Storage implementation of bag.',
+            choices=sorted(STORAGES),
+            default='',
+            help='Storage implementation of bag (default: found out from its files)',
         )
         parser.add_argument(
             '-r',
@@ -81,7 +82,7 @@ class PlayVerb(VerbExtension):
 
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
-        bag = bag_files.describe(args.bag_path)
+        bag = bag_files.describe(args.bag_path, args.storage)
         chosen = _chosen(bag, args.topics)
         remaps = _remaps(args.remap)
         with command_node(args, name='rosbag2_player') as node:
@@ -113,7 +114,7 @@ def _play(
     start = time.monotonic()
     tick_sec = 1.0 / args.clock if args.clock else None
     next_tick = 0.0
-    for topic, data, time_ns in _messages(args.bag_path, list(publishers)):
+    for topic, data, time_ns in _messages(args, list(publishers)):
         if time_ns < first_ns:
             continue
         due = (time_ns - first_ns) * 1e-9 / args.rate
@@ -128,9 +129,10 @@ def _play(
         publishers[topic].publish(data)
 
 
-def _messages(path: Path, topics: list[str]) -> Iterator[tuple[str, bytes, int]]:
+def _messages(args: argparse.Namespace, topics: list[str]) -> Iterator[tuple[str, bytes, int]]:
     reader = rosbag2_py.SequentialReader()
-    reader.open_uri(str(path))
+    options = rosbag2_py.StorageOptions(str(args.bag_path), args.storage)
+    reader.open(options, rosbag2_py.ConverterOptions())
     reader.set_filter(rosbag2_py.StorageFilter(topics=topics, services_events=topics))
     while reader.has_next():
         yield reader.read_next()

@@ -16,7 +16,8 @@ from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 from rosbag2_py import TopicMetadata
-from rosbag2_py.bag_writer import BagWriter, COMPRESSIONS, offered_qos
+from rosbag2_py.bag_writer import BagWriter, offered_qos
+from rosbag2_py.storages import DEFAULT_ID, STORAGES
 from rtps_graph import names
 from rtps_graph.graph import Endpoint, Graph, Role
 
@@ -70,15 +71,15 @@ class RecordVerb(VerbExtension):
         parser.add_argument(
             '-s',
             '--storage',
-            default='mcap',
-            choices=['mcap'],
-            help='Storage identifier to be used.',
+            default=DEFAULT_ID,
+            choices=sorted(STORAGES),
+            help="Storage identifier to be used, defaults to '%(default)s'.",
         )
         parser.add_argument(
             '--storage-preset-profile',
             default='none',
-            choices=sorted(COMPRESSIONS),
-            help='Select a preset of the storage (compression).',
+            choices=sorted({name for each in STORAGES.values() for name in each.presets}),
+            help=f'Select a preset of the storage ({_presets()}).',
         )
         parser.add_argument(
             '--use-sim-time',
@@ -94,9 +95,15 @@ class RecordVerb(VerbExtension):
             raise UsageError(
                 'Need to specify one option out of --all, --all-topics, --topics, --regex'
             )
+        storage = STORAGES[args.storage]
+        if args.storage_preset_profile not in storage.presets:
+            raise UsageError(
+                f"--storage-preset-profile '{args.storage_preset_profile}' is none of "
+                f'{storage.id}, which has {", ".join(storage.presets)}'
+            )
         folder = args.output or Path(time.strftime('rosbag2_%Y_%m_%d-%H_%M_%S'))
         with (
-            BagWriter(folder, preset=args.storage_preset_profile) as writer,
+            BagWriter(folder, storage, preset=args.storage_preset_profile) as writer,
             # Interrupted while it is written or closed, a bag would not be whole.
             command_node(args, name='rosbag2_recorder', may_spin_when_interrupted=True) as node,
         ):
@@ -111,11 +118,16 @@ class RecordVerb(VerbExtension):
             try:
                 while True:
                     node.spin_until(lambda: False, _POLL_SEC)
+                    writer.flush()
                     if not args.no_discovery:
                         recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
             except KeyboardInterrupt:
                 writer.close()
                 log.info(f"Recording stopped: {writer.message_count} messages in '{folder}'")
+
+
+def _presets() -> str:
+    return '; '.join(f'{each.id}: {", ".join(each.presets)}' for each in STORAGES.values())
 
 
 def _end_with_the_terminal() -> None:

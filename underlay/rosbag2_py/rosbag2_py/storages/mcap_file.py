@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 import heapq
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -26,49 +27,29 @@ from mcap.records import (
 from mcap.stream_reader import breakup_chunk, StreamReader
 from mcap.summary import Summary
 
+from rosbag2_py import _qos
+from rosbag2_py._metadata import BagMetadata, MessageDefinition, TopicInformation, TopicMetadata
+from rosbag2_py._metadata_io import MetadataIo
 from rosbag2_py._options import ReadOrder, ReadOrderSortBy
 from rosbag2_py.errors import BagError
+from rosbag2_py.storages.interface import Contents, Key, Span, Start, StoredFile, StoredMessage
 
 _RECORD_HEAD = 9
 _CHUNK_HEAD = 40
 _FIRST = float('-inf')
 
-Key = tuple[int, ...]
 
-
-class StoredMessage(NamedTuple):
-    """A message, with its time in nanoseconds and its place in the order of reading."""
-
-    key: Key
-    topic: str
-    data: bytes
-    time_ns: int
-
-
-class Start(NamedTuple):
-    """From where to read on: a time, or what comes behind a message of a certain place."""
-
-    time_ns: int
-    after: Key | None = None
-
-
-class _Contents(NamedTuple):
+class _Records(NamedTuple):
     summary: Summary
     statistics: Statistics
     rosbag2_record: dict[str, str]
     is_whole: bool
 
 
-class McapFile:
-    """
-    A file that is read; close it, or use it as a context manager.
+class McapFile(StoredFile):
+    """A file whose contents are counted from itself where its end is missing."""
 
-    :ivar summary: what it holds; counted from the file itself where its end is missing.
-    :ivar statistics: how much of it.
-    :ivar rosbag2_record: what rosbag2 says of the bag in it.
-    :ivar is_whole: whether its recording was ended as it should.
-    :raises BagError: it is no MCAP file, or is damaged.
-    """
+    seek_goes_on = True
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -77,37 +58,69 @@ class McapFile:
         except OSError as error:
             raise BagError(f"'{path}' cannot be read: {error.strerror}") from None
         try:
-            contents = self._read_contents()
+            records = self._read_records()
         except BaseException:
             self._stream.close()
             raise
-        self.summary, self.statistics, self.rosbag2_record, self.is_whole = contents
-
-    def __enter__(self) -> McapFile:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
+        self._summary, self._statistics, self._rosbag2_record, self.is_whole = records
+        # Messages can be read by time where their chunks are known.
+        self.has_index = bool(self._summary.chunk_indexes or not self._statistics.message_count)
 
     def close(self) -> None:
         self._stream.close()
 
     @property
-    def has_index(self) -> bool:
-        """Whether messages can be read in the order of their times."""
-        return bool(self.summary.chunk_indexes) or not self.statistics.message_count
+    def contents(self) -> Contents:
+        of = self._statistics
+        span = Span(of.message_start_time, of.message_end_time, of.message_count)
+        return Contents(self._topics(), span, self._told())
+
+    def definitions(self) -> list[MessageDefinition]:
+        return [
+            MessageDefinition(each.name, each.encoding, each.data.decode(errors='replace'), '')
+            for each in self._summary.schemas.values()
+        ]
+
+    def why_not(self, order: ReadOrder) -> str:
+        if order.sort_by == ReadOrderSortBy.PublishedTimestamp:
+            return 'MCAP files cannot be read in the order in which messages were published'
+        by_time = order.sort_by == ReadOrderSortBy.ReceivedTimestamp
+        if order.reverse and not by_time:
+            return 'MCAP files cannot be read backwards but by ReadOrderSortBy.ReceivedTimestamp'
+        if by_time and not self.has_index:
+            return f"'{self.path}' has no index: it is read in the order in which it was written"
+        return ''
+
+    def _topics(self) -> list[TopicInformation]:
+        counts = self._statistics.channel_message_counts
+        found = []
+        for channel in self._summary.channels.values():
+            schema = self._summary.schemas.get(channel.schema_id)
+            topic = TopicMetadata(
+                channel.id,
+                channel.topic,
+                schema.name if schema else '',
+                channel.message_encoding,
+                _qos.profiles_or_none(channel.metadata.get('offered_qos_profiles', '')),
+                channel.metadata.get('topic_type_hash', ''),
+            )
+            found.append(TopicInformation(topic, counts.get(channel.id, 0)))
+        return found
+
+    def _told(self) -> BagMetadata:
+        told = self._rosbag2_record
+        bag = BagMetadata()
+        with suppress(KeyError, BagError):
+            bag = MetadataIo().deserialize_metadata(told['serialized_metadata'])
+        bag.ros_distro = told.get('ROS_DISTRO', bag.ros_distro)
+        return bag
 
     def messages(
         self, start: Start, order: ReadOrder, wanted: Callable[[str], bool]
     ) -> Iterator[StoredMessage]:
-        """
-        Yield messages of the topics that are wanted.
-
-        :raises BagError: the file is damaged.
-        """
-        topics = {n: c.topic for n, c in self.summary.channels.items() if wanted(c.topic)}
+        topics = {n: c.topic for n, c in self._summary.channels.items() if wanted(c.topic)}
         try:
-            if not self.summary.chunk_indexes:
+            if not self._summary.chunk_indexes:
                 yield from self._unindexed(start, topics)
             elif order.sort_by == ReadOrderSortBy.File:
                 yield from self._in_file_order(start, topics)
@@ -152,7 +165,7 @@ class McapFile:
                     yield _stored(key, record, topics)
 
     def _chunks(self, topics: dict[int, str]) -> Iterator[ChunkIndex]:
-        for chunk in self.summary.chunk_indexes:
+        for chunk in self._summary.chunk_indexes:
             channels = chunk.message_index_offsets
             if not channels or not topics.keys().isdisjoint(channels):
                 yield chunk
@@ -174,7 +187,7 @@ class McapFile:
         except EndOfFile:
             return
 
-    def _read_contents(self) -> _Contents:
+    def _read_records(self) -> _Records:
         try:
             reader = make_reader(self._stream)
         except Exception as error:  # as above
@@ -184,7 +197,7 @@ class McapFile:
             statistics = summary.statistics if summary else None
             if summary and statistics and len(summary.channels) == statistics.channel_count:
                 told = [each.metadata for each in reader.iter_metadata() if each.name == 'rosbag2']
-                return _Contents(summary, statistics, told[-1] if told else {}, True)
+                return _Records(summary, statistics, told[-1] if told else {}, True)
         except Exception:  # noqa: S110
             pass  # It has no end, or a damaged one; the rest may be whole.
         try:
@@ -192,7 +205,7 @@ class McapFile:
         except Exception as error:  # as above
             raise _unreadable(self.path, error) from None
 
-    def _scan(self) -> _Contents:
+    def _scan(self) -> _Records:
         """Tell the contents from what the file has, up to where it ends."""
         summary, told = Summary(), {}
         seen: list[int] = []
@@ -226,7 +239,7 @@ class McapFile:
             message_end_time=last,
             schema_count=len(summary.schemas),
         )
-        return _Contents(summary, statistics, told, is_whole=False)
+        return _Records(summary, statistics, told, is_whole=False)
 
 
 def _stored(key: Key, message: Message, topics: dict[int, str]) -> StoredMessage:
