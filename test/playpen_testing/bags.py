@@ -22,17 +22,19 @@ import yaml
 READ = tuple[str, bytes, int]
 
 
-def opened_writer(folder: Path, *topics: str, **options: Any) -> SequentialWriter:
+def opened_writer(
+    folder: Path, *topics: str, storage_id: str = 'mcap', **options: Any
+) -> SequentialWriter:
     writer = SequentialWriter()
-    writer.open(StorageOptions(str(folder), 'mcap', **options), ConverterOptions('', ''))
+    writer.open(StorageOptions(str(folder), storage_id, **options), ConverterOptions('', ''))
     for topic in topics:
         writer.create_topic(TopicMetadata(0, topic, 'std_msgs/msg/String', 'cdr'))
     return writer
 
 
-def opened_reader(path: Path) -> SequentialReader:
+def opened_reader(path: Path, storage_id: str = '') -> SequentialReader:
     reader = SequentialReader()
-    reader.open(StorageOptions(uri=str(path), storage_id='mcap'), ConverterOptions('', ''))
+    reader.open(StorageOptions(uri=str(path), storage_id=storage_id), ConverterOptions('', ''))
     return reader
 
 

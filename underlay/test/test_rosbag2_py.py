@@ -52,7 +52,8 @@ def test_each_name_is_there_or_says_what_to_use() -> None:
     assert set(rosbag2_py.__all__) <= set(UPSTREAM.split())
     assert rosbag2_py._storage.StorageOptions is StorageOptions
     assert importlib.import_module('rosbag2_py._writer').SequentialWriter is SequentialWriter
-    assert rosbag2_py.get_registered_readers() == rosbag2_py.get_registered_writers() == {'mcap'}
+    storages = {'mcap', 'sqlite3'}
+    assert rosbag2_py.get_registered_readers() == rosbag2_py.get_registered_writers() == storages
     assert rosbag2_py.get_registered_compressors() == set()
     assert rosbag2_py.get_registered_serializers() == set()
     with pytest.raises(AttributeError, match='SequentialWrite'):
@@ -60,7 +61,9 @@ def test_each_name_is_there_or_says_what_to_use() -> None:
 
 
 def test_the_import_loads_neither_rclpy_nor_numpy() -> None:
-    code = "import rosbag2_py, sys; print({'rclpy', 'numpy', 'mcap'} & set(sys.modules))"
+    code = (
+        "import rosbag2_py, sys; print({'rclpy', 'numpy', 'mcap', 'sqlite3'} & set(sys.modules))"
+    )
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, check=True)
     assert done.stdout == 'set()\n'
 
@@ -109,7 +112,7 @@ def _read(name: str, storage_id: str = 'mcap') -> Callable[[Path], object]:
         (
             _open(storage_id='csv'),
             RuntimeError,
-            "stored as 'mcap' here, other storages need a full",
+            "stored as 'mcap' or 'sqlite3' here",
         ),
         (_open(uri='.'), RuntimeError, "'.' already exists"),
         (_open(storage_preset_profile='best'), RuntimeError, 'it is one of none, fastwrite'),
@@ -125,8 +128,16 @@ def _read(name: str, storage_id: str = 'mcap') -> Callable[[Path], object]:
         (lambda _: SequentialReader().has_next(), RuntimeError, r'call open\(\) first'),
         (lambda _: SequentialReader().open('bag', 'mcap'), TypeError, 'rosbag2_py.StorageOptions'),  # type: ignore[arg-type]
         (_read('nowhere'), RuntimeError, "Bag path 'nowhere' does not exist"),
-        (_read('old'), RuntimeError, "'old' holds no file of a bag that ends with .mcap"),
-        (_read('old', 'csv'), RuntimeError, "stored as 'mcap' here, other storages need a full"),
+        (_read('old'), RuntimeError, "are stored as sqlite3, write storage_id='sqlite3'"),
+        (_read('old', 'sqlite3'), RuntimeError, 'does not begin as such files do'),
+        (_read('zipped', 'sqlite3'), RuntimeError, "is stored as mcap: write storage_id='mcap'"),
+        (_open(storage_id='sqlite3', max_bagfile_size=1024), RuntimeError, '86016 bytes at least'),
+        (
+            _open(storage_id='sqlite3', storage_preset_profile='zstd_fast'),
+            RuntimeError,
+            'for sqlite3 it is one of none, resilient',
+        ),
+        (_read('old', 'csv'), RuntimeError, "stored as 'mcap' or 'sqlite3' here"),
         (_read('old/x.db3'), RuntimeError, 'cannot be read as MCAP'),
         (_read('zipped'), RuntimeError, 'call `zstd -d` on it and remove zipped/metadata.yaml'),
         (_read('torn'), RuntimeError, 'metadata.yaml.*lacks'),

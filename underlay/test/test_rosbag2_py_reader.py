@@ -57,10 +57,10 @@ WORDS = QOS.format(
 NUMBERS = QOS.format(history=1, reliability=2, durability=1, liveliness=1)
 
 
-@pytest.fixture
-def bag(tmp_path: Path) -> Path:
+@pytest.fixture(params=['mcap', 'sqlite3'])
+def bag(tmp_path: Path, request: pytest.FixtureRequest) -> Path:
     """Write a bag of three files, with times from 0 to 29 and two topics in turn."""
-    writer = opened_writer(tmp_path / 'bag', '/even', '/odd')
+    writer = opened_writer(tmp_path / 'bag', '/even', '/odd', storage_id=request.param)
     for number in range(30):
         if number in (10, 20):
             writer.split_bagfile()
@@ -69,6 +69,7 @@ def bag(tmp_path: Path) -> Path:
     return tmp_path / 'bag'
 
 
+@pytest.mark.parametrize('bag', ['mcap'], indirect=True)
 def test_other_readers_of_mcap_decode_what_is_written(bag: Path) -> None:
     decoder = importlib.import_module('mcap_ros2.decoder').DecoderFactory()
     with (bag / 'bag_1.mcap').open('rb') as stream:
@@ -84,7 +85,8 @@ def test_files_are_read_one_after_another(bag: Path) -> None:
     assert {each.name: each.type for each in topics} == dict.fromkeys(
         ('/even', '/odd'), 'std_msgs/msg/String'
     )
-    assert reader.get_metadata().relative_file_paths == [f'bag_{n}.mcap' for n in range(3)]
+    stems = [Path(name).stem for name in reader.get_metadata().relative_file_paths]
+    assert stems == [f'bag_{n}' for n in range(3)]
     assert numbers_in(rest_of(reader)) == list(range(30))
     assert not reader.has_next()
     with pytest.raises(RuntimeError, match='no further message'):

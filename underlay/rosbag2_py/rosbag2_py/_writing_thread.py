@@ -88,6 +88,8 @@ class WritingThread:
             print(f'rosbag2_py: {error}', file=sys.stderr)
 
     def _check(self) -> None:
+        if isinstance(self._failure, BagError):
+            raise BagError(str(self._failure))
         if self._failure is not None:
             raise BagError(f"'{self._writer.folder}' cannot be written: {self._failure}")
 

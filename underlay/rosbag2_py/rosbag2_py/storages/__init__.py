@@ -24,6 +24,18 @@ def _write_mcap(path: Path, preset: str) -> FileWriter:
     return McapWriter(path, preset)
 
 
+def _read_sqlite(path: Path) -> StoredFile:
+    from rosbag2_py.storages.sqlite_file import SqliteFile
+
+    return SqliteFile(path)
+
+
+def _write_sqlite(path: Path, preset: str) -> FileWriter:
+    from rosbag2_py.storages.sqlite_writer import SqliteWriter
+
+    return SqliteWriter(path, preset)
+
+
 STORAGES = {
     each.id: each
     for each in (
@@ -35,6 +47,15 @@ STORAGES = {
             smallest_file_bytes=1024,
             read=_read_mcap,
             write=_write_mcap,
+        ),
+        Storage(
+            id='sqlite3',
+            suffix='.db3',
+            magic=b'SQLite format 3\0',
+            presets=('none', 'resilient'),
+            smallest_file_bytes=86016,
+            read=_read_sqlite,
+            write=_write_sqlite,
         ),
     )
 }
