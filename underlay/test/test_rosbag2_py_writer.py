@@ -90,7 +90,7 @@ def start(code: str, folder: Path, storage: str = 'mcap') -> subprocess.Popen[st
         'import sys, rosbag2_py\n'
         'from rosbag2_py import *\n'
         'writer = SequentialWriter()\n'
-        'writer.open(StorageOptions(uri=sys.argv[1], storage_id=sys.argv[2]), ConverterOptions())\n'
+        'writer.open(StorageOptions(sys.argv[1], sys.argv[2]), ConverterOptions())\n'
         "writer.create_topic(TopicMetadata(0, 'n', 'std_msgs/msg/String', 'cdr'))\n"
     )
     return subprocess.Popen(

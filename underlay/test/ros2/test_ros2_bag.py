@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import closing
 import importlib
 from itertools import islice
 from pathlib import Path
 import signal
+import sqlite3
 import sys
 from threading import Thread
 import time
@@ -18,8 +20,10 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from playpen_testing.processes import find_line
 import pytest
+from rclpy.serialization import deserialize_message
 from rosbag2_py import bag_files, SequentialReader
 from rosbag2_py.errors import BagError
+from std_msgs.msg import String
 import yaml
 
 
@@ -78,6 +82,54 @@ def test_a_bag_is_recorded_described_and_played(
     hearing.start()
     hearing.join(20.0)
     assert heard == [f'heard {text}\n' for text in texts]
+
+
+def test_sqlite3_is_recorded_described_and_played(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    talker = processes.node('talker', 'talker')
+    processes.node('latched', 'latched')
+    recorder = processes.ros2(
+        'bag', 'record', '-a', '-s', 'sqlite3', '-o', str(tmp_path / 'run'), ready='Recording...'
+    )
+    file = tmp_path / 'run' / 'run_0.db3'
+    # What is recorded can be read at once, by whatever reads sqlite3.
+    deadline = time.monotonic() + 20.0
+    while _count(file, '/chatter') < 8 or _count(file, '/latched') < 1:
+        assert time.monotonic() < deadline, 'not both topics were recorded within 20 s'
+        time.sleep(0.05)
+    recorder.send_signal(signal.SIGINT)
+    rest, _ = recorder.communicate(timeout=10)
+    assert 'Recording stopped: ' in rest
+    talker.terminate()
+    talker.wait()
+
+    assert sorted(each.name for each in file.parent.iterdir()) == ['metadata.yaml', 'run_0.db3']
+    count = _count(file, '/chatter')
+    info = ros2('bag', 'info', str(tmp_path / 'run')).out
+    assert 'Files:             run_0.db3\n' in info
+    assert 'Storage id:        sqlite3' in info
+    assert f'Topic: /chatter | Type: std_msgs/msg/String | Count: {count} | ' in info
+    content = yaml.safe_load((tmp_path / 'run' / 'metadata.yaml').read_text())
+    assert content['rosbag2_bagfile_information']['storage_identifier'] == 'sqlite3'
+
+    listener = processes.node('listener', 'listener')
+    played = ros2('bag', 'play', str(file), '-s', 'sqlite3', '--topics', '/chatter', '-r', '4')
+    assert (played.status, played.err) == (0, '')
+    data = [data for topic, data, _ in _read(file) if topic == '/chatter']
+    texts = [deserialize_message(each, String).data for each in data]
+    assert len(texts) == count
+    for text in texts:
+        find_line(listener.stdout, f'^heard {text}$')
+
+
+def _count(file: Path, topic: str) -> int:
+    with closing(sqlite3.connect(f'{file.as_uri()}?mode=ro', uri=True)) as opened:
+        query = (
+            'SELECT COUNT(*) FROM messages WHERE topic_id = (SELECT id FROM topics WHERE name=?)'
+        )
+        (number,) = opened.execute(query, (topic,)).fetchone()
+    return int(number)
 
 
 @pytest.mark.parametrize(
@@ -178,6 +230,10 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ('words', 'status', 'message'),
     [
+        (('info', 'broken.db3'), 1, "broken.db3' cannot be read as sqlite3"),
+        (('play', 'broken.db3'), 1, "broken.db3' cannot be read as sqlite3"),
+        (('info', 'broken.mcap', '-s', 'sqlite3'), 1, 'does not begin as such files do'),
+        (('record', '-a', '-s', 'sqlite3', '--storage-preset-profile', 'zstd_fast'), 2, 'none of'),
         (('info', 'empty.mcap'), 1, 'it ends too soon, as where its recording was killed'),
         (('record',), 2, 'Need to specify one option'),
         (('record', '-e', '('), 2, 'is no regular expression'),
@@ -200,8 +256,11 @@ def test_a_bad_call_is_refused(
     del domain
     if 'broken.mcap' in words:
         (tmp_path / 'broken.mcap').write_bytes(b'no bag at all')
+    if 'broken.db3' in words:
+        (tmp_path / 'broken.db3').write_bytes(b'SQLite format 3\0' + bytes(200))
     if 'empty.mcap' in words:
         (tmp_path / 'empty.mcap').touch()
     answer = ros2('bag', *words, folder=tmp_path)
     assert answer.status == status
     assert message in answer.err
+    assert answer.status == 2 or answer.err.count('\n') == 1

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 import sqlite3
 from typing import Any
@@ -33,6 +33,7 @@ _TABLES = {
 }
 _MOST_WAITING = 1024 * 1024
 """After so many bytes they are committed; a program that is killed loses no more."""
+_BUSY_SEC = 0.5
 _ROW_BYTES = 24
 """What a message takes beside its bytes."""
 
@@ -53,7 +54,7 @@ class SqliteWriter(FileWriter):
         self._is_open = True
         # BagWriter is made in one thread and used in another.
         self._connection = sqlite3.connect(
-            path.absolute(), isolation_level=None, check_same_thread=False
+            path.absolute(), _BUSY_SEC, isolation_level=None, check_same_thread=False
         )
         try:
             with self._in_words():
@@ -125,6 +126,8 @@ class SqliteWriter(FileWriter):
             with self._in_words():
                 told = MetadataIo().serialize_metadata(metadata)
                 self._insert('metadata', metadata.version, told)
+            # Where somebody reads the file just now, the log stays beside it.
+            with suppress(sqlite3.OperationalError):
                 self._execute('PRAGMA journal_mode = DELETE')
         finally:
             self._is_open = False
