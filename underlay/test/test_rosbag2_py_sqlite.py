@@ -145,6 +145,10 @@ def test_names_in_an_old_metadata_begin_with_the_folder(bag: Path) -> None:
     (folder / 'metadata.yaml').write_text(text)
     assert numbers(opened_reader(folder)) == IN_ORDER
     assert bag_files.describe(folder).relative_file_paths == ['old.db3']
+    packed = text.replace('relative_file', 'compression_mode: MESSAGE\n  relative_file')
+    (folder / 'metadata.yaml').write_text(packed)
+    with pytest.raises(RuntimeError, match='compressed one by one, which are not read here'):
+        opened_reader(folder)
 
 
 def test_messages_are_not_kept_in_memory(tmp_path: Path) -> None:

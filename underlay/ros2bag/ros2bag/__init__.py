@@ -1,3 +1,3 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings of topics: folders with an MCAP file and a metadata.yaml, as rosbag2 writes them."""
+"""Recordings of topics: folders with files and a metadata.yaml, as rosbag2 writes them."""

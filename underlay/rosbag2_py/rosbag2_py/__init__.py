@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bags from a program: write, read, describe. Upstream's names, in Python, on MCAP alone."""
+"""Bags from a program: write, read, describe. Upstream's names, in Python, on MCAP and sqlite3."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ _MODULES = {
 _PLAY = '`ros2 bag play` plays; in a program, read with SequentialReader and publish'
 _RECORD = '`ros2 bag record` records; in a program, subscribe and write with SequentialWriter'
 _COMPRESS = (
-    "StorageOptions(storage_preset_profile='zstd_fast') compresses a SequentialWriter's bag"
+    "StorageOptions(storage_preset_profile='zstd_fast') compresses a SequentialWriter's MCAP bag"
 )
 _LEFT_OUT = {
     **dict.fromkeys(('Player', 'PlayOptions', 'ServiceRequestsSource'), _PLAY),

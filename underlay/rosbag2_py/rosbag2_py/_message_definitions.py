@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The definitions of messages as MCAP keeps them, so that a bag can be read anywhere."""
+"""The definitions of messages as bags keep them, so that a bag can be read anywhere."""
 
 from __future__ import annotations
 

@@ -13,12 +13,13 @@ class StorageOptions:
     """
     Where a bag is and how it is stored.
 
-    :param uri: the folder of the bag; to read, an MCAP file will do.
-    :param storage_id: 'mcap', or '' for the same.
+    :param uri: the folder of the bag; to read, one of its files will do.
+    :param storage_id: 'mcap' or 'sqlite3'; '' is found out to read, and 'mcap' to write.
     :param max_bagfile_size: bytes after which a writer begins a new file; 0 for never.
     :param max_bagfile_duration: seconds after which a writer begins a new file; 0 for never.
     :param max_cache_size: taken, and of no effect: a writer has a buffer of its own.
-    :param storage_preset_profile: 'none', 'fastwrite', 'zstd_fast' or 'zstd_small'.
+    :param storage_preset_profile: for MCAP 'none', 'fastwrite', 'zstd_fast' or 'zstd_small', for
+        sqlite3 'none' or 'resilient'.
     :param start_time_ns: messages from before are not written; -1 for no limit.
     :param end_time_ns: messages from after are not written; -1 for no limit.
     :param custom_data: kept in metadata.yaml.

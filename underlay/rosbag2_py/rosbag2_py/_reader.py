@@ -64,6 +64,11 @@ class SequentialReader:
         path = Path(storage_options.uri)
         storage, files = bag_files.find(path, storage_options.storage_id)
         metadata = read_metadata(path, storage.id)
+        if metadata.compression_mode.lower() == 'message':
+            raise BagError(
+                f"'{path}' has messages that are compressed one by one, which are not read here: "
+                'convert it by `ros2 bag convert` with a full ROS 2'
+            )
         _check_formats(metadata, converter_options.output_serialization_format)
         self._storage, self._files, self._metadata = storage, files, metadata
         self._load(0)
