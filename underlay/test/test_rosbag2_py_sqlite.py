@@ -230,6 +230,7 @@ def test_a_bag_is_read_while_it_is_recorded(tmp_path: Path) -> None:
     reader = opened_reader(tmp_path / 'bag')
     read = times_of(reader)
     assert read == list(range(len(read)))
+    assert rosbag2_py.Info().read_metadata(str(tmp_path / 'bag'), '').bag_size > len(read) * 1000
     writer.close()
     assert len(times_of(opened_reader(tmp_path / 'bag'))) == 3000
 
@@ -324,6 +325,15 @@ ATTACKS: dict[str, tuple[Callable[[Path], object], str]] = {
     ),
     'view': (
         _sql('DROP TABLE messages', f'CREATE VIEW messages AS {FOREVER}'),
+        "it has no table 'messages'",
+    ),
+    'virtual table': (
+        _sql(
+            'DROP TABLE messages',
+            'PRAGMA writable_schema = ON',
+            "INSERT INTO sqlite_master VALUES ('table', 'messages', 'messages', 0, "
+            "'CREATE VIRTUAL TABLE messages USING module_of_an_enemy(id)')",
+        ),
         "it has no table 'messages'",
     ),
     'view of topics': (

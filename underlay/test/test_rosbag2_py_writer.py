@@ -175,7 +175,7 @@ def test_what_a_killed_program_has_written_is_read(
     assert not (folder / 'metadata.yaml').exists()
 
     reader = opened_reader(folder)
-    assert ('bag_0.mcap' in capfd.readouterr().err) is (storage == 'mcap')
+    assert 'its recording was killed' in capfd.readouterr().err
     times = times_of(reader)
     assert times == list(range(len(times)))
     assert len(times) * 800 > 1_900_000

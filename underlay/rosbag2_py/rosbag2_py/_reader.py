@@ -168,8 +168,8 @@ class SequentialReader:
         self._close()
         self._file, self._number = file, number
         self._close = weakref.finalize(self, file.close)
-        if not file.is_whole:
-            warn(f"'{file.path}' has no end: its recording was killed; read as far as it goes")
+        if file.caution:
+            warn(f"'{file.path}' {file.caution}")
         self._time_ns = self._sought_ns
         self._key = None
         self._restart()

@@ -59,22 +59,22 @@ def describe(path: Path, storage_id: str = '') -> BagMetadata:
     """
     storage, paths = find(path, storage_id)
     contents = []
-    for each in paths:
-        with storage.read(each) as file:
+    for name in paths:
+        with storage.read(name) as file:
             contents.append(file.contents)
-    bag, names = contents[-1].told, [_inside(each, path) for each in paths]
+    bag, names = contents[-1].told, [_inside(name, path) for name in paths]
     bag.version = VERSION
     bag.storage_identifier = storage.id
-    bag.bag_size = sum(each.stat().st_size for each in paths)
+    bag.bag_size = sum(each.size for each in contents)
     bag.relative_file_paths = names
     bag.files = [
-        FileInformation(name, span.start, span.duration, span.count)
-        for name, (_, span, _) in zip(names, contents, strict=True)
+        FileInformation(name, each.span.start, each.span.duration, each.span.count)
+        for name, each in zip(names, contents, strict=True)
     ]
     bag.topics_with_message_count = _topics(contents)
     whole = Span()
-    for _, span, _ in contents:
-        whole.extend(span)
+    for each in contents:
+        whole.extend(each.span)
     bag.message_count = whole.count
     bag.starting_time, bag.duration = whole.start, whole.duration
     return bag
@@ -142,8 +142,8 @@ def _inside(file: Path, bag: Path) -> str:
 def _topics(contents: Iterable[Contents]) -> list[TopicInformation]:
     """Return the topics of all files by their names, each with all its messages."""
     found: dict[str, TopicInformation] = {}
-    for topics, _, _ in contents:
-        for each in topics:
+    for file in contents:
+        for each in file.topics:
             if each.topic_metadata.name in found:
                 found[each.topic_metadata.name].message_count += each.message_count
             else:

@@ -68,18 +68,20 @@ class Contents(NamedTuple):
     What a file holds.
 
     :ivar told: what only who recorded it knew, as custom_data; nothing else of it counts.
+    :ivar size: how many bytes it takes.
     """
 
     topics: list[TopicInformation]
     span: Span
     told: BagMetadata
+    size: int
 
 
 class StoredFile(ABC):
     """
     A file that is read; close it, or use it as a context manager.
 
-    :ivar is_whole: whether its recording was ended as it should.
+    :ivar caution: what is to be told of a file whose recording has not ended as it should.
     :ivar has_index: whether messages can be read in the order of their times.
     :ivar seek_goes_on: whether to seek the time of the message that was read last goes behind
         that message, and not before the first of that time.
@@ -87,7 +89,7 @@ class StoredFile(ABC):
     """
 
     path: Path
-    is_whole = True
+    caution = ''
     has_index = True
     seek_goes_on = False
 

@@ -62,7 +62,9 @@ class McapFile(StoredFile):
         except BaseException:
             self._stream.close()
             raise
-        self._summary, self._statistics, self._rosbag2_record, self.is_whole = records
+        self._summary, self._statistics, self._rosbag2_record, is_whole = records
+        if not is_whole:
+            self.caution = 'has no end: its recording was killed; read as far as it goes'
         # Messages can be read by time where their chunks are known.
         self.has_index = bool(self._summary.chunk_indexes or not self._statistics.message_count)
 
@@ -73,7 +75,7 @@ class McapFile(StoredFile):
     def contents(self) -> Contents:
         of = self._statistics
         span = Span(of.message_start_time, of.message_end_time, of.message_count)
-        return Contents(self._topics(), span, self._told())
+        return Contents(self._topics(), span, self._told(), self.path.stat().st_size)
 
     def definitions(self) -> list[MessageDefinition]:
         return [

@@ -46,6 +46,17 @@ def opened(path: Path) -> sqlite3.Connection:
         return connection
 
 
+def log_of(path: Path) -> Path:
+    """Return where the write-ahead log of a file is, if it has one."""
+    return path.with_name(f'{path.name}-wal')
+
+
+def has_log(path: Path) -> bool:
+    """Tell whether messages of a file are in its write-ahead log."""
+    log = log_of(path)
+    return log.is_file() and log.stat().st_size > 0
+
+
 def _is_at_rest(path: Path) -> bool:
     """
     Tell whether a file has a write-ahead log by its head, but none lies beside it.
@@ -61,8 +72,7 @@ def _is_at_rest(path: Path) -> bool:
         raise BagError(f"'{path}' is empty, as where its recording was killed at once")
     if not head.startswith(_MAGIC):
         raise BagError(f"'{path}' cannot be read as sqlite3: it does not begin as such files do")
-    log = path.with_name(f'{path.name}-wal')
-    return head[-1] == _WAL_VERSION and not (log.is_file() and log.stat().st_size)
+    return head[-1] == _WAL_VERSION and not has_log(path)
 
 
 @contextmanager

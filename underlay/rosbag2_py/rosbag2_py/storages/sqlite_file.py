@@ -22,7 +22,7 @@ from rosbag2_py._metadata_io import MetadataIo
 from rosbag2_py._options import ReadOrder, ReadOrderSortBy
 from rosbag2_py.errors import BagError
 from rosbag2_py.storages.interface import Contents, Span, Start, StoredFile, StoredMessage
-from rosbag2_py.storages.sqlite_database import in_words, opened, Tables
+from rosbag2_py.storages.sqlite_database import has_log, in_words, log_of, opened, Tables
 
 _PAGE = 1000
 """So many places are read at once; between them who writes the file need not wait."""
@@ -37,6 +37,9 @@ class SqliteFile(StoredFile):
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        if has_log(path):
+            log = log_of(path).name
+            self.caution = f"needs '{log}' beside it: its recording was killed, or goes on"
         self._connection = opened(path)
         try:
             with in_words(path):
@@ -63,11 +66,13 @@ class SqliteFile(StoredFile):
                 if topic in spans:
                     spans[topic] = Span(*map(_time, span))
             told = self._told()
+            (pages,) = self._connection.execute('PRAGMA page_count').fetchone()
+            (page_bytes,) = self._connection.execute('PRAGMA page_size').fetchone()
         whole = Span()
         for each in spans.values():
             whole.extend(each)
         topics = [TopicInformation(t, spans[number].count) for number, t in self._topics.items()]
-        return Contents(topics, whole, told)
+        return Contents(topics, whole, told, pages * page_bytes)
 
     def definitions(self) -> list[MessageDefinition]:
         """Return those that it has: files from before version 4 have none."""
