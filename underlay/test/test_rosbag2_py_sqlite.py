@@ -117,6 +117,8 @@ def test_files_of_each_ros_are_read(tmp_path: Path, version: int, storage_id: st
     assert numbers(reader) == [each for each in IN_ORDER if time_of(each) >= time_of(1500)]
     assert reader.set_read_order(ReadOrder(reverse=True))
     reader.seek(2**63 - 1)
+    assert numbers(reader) == IN_ORDER[::-1]
+    reader.seek(2**63 - 1)
     reader.set_filter(StorageFilter(topics=['/rosout']))
     assert numbers(reader) == [each for each in IN_ORDER[::-1] if each % 5 == 4]
     for sort_by in (ReadOrderSortBy.File, ReadOrderSortBy.PublishedTimestamp):
