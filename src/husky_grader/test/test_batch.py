@@ -54,6 +54,16 @@ def graded(files: list[str], folder: Path, how: How = ONE) -> list[Grade]:
     return [job.grade(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
 
 
+def test_a_file_larger_than_memory_does_not_stop_the_others(
+    files: list[str], tmp_path: Path
+) -> None:
+    with open(files[1], 'wb') as large:
+        large.truncate(10**12)
+    first, second, _ = graded(files, tmp_path / 'report')
+    assert first.passed
+    assert second.refused.endswith('larger than 100000 bytes; 1000 waypoints need less')
+
+
 def test_a_broken_file_does_not_stop_the_others(
     files: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
