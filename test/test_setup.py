@@ -339,6 +339,26 @@ def test_a_new_waypoint_file_builds_the_package_that_installs_it(clone: Path) ->
     assert changed == ['husky_driver']
 
 
+def test_a_clone_that_was_moved_or_copied_is_built_again(clone: Path, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / 'src' / 'topic_demo', clone / 'src' / 'topic_demo')
+    (clone / 'colcon.meta').touch()
+    links = ('package.xml', '../ament_index/resource_index/packages/topic_demo')
+
+    def sources(root: Path) -> list[Path]:
+        """Build, and return what is installed as links."""
+        script = f'source "$0" help >/dev/null; venv={sys.prefix}; build {root.name}'
+        done = subprocess.run(['bash', '-c', script, root / 'lab'], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        share = root / 'install' / 'topic_demo' / 'share' / 'topic_demo'
+        return [(share / link).resolve().relative_to(root) for link in links]
+
+    expected = [Path('src/topic_demo/package.xml'), Path('src/topic_demo/resource/topic_demo')]
+    assert sources(clone) == expected
+    (clone / 'install' / 'topic_demo' / '.built').unlink()  # as by a set-up in another place
+    assert sources(shutil.copytree(clone, tmp_path / 'copied', symlinks=True)) == expected
+    assert sources(clone.rename(tmp_path / 'moved')) == expected
+
+
 def test_what_python_compiles_sets_nothing_up_anew(clone: Path) -> None:
     examples = clone / 'underlay' / 'launch_testing' / 'prefix' / 'share' / 'launch_testing'
     script = 'source "$0" help >/dev/null; setup_key pip python3 3.11'
