@@ -47,7 +47,8 @@ class _Process:
 
     def __init__(self) -> None:
         self.ends = self.hung = self.died = 0
-        self._start()
+        self._last_sec = time.monotonic()
+        self._process = _start()
 
     def look(self) -> None:
         """Count what it says; start another one where it hangs or has died."""
@@ -70,17 +71,18 @@ class _Process:
         self._process.kill()
         self._process.communicate()
 
-    def _start(self) -> None:
-        self._last_sec = time.monotonic()
-        self._process = subprocess.Popen([sys.executable, '-c', _NODES], stdout=subprocess.PIPE)
-
     def _start_again(self) -> None:
         self.stop()
-        self._start()
+        self._last_sec = time.monotonic()
+        self._process = _start()
 
     def _status(self) -> list[str]:
         text = Path(f'/proc/{self._process.pid}/stat').read_text(encoding='utf-8')
         return text.rpartition(')')[2].split()
+
+
+def _start() -> subprocess.Popen[bytes]:
+    return subprocess.Popen([sys.executable, '-c', _NODES], stdout=subprocess.PIPE)
 
 
 def main() -> int:

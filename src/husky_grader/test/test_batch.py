@@ -57,7 +57,7 @@ def graded(files: list[str], folder: Path, how: How = ONE) -> list[Grade]:
 def test_a_file_larger_than_memory_does_not_stop_the_others(
     files: list[str], tmp_path: Path
 ) -> None:
-    with open(files[1], 'wb') as large:
+    with Path(files[1]).open('wb') as large:
         large.truncate(10**12)
     first, second, _ = graded(files, tmp_path / 'report')
     assert first.passed
