@@ -74,6 +74,7 @@ def _parser() -> Parser:
     parser.add_argument(
         '--gradebook',
         metavar='FILE',
+        type=given_name,
         help="the table of Moodle or Canvas to fill in; a copy is written with the class's report",
     )
     parser.add_argument(
@@ -82,7 +83,10 @@ def _parser() -> Parser:
         help='write the zip by which Gradescope grades what students hand in there',
     )
     parser.add_argument(
-        '--rubric', metavar='FILE', help='what a lab asks for (that of the lab sheet)'
+        '--rubric',
+        metavar='FILE',
+        type=given_name,
+        help='what a lab asks for (that of the lab sheet)',
     )
     parser.add_argument(
         '--answers', metavar='A,B,..', default='', help='what is typed into a controller that asks'

@@ -183,6 +183,8 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
         (['--record', 'x.record'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: no such file'),
         ([''], 'argument FILE: the name is empty'),
+        (['--lab', '.', '--rubric', ''], 'argument --rubric: the name is empty'),
+        (['--lab', '.', '--gradebook', ''], 'argument --gradebook: the name is empty'),
         (
             ['{empty}'],
             'no waypoint file lies in this folder (*.yaml); what was handed in for a lab',
