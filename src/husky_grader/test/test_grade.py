@@ -86,6 +86,13 @@ def test_a_folder_in_which_another_writes_is_refused(courses: Path, tmp_path: Pa
         pass
 
 
+def test_a_file_in_place_of_the_folder_is_refused(courses: Path, tmp_path: Path) -> None:
+    (tmp_path / 'report').touch()
+    refused = run_module('husky_grader.grade', str(courses / 'straight.yaml'), cwd=tmp_path)
+    expected = 'report: a file, no folder; name another with --report DIR\n'
+    assert (refused.returncode, refused.stderr) == (2, expected)
+
+
 def test_what_cannot_be_printed_is_one_line(courses: Path, tmp_path: Path) -> None:
     with Path('/dev/full').open('w') as full:
         checked = run_module(

@@ -22,8 +22,10 @@ def alone_in(folder: Path) -> Iterator[None]:
 
     A process may come in again where it is already. The folder need not be there yet.
 
-    :raises ValueError: if another process is in it.
+    :raises ValueError: if another process is in it, or it is a file.
     """
+    if folder.is_file():
+        raise ValueError(f'{folder}: a file, no folder; name another with --report DIR')
     # By os.path: Path.resolve fails where links lead in a circle.
     place = os.fsencode(os.path.realpath(folder))
     name = f'husky_report_{hashlib.sha256(place).hexdigest()}'
