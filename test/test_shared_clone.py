@@ -50,3 +50,19 @@ def test_what_it_lacks_is_left_to_its_owner(processes: Processes, tmp_path: Path
     (line,) = refused.lines
     assert line.startswith(f'lab: cannot write in {clone}, and it is not set up for this (ROS: ')
     assert f"let its owner call '{clone}/lab exec true', or clone the lab" in line
+
+
+def test_the_owner_is_told_of_what_sudo_has_made(processes: Processes, tmp_path: Path) -> None:
+    clone = tmp_path / 'clone'
+    for folder in ('requirements', 'underlay'):
+        shutil.copytree(ROOT / folder, clone / folder)
+    shutil.copy(ROOT / 'lab', clone)
+    (clone / '.venv').mkdir()
+    # Seen by a user who owns the clone, and is not the one to whom .venv belongs.
+    shutil.chown(clone / '.venv', 12345)
+    owner = ('unshare', '--user', '--map-root-user')
+    refused = processes.start(*owner, str(clone / 'lab'), 'exec', 'true')
+    assert refused.wait() == 2, refused.output
+    (line,) = refused.lines
+    assert line.startswith(f'lab: {clone}/.venv is not yours, as after sudo, and it is not set up')
+    assert f"call 'sudo chown -R 0 {clone}', then ./lab again, without sudo." in line
