@@ -359,6 +359,17 @@ def test_a_clone_that_was_moved_or_copied_is_built_again(clone: Path, tmp_path: 
     assert sources(clone.rename(tmp_path / 'moved')) == expected
 
 
+def test_a_user_without_a_home_can_build() -> None:
+    somebody = ['unshare', '--user', '--map-user=12345', 'env', '-u', 'HOME']
+    if subprocess.run([*somebody, 'true'], capture_output=True).returncode != 0:
+        pytest.skip('nobody else can be made here')
+    build = f'source "$0" help >/dev/null; venv={sys.prefix}; enter_venv pip'
+    script = f'{build}; colcon --log-base /dev/null list --names-only --base-paths "$root/src"'
+    command = [*somebody, 'bash', '-c', script, str(ROOT / 'lab')]
+    done = subprocess.run(command, env=plain_environment(), capture_output=True, text=True)
+    assert 'husky_sim' in done.stdout.split(), done.stderr
+
+
 def test_what_python_compiles_sets_nothing_up_anew(clone: Path) -> None:
     examples = clone / 'underlay' / 'launch_testing' / 'prefix' / 'share' / 'launch_testing'
     script = 'source "$0" help >/dev/null; setup_key pip python3 3.11'
