@@ -11,6 +11,17 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 # Shown to these processes alone, and not to be written, not even by root.
 READ_ONLY = 'mount --bind "$0" "$0" && mount -o remount,ro,bind "$0" && exec "$@"'
+# A root that other users' files are as closed to as to anybody.
+READER = ('unshare', '--user', '--map-root-user')
+
+
+@pytest.fixture
+def clone(tmp_path: Path) -> Path:
+    folder = tmp_path / 'clone'
+    for name in ('requirements', 'underlay'):
+        shutil.copytree(ROOT / name, folder / name)
+    shutil.copy(ROOT / 'lab', folder)
+    return folder
 
 
 def start_reading(processes: Processes, clone: Path, *words: str) -> Process:
@@ -40,11 +51,7 @@ def test_a_student_builds_a_package_and_runs_it(processes: Processes) -> None:
     assert 'Hi from small.' in built.lines
 
 
-def test_what_it_lacks_is_left_to_its_owner(processes: Processes, tmp_path: Path) -> None:
-    clone = tmp_path / 'clone'
-    for folder in ('requirements', 'underlay'):
-        shutil.copytree(ROOT / folder, clone / folder)
-    shutil.copy(ROOT / 'lab', clone)
+def test_what_it_lacks_is_left_to_its_owner(processes: Processes, clone: Path) -> None:
     refused = start_reading(processes, clone, 'exec', 'true')
     assert refused.wait() == 2, refused.output
     (line,) = refused.lines
@@ -52,17 +59,24 @@ def test_what_it_lacks_is_left_to_its_owner(processes: Processes, tmp_path: Path
     assert f"let its owner call '{clone}/lab exec true', or clone the lab" in line
 
 
-def test_the_owner_is_told_of_what_sudo_has_made(processes: Processes, tmp_path: Path) -> None:
-    clone = tmp_path / 'clone'
-    for folder in ('requirements', 'underlay'):
-        shutil.copytree(ROOT / folder, clone / folder)
-    shutil.copy(ROOT / 'lab', clone)
+def test_the_owner_is_told_of_what_sudo_has_made(processes: Processes, clone: Path) -> None:
     (clone / '.venv').mkdir()
-    # Seen by a user who owns the clone, and is not the one to whom .venv belongs.
     shutil.chown(clone / '.venv', 12345)
-    owner = ('unshare', '--user', '--map-root-user')
-    refused = processes.start(*owner, str(clone / 'lab'), 'exec', 'true')
+    refused = processes.start(*READER, str(clone / 'lab'), 'exec', 'true')
     assert refused.wait() == 2, refused.output
     (line,) = refused.lines
     assert line.startswith(f'lab: {clone}/.venv is not yours, as after sudo, and it is not set up')
     assert f"call 'sudo chown -R 0 {clone}', then ./lab again, without sudo." in line
+
+
+def test_a_set_up_that_its_owner_alone_may_read_is_named(
+    processes: Processes, clone: Path
+) -> None:
+    for made in (clone / '.venv', clone / '.lab.lock'):
+        made.mkdir(mode=0o700)
+        shutil.chown(made, 12345)
+    refused = processes.start(*READER, str(clone / 'lab'), 'exec', 'true')
+    assert refused.wait() == 2, refused.output
+    (line,) = refused.lines
+    assert line.startswith(f'lab: {clone}/.venv may not be read: let its owner call')
+    assert f"'chmod -R go+rX {clone}', or clone the lab into" in line
