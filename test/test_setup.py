@@ -234,6 +234,16 @@ def test_what_a_cluster_sets_for_pip_leads_nothing_out_of_the_environment(tmp_pa
     assert sourced(script, **theirs).stderr == 'PIP_USER=0\n'
 
 
+def test_what_a_killed_pip_has_downloaded_is_removed_by_the_next(tmp_path: Path) -> None:
+    pip = 'test ! -e $TMPDIR/file && touch $TMPDIR/file && echo $TMPDIR >&2'
+    program(tmp_path / 'bin', 'python', pip)
+    script = f'venv={tmp_path}; with_progress() {{ "${{@:4}}"; }}; pip_install 1 two'
+    (tmp_path / 'tmp').mkdir()
+    (tmp_path / 'tmp' / 'file').touch()
+    assert sourced(script).stderr == f'{tmp_path}/tmp\n'
+    assert not (tmp_path / 'tmp').exists()
+
+
 def test_a_folder_of_logs_that_cannot_be_written_is_refused() -> None:
     refused(sourced('choose_log_folder', ROS_LOG_DIR='/proc/none'), 'logs in /proc/none, which')
     refused(sourced('choose_log_folder', ROS_HOME='/proc/none'), 'logs in /proc/none/log, which')
