@@ -424,6 +424,35 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> Non
     refused(done, 'no network', 'call ./lab again')
 
 
+# Makes the count of signals that wait, which /proc/PID/status tells, a digit longer and shorter.
+COUNTS = """
+import ctypes, re
+libc, timer = ctypes.CDLL(None), ctypes.c_void_p()
+make = lambda: libc.timer_create(1, None, ctypes.byref(timer))
+count = lambda: int(re.search(r'SigQ:\\t(\\d+)', open('/proc/self/status').read())[1])
+while not set(str(count())) == {'9'}:
+    make()
+print('counts', flush=True)
+while True:
+    make()
+    libc.timer_delete(timer)
+"""
+
+
+def test_a_blocked_interrupt_is_seen_whatever_else_the_kernel_tells() -> None:
+    look = 'for ((i = 0; i < 500; i++)); do interrupts_are_held || echo missed; done'
+    with subprocess.Popen([sys.executable, '-c', COUNTS], stdout=subprocess.PIPE) as counting:
+        assert counting.stdout is not None
+        assert counting.stdout.readline() == b'counts\n'
+        try:
+            told = sourced(
+                f'exec env --block-signal=INT bash -c \'. "$0" help >/dev/null; {look}\' "$0"'
+            )
+        finally:
+            counting.kill()
+    assert (told.stdout, told.stderr) == ('', '')
+
+
 def test_interrupts_are_kept_by_the_kernel_but_in_a_set_up(clone: Path, tmp_path: Path) -> None:
     # Bash loses one of some hundred that come while it starts or ends a command.
     masks = tmp_path / 'masks'
