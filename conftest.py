@@ -27,6 +27,9 @@ os.environ['MUJOCO_GL'] = 'disabled'  # as in the lab's programs, see husky_runt
 # Until a test runs there is nothing to tell of, but from amid which import pytest was torn.
 signal.signal(signal.SIGINT, _leave)
 signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+# Under nohup the tests go on, but the programs that they start hear of a terminal that is closed.
+if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN or 'PYTEST_XDIST_WORKER' in os.environ:
+    signal.signal(signal.SIGHUP, lambda *_: None)
 
 
 def pytest_runtest_logstart() -> None:
