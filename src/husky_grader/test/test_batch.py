@@ -13,6 +13,7 @@ import sys
 import time
 
 from husky_grader.batch.batch import Batch, How
+from husky_grader.batch.key import key_of, MOST_BYTES
 from husky_grader.batch.tables import names_of
 from husky_grader.batch.workers import workers
 from husky_grader.file_grading import Grade
@@ -62,6 +63,19 @@ def test_a_file_larger_than_memory_does_not_stop_the_others(
     first, second, _ = graded(files, tmp_path / 'report')
     assert first.passed
     assert second.refused.endswith('larger than 100000 bytes; 1000 waypoints need less')
+
+
+def test_a_large_file_that_has_changed_at_its_end_has_another_key(tmp_path: Path) -> None:
+    large = tmp_path / 'large.yaml'
+    large.write_bytes(bytes(MOST_BYTES + 1))
+    before = key_of([large], {})
+    assert key_of([large], {}) == before
+    about = large.stat()
+    with large.open('r+b') as stream:
+        stream.seek(MOST_BYTES)
+        stream.write(b'1')
+    os.utime(large, ns=(about.st_atime_ns, about.st_mtime_ns + 1))
+    assert key_of([large], {}) != before
 
 
 def test_a_broken_file_does_not_stop_the_others(

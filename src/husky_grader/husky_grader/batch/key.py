@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache
 import hashlib
 from importlib.metadata import version
+import os
 from pathlib import Path
 import platform
 
@@ -20,7 +21,7 @@ import husky_runtime
 import husky_sim
 
 PROGRAM_ENDINGS = ('.py', '.css', '.jinja')
-MOST_BYTES = 10_000_000  # of a file that counts; larger ones are refused, whatever follows
+MOST_BYTES = 10_000_000  # of a file that are read; of a larger one count its size and time, too
 _PACKAGES = (husky_course, husky_driver, husky_grader, husky_runtime, husky_sim)
 
 
@@ -74,11 +75,15 @@ def _programs() -> bytes:
 
 
 def _digest(path: Path) -> bytes:
-    content = b'?'
+    digest = hashlib.sha256()
     try:
         if path.is_file():
             with path.open('rb') as stream:
-                content = stream.read(MOST_BYTES)
+                digest.update(stream.read(MOST_BYTES))
+                about = os.fstat(stream.fileno())
+            if about.st_size > MOST_BYTES:
+                digest.update(repr((about.st_size, about.st_mtime_ns)).encode())
+            return digest.digest()
     except (OSError, ValueError):
         pass
-    return hashlib.sha256(content).digest()
+    return hashlib.sha256(b'?').digest()
