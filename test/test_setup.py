@@ -9,18 +9,13 @@ import shutil
 import signal
 import subprocess
 import sys
-import venv
-import zipfile
 
-from husky_runtime.set_up_progress import STEPS
-import pip as pip_package
-from playpen_testing.processes import IN_A_TERMINAL, Processes
+from playpen_testing.processes import Processes
 from playpen_testing.waiting import wait_until
 from psutil import process_iter
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PROGRESS = ROOT / 'src' / 'husky_runtime' / 'husky_runtime' / 'set_up_progress.py'
 NOBODY = 'http://127.0.0.1:9/simple'  # an index of packages that does not answer
 
 
@@ -78,73 +73,6 @@ def refused(done: subprocess.CompletedProcess[str], *words: str) -> None:
     assert lines[-1].startswith('lab: ')
     assert [word for word in words if word not in lines[-1]] == [], done.stderr
     assert len(lines) <= 2, 'at most one line of progress and one of refusal'
-
-
-def wheel(folder: Path, name: str) -> None:
-    """Write a package that has nothing in it."""
-    about = f'{name}-1.0.dist-info'
-    texts = {
-        'METADATA': f'Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n',
-        'WHEEL': 'Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n',
-        'RECORD': ''.join(f'{about}/{file},,\n' for file in ('METADATA', 'WHEEL', 'RECORD')),
-    }
-    with zipfile.ZipFile(folder / f'{name}-1.0-py3-none-any.whl', 'w') as archive:
-        for file, text in texts.items():
-            archive.writestr(f'{about}/{file}', text)
-
-
-@pytest.fixture
-def pip(tmp_path: Path) -> list[str]:
-    """Return a command that installs two packages, in an environment of its own, offline."""
-    for name in ('one', 'another'):
-        wheel(tmp_path, name)
-    venv.create(tmp_path / 'venv')
-    python = str(tmp_path / 'venv' / 'bin' / 'python')
-    options = ('--no-index', '--find-links', str(tmp_path), '--no-compile')
-    ours = f'import sys; sys.path.append({str(Path(pip_package.__file__).parents[1])!r}); '
-    run = ours + 'from runpy import run_module; run_module("pip", run_name="__main__")'
-    return [python, '-c', run, 'install', *options, 'one', 'another']
-
-
-def test_a_set_up_shows_a_bar_that_goes(
-    processes: Processes, pip: list[str], tmp_path: Path
-) -> None:
-    command = [sys.executable, str(PROGRESS), 'pip', '2', str(tmp_path / 'log'), *pip]
-    run = processes.start(sys.executable, '-c', IN_A_TERMINAL, *command)
-    assert run.wait(timeout_sec=30.0) == 0, run.output
-    # A pipe in text mode takes the beginning of the line for a new one.
-    shown = [line.rstrip() for line in run.lines]
-    assert 'lab: [........................] looking for packages' in shown
-    assert shown[-1] == '', 'the line is empty again'
-    assert 'Successfully installed another-1.0 one-1.0' in (tmp_path / 'log').read_text()
-
-
-def test_a_set_up_that_fails_prints_nothing_more(pip: list[str], tmp_path: Path) -> None:
-    command = [sys.executable, str(PROGRESS), 'pip', '2', str(tmp_path / 'log'), *pip, 'third']
-    done = subprocess.run(command, capture_output=True, text=True, timeout=30)
-    assert (done.returncode, done.stdout, done.stderr) == (1, '', '')
-    assert 'No matching distribution found for third' in (tmp_path / 'log').read_text()
-
-
-@pytest.mark.parametrize(
-    ('kind', 'printed', 'shown', 'part'),
-    [
-        ('pip', ['Collecting numpy==2.4.6 (from -r requirements/lab.in)'], 'looking', 1 / 8),
-        ('pip', ['  Downloading a.whl (3 kB)', 'Collecting a', 'Collecting A'], 'looking', 1 / 8),
-        ('pip', ['  Downloading viser-1.3-py3.whl (9.5 MB)'], 'downloading viser (9.5 MB)', 0),
-        ('pip', ['Installing collected packages: a, b'], 'installing 0 of 2 packages', 0.5),
-        ('colcon', ['Starting >>> one', 'Starting >>> two'], 'building two', 0),
-        ('colcon', ['Starting >>> one', 'Finished <<< one [1.2s]'], 'building one', 1 / 4),
-    ],
-)
-def test_the_lines_of_a_step_tell_how_far_it_is(
-    kind: str, printed: list[str], shown: str, part: float
-) -> None:
-    step = STEPS[kind](4, '/nowhere/bin/python')
-    for line in printed:
-        step.read(line)
-    assert step.part() == part
-    assert shown in step.doing
 
 
 @pytest.mark.parametrize('char', [':', ';', '=', '$', '{', '}', '\\'])
@@ -283,6 +211,11 @@ def test_an_old_python_and_one_that_is_not_there_are_refused(clone: Path, tmp_pa
     program(tmp_path / 'bin', 'old', '[ "$1" = --version ] && echo Python 3.8.18 || echo 308')
     done = lab(clone, 'exec', 'true', PYTHON=str(tmp_path / 'bin' / 'old'))
     refused(done, 'Python 3.8.18', '3.10', 'PYTHON=')
+    program(
+        tmp_path / 'bin', 'older', '[ "$1" = --version ] && echo Python 2.7.18 >&2 || echo 207'
+    )
+    done = lab(clone, 'exec', 'true', PYTHON=str(tmp_path / 'bin' / 'older'))
+    refused(done, 'Python 2.7.18 found', '3.10')
     gone = str(tmp_path / 'bin' / 'gone')
     refused(lab(clone, 'exec', 'true', PYTHON=gone), f'no {gone} found', '3.10')
 
