@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The line that tells how far a step of the set-up is."""
 
+from importlib import metadata
 from pathlib import Path
 import subprocess
 import sys
@@ -9,7 +10,6 @@ import venv
 import zipfile
 
 from husky_runtime.set_up_progress import STEPS
-import pip as pip_package
 from playpen_testing.processes import IN_A_TERMINAL, Processes
 import pytest
 
@@ -38,7 +38,8 @@ def pip(tmp_path: Path) -> list[str]:
     venv.create(tmp_path / 'venv')
     python = str(tmp_path / 'venv' / 'bin' / 'python')
     options = ('--no-index', '--find-links', str(tmp_path), '--no-compile')
-    ours = f'import sys; sys.path.append({str(Path(pip_package.__file__).parents[1])!r}); '
+    # Whoever imports pip gets no distutils of setuptools any more: here, the tests after this one.
+    ours = f'import sys; sys.path.append({str(metadata.distribution("pip").locate_file(""))!r}); '
     run = ours + 'from runpy import run_module; run_module("pip", run_name="__main__")'
     return [python, '-c', run, 'install', *options, 'one', 'another']
 

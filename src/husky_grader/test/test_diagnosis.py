@@ -104,7 +104,9 @@ def test_an_end_that_was_asked_for_is_no_error(
         'import rclpy, sys\n'
         'sys.excepthook = sys.__excepthook__\n'  # it tells all, as where a ROS is sourced
         "rclpy.init()\nnode = rclpy.create_node('student')\ntry:\n"
-        "    print('ready', flush=True)\n    rclpy.spin(node)\nfinally:\n    rclpy.shutdown()\n"
+        "    print('ready', flush=True)\n    rclpy.spin(node)\nfinally:\n"
+        '    while rclpy.ok():\n        pass\n'  # a thread of rclpy's shuts it down; who is first?
+        '    rclpy.shutdown()\n'
     )
     printed = printed_by(program, tmp_path, until='ready')
     assert 'RCLError' in printed
