@@ -24,7 +24,6 @@ setup(
         'markupsafe',
         'mcap',
         'numpy',
-        'pebble',
         'psutil',
         'PyYAML',
         'resvg-py',

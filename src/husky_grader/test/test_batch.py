@@ -1,8 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 from collections.abc import Callable
+from concurrent.futures import Future
 from contextlib import suppress
 import csv
+from dataclasses import dataclass
 import hmac
 import json
 import os
@@ -13,6 +15,7 @@ import sys
 import time
 
 from husky_grader.batch.batch import Batch, How
+from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, MOST_BYTES
 from husky_grader.batch.tables import names_of
 from husky_grader.batch.workers import workers
@@ -294,10 +297,44 @@ def test_a_full_disk_gives_one_line_and_the_table(
     assert 'its report cannot be written: File too large' in line
 
 
-def test_a_worker_that_is_ending_runs_no_handler() -> None:
-    with workers(1) as pool:
-        handler = pool.schedule(signal.getsignal, args=(signal.SIGTERM,)).result()
-    assert handler is signal.SIG_DFL
+@dataclass(frozen=True)
+class OwnEnd(FileJob):
+    """A job that tells its process, or kills it."""
+
+    kills: bool = False
+
+    def run(self, _folder: Path, _alive: Callable[[], object]) -> Outcome:
+        if self.kills:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return Outcome({'process': os.getpid()})
+
+
+def test_workers_that_die_as_soon_as_they_begin_cost_their_jobs_only(tmp_path: Path) -> None:
+    jobs = [OwnEnd('', f'{number}', kills=number % 2 == 0) for number in range(16)]
+    with workers(2) as start:
+        outcomes = [future.result(30.0) for future in [start(job, tmp_path) for job in jobs]]
+    assert [outcome.content is None for outcome in outcomes] == [job.kills for job in jobs]
+    assert {outcome.refused for outcome in outcomes} == {
+        '',
+        'the grader itself crashed on this one',
+    }
+
+
+def test_a_worker_that_dies_between_two_jobs_costs_none(tmp_path: Path) -> None:
+    with workers(1) as start:
+        processes = [process_of(start(OwnEnd('', 'job'), tmp_path))]
+        os.kill(processes[0], signal.SIGKILL)
+        stat = Path(f'/proc/{processes[0]}/stat')
+        wait_until(lambda: ') Z ' in stat.read_text(), what='its end')
+        processes += [process_of(start(OwnEnd('', 'job'), tmp_path))]
+    assert processes[0] != processes[1]
+
+
+def process_of(future: 'Future[Outcome]') -> int:
+    """Return the process that did a job."""
+    outcome = future.result(30.0)
+    assert outcome.content is not None, outcome.refused
+    return int(outcome.content['process'])
 
 
 def test_files_of_one_name_are_told_apart_by_their_folders() -> None:

@@ -24,7 +24,7 @@ from husky_grader.batch.dask_cluster import (
 )
 from husky_grader.batch.job import Job, Outcome
 from husky_grader.batch.sealed import Seals
-from husky_grader.batch.workers import outcome_of, STALLED_CPU_SEC, start, workers
+from husky_grader.batch.workers import STALLED_CPU_SEC, workers
 
 Start = Callable[[Job, Path, str], 'Future[Outcome]']
 Result = Callable[['Future[Outcome]'], Outcome]
@@ -118,11 +118,8 @@ class Batch:
                 )
         else:
             count = how.jobs or usable_processors()
-            with workers(min(count, most)) as pool:
-                yield (
-                    lambda job, folder, _key: start(pool, job, folder, how.stalled_cpu_sec),
-                    lambda future: outcome_of(future, how.stalled_cpu_sec),
-                )
+            with workers(min(count, most), how.stalled_cpu_sec) as start:
+                yield lambda job, folder, _key: start(job, folder), Future[Outcome].result
 
     def _seal(self, job: Job, key: str, outcome: Outcome) -> None:
         if outcome.content is not None:

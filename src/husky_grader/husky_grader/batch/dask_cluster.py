@@ -14,7 +14,7 @@ import os
 from pathlib import Path
 
 from husky_grader.batch.job import Job, Outcome
-from husky_grader.batch.workers import outcome_of, start, workers
+from husky_grader.batch.workers import workers
 
 CONNECT_WITHIN_SEC = 20.0
 ADDRESS = 'dask:'
@@ -87,5 +87,5 @@ def _run_there(job: Job, folder: Path, key: str) -> Outcome:
             f'a worker on {os.uname().nodename} has another lab, {have}, or does not see '
             f'{job.name}: give all machines the same commit, versions and folders'
         )
-    with workers(1) as pool:
-        return outcome_of(start(pool, job, folder))
+    with workers(1) as start:
+        return start(job, folder).result()

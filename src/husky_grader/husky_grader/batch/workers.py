@@ -7,80 +7,128 @@ One that crashes costs its job, and another takes its place. So does one that ha
 processor time tells, however busy the machine is.
 """
 
-from collections.abc import Iterator
-from concurrent.futures import Future
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 import multiprocessing
 from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import SpawnProcess
 from pathlib import Path
+from queue import SimpleQueue
 import signal
+from threading import Lock
 
 from husky_runtime.parent_death import die_with_parent
-from pebble import ProcessExpired, ProcessPool
 
 from husky_grader.batch.job import Job, Outcome
 
 STALLED_CPU_SEC = 60.0
 
+_SPAWN = multiprocessing.get_context('spawn')
+_CHANGING = Lock()
+"""Processes are started and reaped one at a time: a start reaps all children that have ended."""
+
 
 @contextmanager
-def workers(count: int) -> Iterator[ProcessPool]:
+def workers(
+    count: int, stalled_cpu_sec: float = STALLED_CPU_SEC
+) -> Iterator[Callable[[Job, Path], 'Future[Outcome]']]:
     """
-    Open a pool of worker processes that never see Ctrl-C; at the end none is left.
+    Open workers that never see Ctrl-C; at the end none is left.
 
-    Threads and processes inherit which signals are blocked: the workers from this thread, and
-    those that take their places from the pool's threads.
+    What it gives has a worker do a job, whose report goes to the folder.
+
+    :param stalled_cpu_sec: how much processor time a job may take before it says that it is alive.
     """
-    pool = ProcessPool(
-        max_workers=count,
-        initializer=_begin_worker,
-        context=multiprocessing.get_context('spawn'),
-    )
-    resource_tracker.ensure_running()  # its start would unblock the signal again
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
+    all_workers = [_Worker() for _ in range(count)]
+    idle: SimpleQueue[_Worker] = SimpleQueue()
+    for worker in all_workers:
+        idle.put(worker)
+
+    def do(job: Job, folder: Path) -> Outcome:
+        worker = idle.get()
         try:
-            if not pool.active:  # this starts it
-                raise RuntimeError('the pool of workers did not start')
+            return worker.do(job, folder, stalled_cpu_sec)
         finally:
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-        yield pool
-    finally:
-        pool.stop()
-        pool.join()
+            idle.put(worker)
 
-
-def start(
-    pool: ProcessPool, job: Job, folder: Path, stalled_cpu_sec: float = STALLED_CPU_SEC
-) -> 'Future[Outcome]':
-    """
-    Have a worker do a job.
-
-    :param folder: of the job's report.
-    :param stalled_cpu_sec: how much processor time it may take before it says that it is alive.
-    """
-    future: Future[Outcome] = pool.schedule(_run, args=(job, folder, stalled_cpu_sec))
-    return future
-
-
-def outcome_of(future: 'Future[Outcome]', stalled_cpu_sec: float = STALLED_CPU_SEC) -> Outcome:
-    """Return what a job came to, also where its worker has crashed."""
+    resource_tracker.ensure_running()  # its start would unblock the signal again
+    threads = ThreadPoolExecutor(count, initializer=_block_interrupt)
     try:
-        return future.result()
-    except ProcessExpired as error:
-        if error.exitcode == -signal.SIGPROF:
+        yield lambda job, folder: threads.submit(do, job, folder)
+    finally:
+        threads.shutdown(wait=False, cancel_futures=True)
+        for worker in all_workers:
+            worker.end()
+        threads.shutdown()
+
+
+class _Worker:
+    """A process that does one job after another, and the next process where it has died."""
+
+    def __init__(self) -> None:
+        self._process: SpawnProcess | None = None
+        self._pipe: Connection
+        self._ended = False
+
+    def do(self, job: Job, folder: Path, stalled_cpu_sec: float) -> Outcome:
+        """Have a job done; the calling thread must live as long as the worker."""
+        if self._process is None or wait([self._process.sentinel], 0.0):
+            try:
+                self._process, self._pipe = self._start()
+            except OSError as error:  # as where no more processes are allowed
+                return Outcome(None, f'the grader got no process for it: {error.strerror}')
+        with suppress(EOFError, OSError):  # it dies while it reads or writes
+            self._pipe.send((job, folder, stalled_cpu_sec))
+            wait([self._pipe, self._process.sentinel])
+            if self._pipe.poll():
+                outcome: Outcome = self._pipe.recv()
+                return outcome
+        if self._end_of(self._process) == -signal.SIGPROF:
             return Outcome(
                 None,
                 f'the grader hung: {stalled_cpu_sec:g} s of processor time without progress',
             )
         return Outcome(None, 'the grader itself crashed on this one')
 
+    def end(self) -> None:
+        """Kill it, whatever it does; it does no job any more."""
+        with _CHANGING:
+            self._ended = True
+            if self._process is not None:
+                self._process.kill()
+        if self._process is not None:
+            self._end_of(self._process)
 
-def _begin_worker() -> None:
+    def _start(self) -> tuple[SpawnProcess, Connection]:
+        ours, its = _SPAWN.Pipe()
+        with its, _CHANGING:
+            if self._ended:
+                raise OSError('the workers have ended')
+            process = _SPAWN.Process(target=_serve, args=(its,), daemon=True)
+            process.start()
+        return process, ours
+
+    @staticmethod
+    def _end_of(process: SpawnProcess) -> int | None:
+        """Wait for its end; return its exit code."""
+        wait([process.sentinel])
+        with _CHANGING:
+            process.join()
+        return process.exitcode
+
+
+def _block_interrupt() -> None:
+    """Block it in this thread: the processes that it starts inherit that."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+
+
+def _serve(pipe: Connection) -> None:
     die_with_parent(signal.SIGKILL)
-    # The pool tells a worker to end and sends SIGTERM as well. A handler in Python is gone by then
-    # if the worker is quick, and Python prints a traceback.
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    with suppress(EOFError):  # the other end is closed
+        while True:
+            pipe.send(_run(*pipe.recv()))
 
 
 def _run(job: Job, folder: Path, stalled_cpu_sec: float) -> Outcome:
