@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 import json
 from pathlib import Path
 import signal
+import sqlite3
 from typing import Any
 
 from ament_index_python import get_package_share_directory
@@ -161,8 +163,9 @@ def test_a_recorded_drive_is_played_again(
     ros2: Ros2, processes: Processes, student: TurtleClient, tmp_path: Path
 ) -> None:
     student.command('turtle1')  # it is recorded once somebody publishes it
-    bag = str(tmp_path / 'bag')
-    recorder = processes.start('ros2', 'bag', 'record', '-o', bag, '/turtle1/cmd_vel')
+    bag = tmp_path / 'bag'
+    options = ('-s', 'sqlite3', '-o', str(bag))  # others can read it while it is written
+    recorder = processes.start('ros2', 'bag', 'record', *options, '/turtle1/cmd_vel')
     recorder.wait_for_text('Recording...')
     student.wait_for(
         lambda: student.node.count_subscribers('/turtle1/cmd_vel') == 2, 'the recorder'
@@ -170,9 +173,14 @@ def test_a_recorded_drive_is_played_again(
     student.pose()
     student.command('turtle1', x=1.0)
     gone = student.wait_for_pose(lambda pose: pose.x > 6.0, 'a turtle that goes')
+    with closing(sqlite3.connect(f'file:{bag / "bag_0.db3"}?mode=ro', uri=True)) as written:
+        count = written.cursor().execute
+        student.wait_for(
+            lambda: count('SELECT COUNT(*) FROM messages').fetchone() == (1,), 'its record'
+        )
     recorder.signal(signal.SIGINT)
     recorder.wait()
-    ros2('bag', 'play', bag)
+    ros2('bag', 'play', str(bag))
     student.wait_for_pose(lambda pose: pose.x > gone.x + 0.6, 'a turtle that goes again')
 
 
