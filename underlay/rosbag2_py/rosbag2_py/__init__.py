@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from rosbag2_py._message_definitions import LocalMessageDefinitionSource
     from rosbag2_py._reader import get_registered_readers, SequentialReader
     from rosbag2_py._reindexer import Reindexer
+    from rosbag2_py._rewrite import bag_rewrite
     from rosbag2_py._writer import (
         get_registered_compressors,
         get_registered_serializers,
@@ -53,6 +54,7 @@ __all__ = [
     'StorageOptions',
     'TopicInformation',
     'TopicMetadata',
+    'bag_rewrite',
     'convert_rclcpp_qos_to_rclpy_qos',
     'get_default_storage_id',
     'get_registered_compressors',
@@ -67,6 +69,7 @@ _MODULES = {
     'Info': '_info',
     'LocalMessageDefinitionSource': '_message_definitions',
     'Reindexer': '_reindexer',
+    'bag_rewrite': '_rewrite',
     **dict.fromkeys(('SequentialReader', 'get_registered_readers'), '_reader'),
     **dict.fromkeys(
         (
@@ -97,7 +100,6 @@ _LEFT_OUT = {
         _COMPRESS,
     ),
     'SequentialCompressionReader': 'SequentialReader reads MCAP files with compressed chunks',
-    'bag_rewrite': 'read with SequentialReader and write with SequentialWriter',
 }
 
 

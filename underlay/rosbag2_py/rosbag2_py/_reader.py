@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 import copy
 from pathlib import Path
-import re
 import weakref
 
 from rosbag2_py import bag_files
@@ -22,11 +21,10 @@ from rosbag2_py._options import (
     StorageFilter,
     StorageOptions,
 )
+from rosbag2_py._pattern import EVENTS, pattern
 from rosbag2_py.errors import BagError
 from rosbag2_py.storages import STORAGES
 from rosbag2_py.storages.interface import Key, Start, Storage, StoredFile, StoredMessage
-
-_EVENTS = '/_service_event'
 
 
 class SequentialReader:
@@ -104,12 +102,7 @@ class SequentialReader:
 
         :raises BagError: there is none.
         """
-        if not self.has_next() or self._next is None:
-            raise BagError('The bag has no further message: ask has_next() before read_next()')
-        message, self._next = self._next, None
-        self._key = message.key
-        if self._is_by_time:
-            self._time_ns = message.time_ns
+        message = self._take()
         return message.topic, message.data, message.time_ns
 
     def get_metadata(self) -> BagMetadata:
@@ -157,6 +150,15 @@ class SequentialReader:
         self._time_ns = timestamp
         self._restart()
 
+    def _take(self) -> StoredMessage:
+        if not self.has_next() or self._next is None:
+            raise BagError('The bag has no further message: ask has_next() before read_next()')
+        message, self._next = self._next, None
+        self._key = message.key
+        if self._is_by_time:
+            self._time_ns = message.time_ns
+        return message
+
     def _opened(self) -> StoredFile:
         if self._file is None:
             raise BagError('The bag is not open: call open() first')
@@ -191,6 +193,12 @@ def _nothing() -> None:
     """Stand for the closing of a file where there is none."""
 
 
+def stored_messages(reader: SequentialReader) -> Iterator[StoredMessage]:
+    """Yield what there is to read, with what `read_next` does not tell."""
+    while reader.has_next():
+        yield reader._take()
+
+
 def get_registered_readers() -> set[str]:
     return set(STORAGES)
 
@@ -201,14 +209,14 @@ def wanted(storage_filter: StorageFilter) -> Callable[[str], bool]:
 
     :raises BagError: an expression is none.
     """
-    regex = _pattern(storage_filter.regex)
-    exclude_regex = _pattern(storage_filter.regex_to_exclude)
+    regex = pattern(storage_filter.regex)
+    exclude_regex = pattern(storage_filter.regex_to_exclude)
     topics, events = storage_filter.topics, storage_filter.services_events
     exclude_topics = storage_filter.exclude_topics
     exclude_events = storage_filter.exclude_service_events
 
     def passes(topic: str) -> bool:
-        is_event = topic.endswith(_EVENTS) and topic != _EVENTS
+        is_event = topic.endswith(EVENTS) and topic != EVENTS
         included, excluded = (events, exclude_events) if is_event else (topics, exclude_topics)
         if topic in excluded or (exclude_regex and exclude_regex.fullmatch(topic)):
             return False
@@ -217,13 +225,6 @@ def wanted(storage_filter: StorageFilter) -> Callable[[str], bool]:
         return topic in included or bool(regex and regex.fullmatch(topic))
 
     return passes
-
-
-def _pattern(text: str) -> re.Pattern[str] | None:
-    try:
-        return re.compile(text) if text else None
-    except re.error as error:
-        raise BagError(f"'{text}' is no regular expression: {error}") from None
 
 
 def _check_formats(metadata: BagMetadata, asked: str) -> None:

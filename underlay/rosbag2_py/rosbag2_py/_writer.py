@@ -13,7 +13,7 @@ import weakref
 from rosbag2_py._fields import check_kind, nanoseconds_of
 from rosbag2_py._log import warn
 from rosbag2_py._message_definitions import empty, LocalMessageDefinitionSource
-from rosbag2_py._metadata import TopicMetadata
+from rosbag2_py._metadata import MessageDefinition, TopicMetadata
 from rosbag2_py._options import ConverterOptions, StorageOptions
 from rosbag2_py._writing_thread import WritingThread
 from rosbag2_py.bag_writer import BagWriter, Limits
@@ -49,8 +49,7 @@ class SequentialWriter:
         with self._lock:
             if self._close is not None:
                 return
-            storage = storage_of(storage_options.storage_id or DEFAULT_ID)
-            _check(storage, storage_options, converter_options)
+            storage = storage_to_write(storage_options, converter_options)
             self._options = copy.copy(storage_options)
             self._writer = BagWriter(
                 Path(storage_options.uri),
@@ -80,18 +79,16 @@ class SequentialWriter:
     def create_topic(self, topic_with_type: TopicMetadata, /) -> None:
         """Add a topic, before its first message; one of that name is left as it is."""
         check_kind(topic_with_type, TopicMetadata)
+        self._create(topic_with_type, None)
+
+    def _create(
+        self, topic_with_type: TopicMetadata, definition: MessageDefinition | None
+    ) -> None:
         with self._lock:
             self._check_open()
             if topic_with_type.name in self._topics:
                 return
-            type_name = topic_with_type.type
-            if type_name.endswith(_EVENT) and '/srv/' in type_name:
-                type_name = type_name.removesuffix(_EVENT)
-            try:
-                definition = LocalMessageDefinitionSource().get_full_text(type_name)
-            except BagError as error:
-                warn(f'{error}; the bag has none either')
-                definition = empty(type_name)
+            definition = definition or _definition_of(topic_with_type.type)
             self._topics[topic_with_type.name] = topic_with_type
             self._thread.put(0, self._writer.add_topic, topic_with_type, definition)
 
@@ -156,6 +153,23 @@ class SequentialWriter:
             )
 
 
+def add_topic(
+    writer: SequentialWriter, topic: TopicMetadata, definition: MessageDefinition | None
+) -> None:
+    """Add a topic as `create_topic` does, with the definition of its type if one is known."""
+    writer._create(topic, definition)
+
+
+def _definition_of(type_name: str) -> MessageDefinition:
+    if type_name.endswith(_EVENT) and '/srv/' in type_name:
+        type_name = type_name.removesuffix(_EVENT)
+    try:
+        return LocalMessageDefinitionSource().get_full_text(type_name)
+    except BagError as error:
+        warn(f'{error}; the bag has none either')
+        return empty(type_name)
+
+
 def get_registered_writers() -> set[str]:
     return set(STORAGES)
 
@@ -170,7 +184,13 @@ def get_registered_serializers() -> set[str]:
     return set()
 
 
-def _check(storage: Storage, options: StorageOptions, converter: ConverterOptions) -> None:
+def storage_to_write(options: StorageOptions, converter: ConverterOptions) -> Storage:
+    """
+    Return the storage for a new bag.
+
+    :raises BagError: an option is not offered here.
+    """
+    storage = storage_of(options.storage_id or DEFAULT_ID)
     if options.storage_preset_profile not in ('', *storage.presets):
         raise BagError(
             f"storage_preset_profile='{options.storage_preset_profile}': for {storage.id} it is "
@@ -197,6 +217,7 @@ def _check(storage: Storage, options: StorageOptions, converter: ConverterOption
             f"ConverterOptions('{given}', '{kept}'): messages are not converted here; write "
             "ConverterOptions('', '')"
         )
+    return storage
 
 
 def _bytes(message: Any) -> bytes:

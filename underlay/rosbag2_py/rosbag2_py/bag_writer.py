@@ -39,6 +39,13 @@ class _Topic:
     count: int = 0
 
 
+def already_there(folder: Path | str) -> BagError:
+    return BagError(
+        f"Output folder '{folder}' already exists, and no bag is written over: choose another "
+        'name, or remove it'
+    )
+
+
 def offered_qos(*, reliable: bool, transient_local: bool) -> _qos.QoS:
     """Return what a publisher offers, with limits of time that it does not have."""
     return _qos.from_dicts(
@@ -79,10 +86,7 @@ class BagWriter:
         try:
             folder.mkdir(parents=True)
         except FileExistsError:
-            raise BagError(
-                f"Output folder '{folder}' already exists, and no bag is written over: choose "
-                'another name, or remove it'
-            ) from None
+            raise already_there(folder) from None
         except OSError as error:
             raise BagError(f"'{folder}' cannot be made: {error.strerror}") from None
         self.folder = folder

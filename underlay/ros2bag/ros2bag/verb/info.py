@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from ros2cli import arguments
 from ros2cli.verb import VerbExtension
 from rosbag2_py import bag_files
-from rosbag2_py.storages import STORAGES
 
+from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
 
 _KEYS: dict[str, Any] = {
@@ -25,15 +24,8 @@ class InfoVerb(VerbExtension):
     """Print information about a bag to the screen."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        parser.add_argument('bag_path', type=Path, help='Bag to open')
+        add_bag_argument(parser)
         arguments.add_flags(parser, {'-t --topic-name': 'Only display topic names.'})
-        parser.add_argument(
-            '-s',
-            '--storage',
-            choices=sorted(STORAGES),
-            default='',
-            help='Storage implementation of bag (default: found out from its files)',
-        )
         parser.add_argument(
             '--sort',
             choices=list(_KEYS),

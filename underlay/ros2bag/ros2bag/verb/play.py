@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from pathlib import Path
 import time
 from typing import Any
 
@@ -16,11 +15,11 @@ from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 import rosbag2_py
 from rosbag2_py import bag_files
-from rosbag2_py.storages import STORAGES
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 from rtps_graph.graph import Role
 
+from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
 
 _MATCH_TIMEOUT_SEC = 2.0
@@ -31,14 +30,7 @@ class PlayVerb(VerbExtension):
     """Play back ROS data from a bag."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        parser.add_argument('bag_path', type=Path, help='Bag to open')
-        parser.add_argument(
-            '-s',
-            '--storage',
-            choices=sorted(STORAGES),
-            default='',
-            help='Storage implementation of bag (default: found out from its files)',
-        )
+        add_bag_argument(parser)
         parser.add_argument(
             '-r',
             '--rate',

@@ -17,7 +17,7 @@ from ros2cli.verb import VerbExtension
 # What a full ROS 2 has besides; each is refused with a line that says so.
 _LEFT_OUT = {
     'ros2cli.command': ('control', 'plugin', 'security', 'test', 'trace'),
-    'ros2bag.verb': ('burst', 'convert', 'list', 'reindex'),
+    'ros2bag.verb': ('burst', 'list'),
     'ros2action.verb': ('echo', 'find'),
 }  # fmt: skip
 

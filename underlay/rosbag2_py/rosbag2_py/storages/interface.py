@@ -21,12 +21,13 @@ Key = tuple[int, ...]
 
 
 class StoredMessage(NamedTuple):
-    """A message, with its time in nanoseconds and its place in the order of reading."""
+    """A message, with its times in nanoseconds and its place in the order of reading."""
 
     key: Key
     topic: str
     data: bytes
-    time_ns: int
+    time_ns: int  # when it was received
+    published_ns: int  # the same where the storage has none
 
 
 class Start(NamedTuple):

@@ -245,7 +245,8 @@ class McapFile(StoredFile):
 
 
 def _stored(key: Key, message: Message, topics: dict[int, str]) -> StoredMessage:
-    return StoredMessage(key, topics[message.channel_id], message.data, message.log_time)
+    topic = topics[message.channel_id]
+    return StoredMessage(key, topic, message.data, message.log_time, message.publish_time)
 
 
 def _index(chunk: Chunk, end: int, channels: set[int]) -> ChunkIndex:

@@ -97,7 +97,8 @@ class SqliteFile(StoredFile):
             for time_ns, number, topic in self._places(start, order, list(names)):
                 data = self._data(number)
                 if data is not None:
-                    yield StoredMessage((_time(time_ns), number), names[topic], data, time_ns)
+                    key = (_time(time_ns), number)
+                    yield StoredMessage(key, names[topic], data, time_ns, time_ns)
 
     def _places(
         self, start: Start, order: ReadOrder, topics: list[int]

@@ -1,0 +1,172 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a file of `output_bags` says: into which bags others are written, and what of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+import difflib
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rosbag2_py._fields import Field, many, text
+from rosbag2_py._options import StorageOptions
+from rosbag2_py._pattern import EVENTS, pattern
+from rosbag2_py.errors import BagError
+
+_KEY = 'output_bags'
+# Of a recording; to rewrite a bag, upstream takes them as well and does nothing by them.
+_OF_RECORDINGS = (
+    'compression_queue_size',
+    'compression_threads',
+    'compression_threads_priority',
+    'disable_keyboard_controls',
+    'ignore_leaf_topics',
+    'include_unpublished_topics',
+    'is_discovery_disabled',
+    'node_prefix',
+    'start_paused',
+    'topic_polling_interval',
+    'topic_qos_profile_overrides',
+    'use_sim_time',
+)
+_COMPRESS = 'storage_preset_profile: zstd_fast compresses an MCAP bag'
+
+
+def _yes_or_no(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError('true or false')
+    return value
+
+
+def _unset(why: str) -> Any:
+    """Return a check of what is not offered: it may be empty."""
+
+    def convert(value: Any) -> str:
+        if value:
+            raise TypeError(f'nothing: {why}')
+        return ''
+
+    return convert
+
+
+class Selection:
+    """Which topics a bag is given; the names are those of upstream's RecordOptions."""
+
+    all_topics = Field(_yes_or_no)
+    all_services = Field(_yes_or_no)
+    topics = Field(many(text))
+    topic_types = Field(many(text))
+    services = Field(many(text))
+    regex = Field(text)
+    exclude_topics = Field(many(text))
+    exclude_topic_types = Field(many(text))
+    exclude_service_events = Field(many(text))
+    exclude_regex = Field(text)
+    include_hidden_topics = Field(_yes_or_no)
+    compression_mode = Field(_unset(_COMPRESS))
+    compression_format = Field(_unset(_COMPRESS))
+    rmw_serialization_format = Field(_unset('messages stay as they are'))
+
+    def __init__(self) -> None:
+        self.all_topics = self.all_services = self.include_hidden_topics = False
+        self.topics = self.topic_types = self.services = []
+        self.exclude_topics = self.exclude_topic_types = self.exclude_service_events = []
+        self.regex = self.exclude_regex = ''
+
+    def is_empty(self) -> bool:
+        return not (
+            self.all_topics
+            or self.all_services
+            or self.topics
+            or self.topic_types
+            or self.services
+            or self.regex
+        )
+
+    def wants(self, name: str, type_name: str) -> bool:
+        if name.endswith(EVENTS) and type_name.endswith('_Event'):
+            service = name.removesuffix(EVENTS)
+            named = bool({name, service} & set(self.services))
+            excluded = bool({name, service} & set(self.exclude_service_events))
+            return not excluded and self._passes(service, named or self.all_services)
+        named = name in self.topics or type_name in self.topic_types
+        if name in self.exclude_topics or type_name in self.exclude_topic_types:
+            return False
+        if not self.include_hidden_topics and '/_' in name:
+            return False
+        return self._passes(name, named or self.all_topics)
+
+    def _passes(self, name: str, named: bool) -> bool:  # noqa: FBT001
+        wanted, unwanted = pattern(self.regex), pattern(self.exclude_regex)
+        if unwanted and unwanted.search(name):
+            return False
+        return named or bool(wanted and wanted.search(name))
+
+
+@dataclass
+class OutputBag:
+    storage: StorageOptions = field(default_factory=lambda: StorageOptions(''))
+    selection: Selection = field(default_factory=Selection)
+
+
+def read_output_bags(path: Path) -> list[OutputBag]:
+    """
+    Read such a file, which is YAML.
+
+    :raises BagError: there is none, or something in it is not understood.
+    """
+    try:
+        content = yaml.safe_load(path.read_text(encoding='utf-8'))
+    except OSError as error:
+        raise BagError(f"'{path}' cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise BagError(f"'{path}' is no text in UTF-8") from None
+    except yaml.YAMLError as error:
+        raise BagError(f"'{path}' is no YAML: {' '.join(str(error).split())}") from None
+    bags = content.get(_KEY) if isinstance(content, dict) else None
+    if not isinstance(bags, list) or not bags:
+        raise BagError(
+            f"'{path}' has no list {_KEY}; write for one bag:\n"
+            f'{_KEY}:\n- uri: new_bag\n  all_topics: true'
+        )
+    return [
+        _output_bag(options, f"'{path}': {_KEY}, number {number}")
+        for number, options in enumerate(bags, start=1)
+    ]
+
+
+def _output_bag(options: object, place: str) -> OutputBag:
+    if not isinstance(options, dict):
+        raise BagError(f'{place}: {options!r} is no options; a bag has at least a uri')
+    bag = OutputBag()
+    offered = {name: part for part in (bag.storage, bag.selection) for name in _fields_of(part)}
+    older = {'exclude': ('exclude_regex',), 'all': ('all_topics', 'all_services')}
+    for name, value in options.items():
+        if name in _OF_RECORDINGS:
+            continue
+        for each in older.get(name, (name,)):
+            if each not in offered:
+                near = difflib.get_close_matches(str(each), offered, 1)
+                hint = f'did you mean {near[0]}?' if near else f'there are {", ".join(offered)}'
+                raise BagError(f'{place}: there is no option {each}; {hint}')
+            try:
+                setattr(offered[each], each, value)
+            except TypeError as error:
+                raise BagError(f'{place}: {str(error).partition(".")[2]}') from None
+    if not bag.storage.uri:
+        raise BagError(f'{place}: it has no uri, the folder to make')
+    for expression in (bag.selection.regex, bag.selection.exclude_regex):
+        pattern(expression)
+    if bag.selection.is_empty():
+        raise BagError(
+            f'{place}: it names no topics, so that the bag would be empty; write all_topics: '
+            'true, or topics: [/NAME, ...]'
+        )
+    return bag
+
+
+def _fields_of(part: object) -> list[str]:
+    return [name for name, value in vars(type(part)).items() if isinstance(value, Field)]
