@@ -30,18 +30,30 @@ def clean_shared_memory() -> None:
 def _remove_older() -> list[float]:
     """Remove the unused files that are older than the time to map one; return the others' ages."""
     files = unused_files()
-    for file, age_sec in files.items():
-        if age_sec > _MADE_SEC:
+    young = {file: age_sec for file, age_sec in files.items() if age_sec <= _MADE_SEC}
+    being_made = {_stem_of(file.name) for file in young}
+    for file in files:
+        if _stem_of(file.name) not in being_made:
             file.unlink(missing_ok=True)
-    return sorted(age_sec for age_sec in files.values() if age_sec <= _MADE_SEC)
+    return sorted(young.values())
 
 
 def unused_files() -> dict[Path, float]:
     """Return the age of every file of this user that nobody uses, as far as one sees."""
+    files = list(_FOLDER.glob(f'*{_MARK}*'))
+    if not files:
+        return {}
+    maps = [_maps_of(process) for process in Path('/proc').glob('[0-9]*')]
+    # In a container root may have fewer rights than another root, whose files these may be.
+    if None in maps and os.geteuid() == 0 and not _may_trace():
+        return {}
+    mapped = ''.join(filter(None, maps))
+    # What follows is quick, and comes last: ports have names that come again, and who takes that
+    # of a dead one while all maps are read has it locked, or made anew.
     ages: dict[Path, float] = {}
     used: set[str] = set()
     locked = _locked_inodes()
-    for file in _FOLDER.glob(f'*{_MARK}*'):
+    for file in files:
         try:
             status = file.stat()
         except OSError:  # removed meanwhile
@@ -52,13 +64,6 @@ def unused_files() -> dict[Path, float]:
             # A busy machine may take long from the lock on NAME_el to the map of NAME.
             if status.st_ino in locked:
                 used.add(_stem_of(file.name))
-    if not ages:
-        return ages
-    maps = [_maps_of(process) for process in Path('/proc').glob('[0-9]*')]
-    # In a container root may have fewer rights than another root, whose files these may be.
-    if None in maps and os.geteuid() == 0 and not _may_trace():
-        return {}
-    mapped = ''.join(filter(None, maps))
     stems = {file: _stem_of(file.name) for file in ages}
     return {
         file: ages[file] for file, stem in stems.items() if stem not in mapped and stem not in used

@@ -229,6 +229,31 @@ def test_shared_memory_that_is_being_made_stays() -> None:
         file.unlink(missing_ok=True)
 
 
+def test_a_port_that_is_taken_while_maps_are_read_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Its name is that of a dead one's port, whose files are used again.
+    monkeypatch.setattr('husky_runtime.shared_memory._FOLDER', tmp_path)
+    names = ('fastrtps_port7000', 'fastrtps_port7000_el', 'sem.fastrtps_port7000_mutex')
+    for name in names:
+        (tmp_path / name).touch()
+        os.utime(tmp_path / name, (0.0, 0.0))
+    with (tmp_path / names[1]).open('w') as lock:
+
+        def taken(_process: Path) -> str:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            (tmp_path / names[0]).unlink(missing_ok=True)
+            (tmp_path / names[0]).touch()
+            return ''
+
+        with monkeypatch.context() as patched:
+            patched.setattr('husky_runtime.shared_memory._maps_of', taken)
+            clean_shared_memory()
+        assert {file.name for file in tmp_path.iterdir()} == set(names)
+    clean_shared_memory()
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_clock_that_was_set_back_holds_nobody_up(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
