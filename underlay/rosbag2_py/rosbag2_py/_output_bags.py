@@ -32,6 +32,7 @@ _OF_RECORDINGS = (
     'topic_qos_profile_overrides',
     'use_sim_time',
 )
+_OLDER = {'exclude': ('exclude_regex',), 'all': ('all_topics', 'all_services')}
 _COMPRESS = 'storage_preset_profile: zstd_fast compresses an MCAP bag'
 
 
@@ -63,7 +64,7 @@ class Selection:
     regex = Field(text)
     exclude_topics = Field(many(text))
     exclude_topic_types = Field(many(text))
-    exclude_service_events = Field(many(text))
+    exclude_services = Field(many(text))
     exclude_regex = Field(text)
     include_hidden_topics = Field(_yes_or_no)
     compression_mode = Field(_unset(_COMPRESS))
@@ -73,7 +74,7 @@ class Selection:
     def __init__(self) -> None:
         self.all_topics = self.all_services = self.include_hidden_topics = False
         self.topics = self.topic_types = self.services = []
-        self.exclude_topics = self.exclude_topic_types = self.exclude_service_events = []
+        self.exclude_topics = self.exclude_topic_types = self.exclude_services = []
         self.regex = self.exclude_regex = ''
 
     def is_empty(self) -> bool:
@@ -90,7 +91,7 @@ class Selection:
         if name.endswith(EVENTS) and type_name.endswith('_Event'):
             service = name.removesuffix(EVENTS)
             named = bool({name, service} & set(self.services))
-            excluded = bool({name, service} & set(self.exclude_service_events))
+            excluded = bool({name, service} & set(self.exclude_services))
             return not excluded and self._passes(service, named or self.all_services)
         named = name in self.topics or type_name in self.topic_types
         if name in self.exclude_topics or type_name in self.exclude_topic_types:
@@ -143,11 +144,10 @@ def _output_bag(options: object, place: str) -> OutputBag:
         raise BagError(f'{place}: {options!r} is no options; a bag has at least a uri')
     bag = OutputBag()
     offered = {name: part for part in (bag.storage, bag.selection) for name in _fields_of(part)}
-    older = {'exclude': ('exclude_regex',), 'all': ('all_topics', 'all_services')}
     for name, value in options.items():
-        if name in _OF_RECORDINGS:
+        if name in _OF_RECORDINGS or (name == 'all' and value is False):
             continue
-        for each in older.get(name, (name,)):
+        for each in _OLDER.get(name, (name,)):
             if each not in offered:
                 near = difflib.get_close_matches(str(each), offered, 1)
                 hint = f'did you mean {near[0]}?' if near else f'there are {", ".join(offered)}'
