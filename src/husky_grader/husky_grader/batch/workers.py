@@ -125,6 +125,8 @@ def _block_interrupt() -> None:
 
 
 def _serve(pipe: Connection) -> None:
+    # A Python of the lab unblocks it at its start: see interrupt_while_loading in underlay.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent(signal.SIGKILL)
     with suppress(EOFError):  # the other end is closed
         while True:
