@@ -160,15 +160,16 @@ def test_a_bag_becomes_several_and_each_several_files(bag: Path, tmp_path: Path)
 def test_an_empty_bag_is_told_with_what_there_is(
     bag: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    rewrite(tmp_path, '- {uri: new, topics: [/chater]}', bag)
-    told = "new' gets no message: the topics are /chatter, /other, /_hidden, "
-    assert told in capfd.readouterr().err
+    rewrite(tmp_path, '- {uri: new, topics: [/chater]}\n- {uri: none}', bag)
+    told = capfd.readouterr().err
+    assert "new' gets no message: the topics are /chatter, /other, /_hidden, " in told
+    assert "none' gets no message: write all_topics: true, or topics: [/NAME]; the top" in told
+    assert not opened_reader(tmp_path / 'none').has_next()
 
 
 @pytest.mark.parametrize(
     ('options', 'refused'),
     [
-        ('{uri: new}', 'it names no topics, so that the bag would be empty; write all_topics'),
         ('{uri: new, topic: [/a]}', 'number 2: there is no option topic; did you mean topics?'),
         ('{uri: new, 3: 4}', 'there is no option 3; there are uri, storage_id, '),
         ('{uri: new, topics: /a}', "number 2: topics='/a': it takes a list"),

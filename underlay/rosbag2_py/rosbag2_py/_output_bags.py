@@ -160,11 +160,6 @@ def _output_bag(options: object, place: str) -> OutputBag:
         raise BagError(f'{place}: it has no uri, the folder to make')
     for expression in (bag.selection.regex, bag.selection.exclude_regex):
         pattern(expression)
-    if bag.selection.is_empty():
-        raise BagError(
-            f'{place}: it names no topics, so that the bag would be empty; write all_topics: '
-            'true, or topics: [/NAME, ...]'
-        )
     return bag
 
 

@@ -53,8 +53,9 @@ def bag_rewrite(input_options: list[StorageOptions], output_config_file: str, /)
                     add_topic(writer, topic, definitions.get(topic.type))
                     takers[name].append(writer)
             if not any(writer in each for each in takers.values()):
+                hint = 'write all_topics: true, or topics: [/NAME]; ' * output.selection.is_empty()
                 there = ', '.join(topics) or 'none'
-                warn(f"'{output.storage.uri}' gets no message: the topics are {there}")
+                warn(f"'{output.storage.uri}' gets no message: {hint}the topics are {there}")
         streams = [stored_messages(reader) for reader in readers]
         for message in heapq.merge(*streams, key=lambda each: each.time_ns):
             for writer in takers[message.topic]:
