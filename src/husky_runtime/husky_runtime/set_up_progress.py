@@ -102,7 +102,7 @@ class Display:
         text = f'{step.doing}{_left(now_sec - self._began_sec, part)}'
         if self._is_bar:
             done = round(WIDTH * part)
-            width = max(shutil.get_terminal_size().columns - 1, 10)
+            width = _columns()
             bar = f'lab: [{"#" * done}{"." * (WIDTH - done)}] {text}'
             self._write('\r' + bar[:width].ljust(width))
         elif now_sec - self._said_sec > LINE_EVERY_SEC:
@@ -112,11 +112,17 @@ class Display:
     def close(self) -> None:
         """Leave the line empty."""
         if self._is_bar:
-            self._write('\r' + ' ' * max(shutil.get_terminal_size().columns - 1, 10) + '\r')
+            self._write('\r' + ' ' * _columns() + '\r')
 
     def _write(self, text: str) -> None:
         sys.stderr.write(text)
         sys.stderr.flush()
+
+
+def _columns() -> int:
+    """Return how many the bar may take."""
+    # Of a terminal that does not tell its size, Python 3.10 says 0, and later ones say 80.
+    return max((shutil.get_terminal_size().columns or 80) - 1, 10)
 
 
 def _left(passed_sec: float, part: float) -> str:
