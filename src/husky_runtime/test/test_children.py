@@ -232,9 +232,9 @@ def test_shared_memory_that_is_being_made_stays() -> None:
 def test_a_port_that_is_taken_while_maps_are_read_stays(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # Its name is that of a dead one's port, whose files are used again; no node has port 1.
+    # Its name is that of a dead one's port, whose files are used again; no node has this one.
     monkeypatch.setattr('husky_runtime.shared_memory._FOLDER', tmp_path)
-    names = ('fastrtps_port1', 'fastrtps_port1_el', 'sem.fastrtps_port1_mutex')
+    names = ('fastrtps_port99999', 'fastrtps_port99999_el', 'sem.fastrtps_port99999_mutex')
     for name in names:
         (tmp_path / name).touch()
         os.utime(tmp_path / name, (0.0, 0.0))
