@@ -54,7 +54,7 @@ class SqliteWriter(FileWriter):
         self._is_open = True
         # BagWriter is made in one thread and used in another.
         self._connection = sqlite3.connect(
-            path.absolute(), _BUSY_SEC, isolation_level=None, check_same_thread=False
+            path.absolute(), timeout=_BUSY_SEC, isolation_level=None, check_same_thread=False
         )
         try:
             with self._in_words():
