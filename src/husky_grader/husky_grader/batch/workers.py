@@ -74,18 +74,17 @@ class _Worker:
 
     def do(self, job: Job, folder: Path, stalled_cpu_sec: float) -> Outcome:
         """Have a job done; the calling thread must live as long as the worker."""
-        if self._process is None or wait([self._process.sentinel], 0.0):
-            try:
-                self._process, self._pipe = self._start()
-            except OSError as error:  # as where no more processes are allowed
-                return Outcome(None, f'the grader got no process for it: {error.strerror}')
+        try:
+            process, pipe = self._living()
+        except OSError as error:  # as where no more processes are allowed
+            return Outcome(None, f'the grader got no process for it: {error.strerror}')
         with suppress(EOFError, OSError):  # it dies while it reads or writes
-            self._pipe.send((job, folder, stalled_cpu_sec))
-            wait([self._pipe, self._process.sentinel])
-            if self._pipe.poll():
-                outcome: Outcome = self._pipe.recv()
+            pipe.send((job, folder, stalled_cpu_sec))
+            wait([pipe, process.sentinel])
+            if pipe.poll():
+                outcome: Outcome = pipe.recv()
                 return outcome
-        if self._end_of(self._process) == -signal.SIGPROF:
+        if _end_of(process) == -signal.SIGPROF:
             return Outcome(
                 None,
                 f'the grader hung: {stalled_cpu_sec:g} s of processor time without progress',
@@ -96,27 +95,31 @@ class _Worker:
         """Kill it, whatever it does; it does no job any more."""
         with _CHANGING:
             self._ended = True
-            if self._process is not None:
-                self._process.kill()
-        if self._process is not None:
-            self._end_of(self._process)
+            process = self._process
+        if process is not None:
+            process.kill()
+            _end_of(process)
 
-    def _start(self) -> tuple[SpawnProcess, Connection]:
-        ours, its = _SPAWN.Pipe()
-        with its, _CHANGING:
+    def _living(self) -> tuple[SpawnProcess, Connection]:
+        """Return the process and our end of the pipe to it; a new one where it has ended."""
+        with _CHANGING:
             if self._ended:
                 raise OSError('the workers have ended')
-            process = _SPAWN.Process(target=_serve, args=(its,), daemon=True)
-            process.start()
-        return process, ours
+            if self._process is None or wait([self._process.sentinel], 0.0):
+                self._pipe, its = _SPAWN.Pipe()
+                with its:
+                    process = _SPAWN.Process(target=_serve, args=(its,), daemon=True)
+                    process.start()
+                self._process = process
+            return self._process, self._pipe
 
-    @staticmethod
-    def _end_of(process: SpawnProcess) -> int | None:
-        """Wait for its end; return its exit code."""
-        wait([process.sentinel])
-        with _CHANGING:
-            process.join()
-        return process.exitcode
+
+def _end_of(process: SpawnProcess) -> int | None:
+    """Wait for its end; return its exit code."""
+    wait([process.sentinel])
+    with _CHANGING:
+        process.join()
+    return process.exitcode
 
 
 def _block_interrupt() -> None:
