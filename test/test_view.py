@@ -371,6 +371,12 @@ def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, p
     )
     stop.publish(Bool(data=False))
     button(page, 'STOP').wait_for()
+    # The next message takes the place of one that the simulator has not taken yet.
+    wait_until(
+        lambda: 'stop released' in lab.simulator.output,
+        timeout_sec=10.0,
+        what=lambda: f'a release in {lab.simulator.output}',
+    )
     stop.publish(Bool(data=True))
     # One that is released before the simulator has noticed it is none for it.
     wait_until(

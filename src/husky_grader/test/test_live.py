@@ -131,7 +131,8 @@ def drive_in_jail(
     (theirs / 'course.yaml').write_text(COURSE)
     command = f'{sys.executable} {theirs}/student.py'
     # The lab's own driver, which is not there for students, as one that answers.
-    ours = [path for path in map(Path, sys.path) if path.is_dir()] + [ROOT / 'src']
+    known = [path for path in map(Path, sys.path) if not path.is_relative_to(sys.base_prefix)]
+    ours = [path for path in known if path.is_dir()] + [ROOT / 'src']
     environment = {'PYTHONPATH': os.environ['PYTHONPATH']}
     with Jail(find_sandbox(sandbox), theirs, readable=ours) as jail:
         return drive_live(
