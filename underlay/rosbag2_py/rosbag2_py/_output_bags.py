@@ -130,8 +130,8 @@ def read_output_bags(path: Path) -> list[OutputBag]:
     bags = content.get(_KEY) if isinstance(content, dict) else None
     if not isinstance(bags, list) or not bags:
         raise BagError(
-            f"'{path}' has no list {_KEY}; write for one bag:\n"
-            f'{_KEY}:\n- uri: new_bag\n  all_topics: true'
+            f"'{path}' has no list {_KEY}; for one bag write "
+            f'{_KEY}: [{{uri: new_bag, all_topics: true}}]'
         )
     return [
         _output_bag(options, f"'{path}': {_KEY}, number {number}")

@@ -53,7 +53,8 @@ def workers(
         finally:
             idle.put(worker)
 
-    resource_tracker.ensure_running()  # its start would unblock the signal again
+    # Of multiprocessing: it starts with the first process otherwise, and unblocks SIGINT there.
+    resource_tracker.ensure_running()
     threads = ThreadPoolExecutor(count, initializer=_block_interrupt)
     try:
         yield lambda job, folder: threads.submit(do, job, folder)
