@@ -21,6 +21,11 @@ def left(files: Files) -> list[str]:
     return sorted(path.name for path in there - mapped_by(_all_pids()).keys())
 
 
+def lost(files: Files) -> list[str]:
+    """Return which of the files, that a process has, nobody else finds any more."""
+    return sorted(path.name for path, inode in files.items() if _inode(path) != inode)
+
+
 def _inode(path: Path) -> int | None:
     try:
         return path.stat().st_ino

@@ -3,45 +3,99 @@
 """
 Remove the shared memory of Fast DDS that killed participants leave.
 
-A participant makes files fastrtps_NAME, fastrtps_NAME_el and sem.fastrtps_NAME_mutex in /dev/shm.
-One that is killed leaves them, and the clean-up of the next one removes half of them.
+A participant makes files fastrtps_NAME and fastrtps_NAME_el in /dev/shm, and for ports, whose
+names come again, sem.fastrtps_NAME_mutex. One that is killed leaves them, and the clean-up of the
+next one removes half of them.
 """
 
+from contextlib import closing, suppress
+import math
 import os
 from pathlib import Path
 import time
 
-_FOLDER = Path('/dev/shm')
+from husky_runtime.domains import Lock
+from husky_runtime.ports import FOLDER, free_half_made_ports, Mutex, PORT
+
 _MARK = 'fastrtps_'
 _CAP_SYS_PTRACE = 19  # <linux/capability.h>
 _MADE_SEC = 0.2  # a younger file may not be mapped yet
+_LOCK_SEC, _POLL_SEC = 5.0, 0.01  # of waiting for another clean-up
 
 
 def clean_shared_memory() -> None:
     """Remove the files of this user that no process has mapped or locked."""
     if not Path('/proc/self/maps').exists():  # not Linux
         return
-    # A second look and no deadline: on a busy machine one look at all processes takes long.
-    if young_sec := _remove_older():
-        time.sleep(max(0.0, _MADE_SEC - young_sec[0]))
-        _remove_older()
+    # A second time and no deadline: on a busy machine one look at all processes takes long.
+    with suppress(BlockingIOError):
+        if young_sec := _remove_older():
+            time.sleep(_MADE_SEC - young_sec[0])
+            _remove_older()
 
 
 def _remove_older() -> list[float]:
-    """Remove the unused files that are older than the time to map one; return the others' ages."""
-    files = unused_files()
-    young = {file: age_sec for file, age_sec in files.items() if age_sec <= _MADE_SEC}
-    being_made = {_stem_of(file.name) for file in young}
-    for file in files:
-        if _stem_of(file.name) not in being_made:
+    """
+    Remove the unused files that are older than the time to map one; return the others' ages.
+
+    :raises BlockingIOError: if others do the same for too long.
+    """
+    with closing(_wait_for_lock()):
+        free_half_made_ports()
+        ages = unused_files()
+        if old := _older(ages):
+            _remove(old)
+    return sorted(age_sec for age_sec in ages.values() if age_sec <= _MADE_SEC)
+
+
+def _remove(files: set[Path]) -> None:
+    """Remove what is unused of these files also while nobody can open a port."""
+    # Who opens a port takes its mutex first. One that cannot be taken here is in the hands of a
+    # process that has it mapped, or has ended: no other clean-up is at work.
+    stems = {_stem_of(file.name) for file in files}
+    taken = [mutex for stem in stems if stem.startswith(PORT) and (mutex := Mutex(stem)).take()]
+    try:
+        unused = files & _older(unused_files())
+        mutexes = {Mutex(_stem_of(file.name)).file for file in unused}
+        for file in unused - mutexes:
             file.unlink(missing_ok=True)
-    return sorted(young.values())
+    finally:
+        for mutex in taken:
+            mutex.release()
+    for file in mutexes:
+        file.unlink(missing_ok=True)
+
+
+def _wait_for_lock() -> Lock:
+    """
+    Wait until no other clean-up of this user is at work.
+
+    :raises BlockingIOError: if one is for too long.
+    """
+    deadline = time.monotonic() + _LOCK_SEC
+    while True:
+        try:
+            return Lock(f'clean_shared_memory_{os.getuid()}')
+        except BlockingIOError:
+            if time.monotonic() > deadline:
+                raise
+        time.sleep(_POLL_SEC)
+
+
+def _older(ages: dict[Path, float]) -> set[Path]:
+    """Return the files of which all with the same stem are older than the time to map one."""
+    being_made = {_stem_of(file.name) for file, age_sec in ages.items() if age_sec <= _MADE_SEC}
+    return {file for file in ages if _stem_of(file.name) not in being_made}
 
 
 def unused_files() -> dict[Path, float]:
-    """Return the age of every file of this user that nobody uses, as far as one sees."""
-    files = list(_FOLDER.glob(f'*{_MARK}*'))
-    if not files:
+    """
+    Return the files of this user that nobody uses, as far as one sees.
+
+    With them their ages when the look began, in seconds: negative for what was made since.
+    """
+    begun_sec = time.time()
+    if not any(FOLDER.glob(f'*{_MARK}*')):
         return {}
     maps = [_maps_of(process) for process in Path('/proc').glob('[0-9]*')]
     # In a container root may have fewer rights than another root, whose files these may be.
@@ -53,14 +107,15 @@ def unused_files() -> dict[Path, float]:
     ages: dict[Path, float] = {}
     used: set[str] = set()
     locked = _locked_inodes()
-    for file in files:
+    for file in FOLDER.glob(f'*{_MARK}*'):
         try:
             status = file.stat()
         except OSError:  # removed meanwhile
             continue
         if status.st_uid == os.getuid():
             # Of one from the future, the clock was set back: it is not being made now.
-            ages[file] = abs(time.time() - status.st_mtime)
+            is_possible = status.st_mtime <= time.time()
+            ages[file] = begun_sec - status.st_mtime if is_possible else math.inf
             # A busy machine may take long from the lock on NAME_el to the map of NAME.
             if status.st_ino in locked:
                 used.add(_stem_of(file.name))

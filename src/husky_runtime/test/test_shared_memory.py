@@ -1,0 +1,222 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What killed nodes leave in shared memory goes, and nothing that a node has or takes."""
+
+import fcntl
+import os
+from pathlib import Path
+import subprocess
+import sys
+import time
+
+from husky_runtime.domains import OwnDomain
+from husky_runtime.ports import FOLDER, Mutex, PORT
+from husky_runtime.shared_memory import clean_shared_memory, unused_files
+from playpen_testing.shared_memory import Files, lost, mapped_by
+from playpen_testing.waiting import wait_until
+import psutil
+import pytest
+
+PARTICIPANT = """
+import sys, rclpy
+rclpy.init()
+node = rclpy.create_node('participant')
+print('here', flush=True)
+sys.stdin.read()
+"""
+
+
+def test_the_shared_memory_of_the_dead_goes() -> None:
+    with OwnDomain() as one, OwnDomain() as another:
+        dead, alive = participant(one.number), participant(another.number)
+        files = {process: mapped_by([process.pid]) for process in (dead, alive)}
+        assert all(files.values())
+        dead.kill()
+        dead.communicate()
+        clean_shared_memory()
+        left = {process: [f for f in names if f.exists()] for process, names in files.items()}
+        unused = set(unused_files())
+        alive.communicate(b'', timeout=10.0)
+    # The ports of the dead are free: a participant that began meanwhile may have taken one.
+    assert unused & set(left[dead]) == set()
+    assert len(left[dead]) < len(files[dead])
+    assert left[alive] == list(files[alive])
+
+
+def test_shared_memory_that_others_may_use_stays() -> None:
+    # Root without rights cannot see what root with rights has mapped.
+    fewer = ['setpriv', '--bounding-set=-all', '--inh-caps=-all'] if os.geteuid() == 0 else []
+    clean = 'from husky_runtime.shared_memory import clean_shared_memory as c; c()'
+    with OwnDomain() as domain:
+        alive = participant(domain.number)
+        files = mapped_by([alive.pid])
+        done = subprocess.run([*fewer, sys.executable, '-c', clean], env=os.environ)
+        left = [file for file in files if file.exists()]
+        alive.communicate(b'', timeout=10.0)
+    assert (done.returncode, left) == (0, list(files))
+
+
+def test_shared_memory_that_is_being_made_stays() -> None:
+    file = Path(f'/dev/shm/fastrtps_made_by_{os.getpid()}_el')
+    try:
+        with file.open('w') as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            os.utime(file, (0.0, 0.0))
+            clean_shared_memory()
+            assert file.exists()
+        clean_shared_memory()
+        assert not file.exists()
+    finally:
+        file.unlink(missing_ok=True)
+
+
+def test_a_port_that_is_taken_while_maps_are_read_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Its name is that of a dead one's port, whose files are used again; no node has this one.
+    monkeypatch.setattr('husky_runtime.shared_memory.FOLDER', tmp_path)
+    monkeypatch.setattr('husky_runtime.ports.FOLDER', tmp_path)
+    names = ('fastrtps_port99999', 'fastrtps_port99999_el', 'sem.fastrtps_port99999_mutex')
+    for name in names:
+        (tmp_path / name).touch()
+        os.utime(tmp_path / name, (0.0, 0.0))
+    with (tmp_path / names[1]).open('w') as lock:
+
+        def taken(_process: Path) -> str:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            (tmp_path / names[0]).unlink(missing_ok=True)
+            (tmp_path / names[0]).touch()
+            return ''
+
+        with monkeypatch.context() as patched:
+            patched.setattr('husky_runtime.shared_memory._maps_of', taken)
+            clean_shared_memory()
+        assert {file.name for file in tmp_path.iterdir()} == set(names)
+    clean_shared_memory()
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_clock_that_was_set_back_holds_nobody_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Not in /dev/shm: a run of somebody else would see it.
+    monkeypatch.setattr('husky_runtime.shared_memory.FOLDER', tmp_path)
+    monkeypatch.setattr('husky_runtime.ports.FOLDER', tmp_path)
+    file = tmp_path / 'fastrtps_left_from_the_future'
+    file.touch()
+    os.utime(file, (time.time() + 5.0,) * 2)
+    begun = time.monotonic()
+    clean_shared_memory()
+    assert time.monotonic() - begun < 4.0
+    assert not file.exists()
+
+
+@pytest.mark.parametrize('mutex', ['is there', 'is gone'])
+@pytest.mark.parametrize('look', [1, 2])
+def test_a_port_of_the_dead_that_a_node_takes_after_a_look_stays(
+    look: int, mutex: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looks = list[bool]()
+    begun = list[Process]()
+    with OwnDomain() as domain:
+        dead = participant(domain.number)
+        port = port_of(domain.number)
+        assert port in mapped_by([dead.pid])
+        dead.kill()
+        dead.communicate()
+        if mutex == 'is gone':
+            Mutex(port.name).file.unlink()
+        time.sleep(0.3)  # what is as old is not being made
+
+        def look_before_it_is_taken() -> dict[Path, float]:
+            found = unused_files()
+            looks.append(port in found)
+            if len(looks) == look:
+                begun.append(begin(domain.number))
+                # Before it is removed nobody gets in.
+                sought = port if look == 1 else Mutex(port.name).file
+                wait_until(
+                    lambda: sought in mapped_by([begun[0].pid]),
+                    timeout_sec=20.0,
+                    what=lambda: f'a node that has {sought} of {mapped_by([begun[0].pid])}',
+                )
+            return found
+
+        monkeypatch.setattr('husky_runtime.shared_memory.unused_files', look_before_it_is_taken)
+        clean_shared_memory()
+        (alive,) = begun
+        wait_for_node(alive)
+        has: Files = {
+            file: inode for file, inode in mapped_by([alive.pid]).items() if file == port
+        }
+        gone = lost(has)
+        alive.communicate(b'', timeout=10.0)
+    assert looks[:look] == [True] * look, 'the dead left nothing'
+    assert (list(has), gone) == ([port], [])
+
+
+@pytest.mark.parametrize('size', [0, 52400])
+def test_a_node_goes_on_where_one_was_killed_while_it_made_the_port(size: int) -> None:
+    with OwnDomain() as domain:
+        port = port_of(domain.number)
+        clean_shared_memory()
+        port.write_bytes(bytes(size))
+        os.utime(port, (time.time() + 1000.0,) * 2)  # no other clean-up takes it for left
+        lock = Path(f'{port}_el')
+        with lock.open('w') as held:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            node = begin(domain.number)
+            wait_until(
+                lambda: port in open_files(node.pid),
+                timeout_sec=20.0,
+                what=lambda: f'a node that waits for its port in {open_files(node.pid)}',
+            )
+            lock.unlink()
+        os.utime(port, (time.time() - 10.0,) * 2)
+        clean_shared_memory()
+        try:
+            said, _ = node.communicate(b'', timeout=20.0)
+        finally:
+            node.kill()
+        assert said.endswith(b'here\n')
+        clean_shared_memory()
+        assert not port.exists()
+
+
+Process = subprocess.Popen[bytes]
+
+
+def port_of(domain: int) -> Path:
+    """Return the port of the first participant of a domain: OMG DDSI-RTPS 2.2, 9.6.1.1."""
+    return FOLDER / f'{PORT}{7400 + 250 * domain + 11}'
+
+
+def open_files(pid: int) -> set[Path]:
+    return {Path(file.path) for file in psutil.Process(pid).open_files()}
+
+
+def participant(domain: int) -> Process:
+    """Start a node in a domain, and wait until it is there."""
+    started = begin(domain)
+    wait_for_node(started)
+    return started
+
+
+def begin(domain: int) -> Process:
+    """Start a node of Fast DDS: no other DDS puts messages into shared memory."""
+    environment = {
+        **os.environ,
+        'RMW_IMPLEMENTATION': 'rmw_fastrtps_cpp',
+        'ROS_DOMAIN_ID': str(domain),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+    }
+    command = [sys.executable, '-c', PARTICIPANT]
+    return subprocess.Popen(
+        command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+
+
+def wait_for_node(started: Process) -> None:
+    assert started.stdout is not None
+    # Before it, Fast DDS may tell of a port that another node took at the same time.
+    assert b'here\n' in iter(started.stdout.readline, b''), 'it ended before its node was there'
