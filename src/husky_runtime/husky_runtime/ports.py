@@ -32,18 +32,20 @@ _LIBC.sem_open.restype = ctypes.c_void_p
 def free_half_made_ports() -> None:
     """Remove ports of this user whose maker was killed meanwhile, and wake who waits for them."""
     for file in FOLDER.glob(f'{PORT}*[0-9]'):
-        with suppress(OSError), file.open('r+b', buffering=0) as port:
+        with suppress(OSError), open(file, 'r+b', buffering=0, opener=_open_here) as port:
             if _is_half_made(port):
                 _free(file, port)
+
+
+def _open_here(path: str, flags: int) -> int:
+    return os.open(path, flags | os.O_NOFOLLOW)  # anybody may have put a link there
 
 
 def _is_half_made(port: FileIO) -> bool:
     status = os.fstat(port.fileno())
     if status.st_uid != os.getuid() or time.time() - status.st_mtime < _MAKING_SEC:
         return False
-    (state,) = _STATE.unpack(
-        os.pread(port.fileno(), _STATE.size, 0) or _STATE.pack(_UNINITIALIZED)
-    )
+    (state,) = _STATE.unpack(os.pread(port.fileno(), _STATE.size, 0).ljust(_STATE.size, b'\0'))
     return state in (_UNINITIALIZED, _INITIALIZING)
 
 
@@ -77,7 +79,9 @@ class Mutex:
             if not semaphore or _LIBC.sem_trywait(semaphore) != 0:
                 return False
         with suppress(OSError):
-            os.utime(self.file, (0.0, 0.0))  # it is not being made by a node
+            os.utime(
+                self.file, (0.0, 0.0), follow_symlinks=False
+            )  # it is not being made by a node
         # It is closed and stays taken: open ones are those of processes that want the port.
         return True
 
@@ -91,9 +95,8 @@ class Mutex:
     def _semaphore(self, flags: int = 0) -> Iterator[ctypes.c_void_p]:
         """Open it; null if there is none, or it is somebody else's."""
         name = f'/{self.file.name.removeprefix("sem.")}'.encode()
-        semaphore = ctypes.c_void_p(
-            None if _is_empty(self.file) else _LIBC.sem_open(name, flags, 0o644, 1)
-        )
+        is_one = flags or _is_whole(self.file)
+        semaphore = ctypes.c_void_p(_LIBC.sem_open(name, flags, 0o644, 1) if is_one else None)
         try:
             yield semaphore
         finally:
@@ -101,9 +104,10 @@ class Mutex:
                 _LIBC.sem_close(semaphore)
 
 
-def _is_empty(file: Path) -> bool:
-    """Tell whether the kernel would end who reads the memory of a file."""
+def _is_whole(mutex: Path) -> bool:
+    """Tell whether it is this user's, and can be read: the kernel ends who reads an empty one."""
     try:
-        return file.stat().st_size == 0
+        status = mutex.lstat()
     except OSError:
         return False
+    return status.st_uid == os.getuid() and status.st_size > 0

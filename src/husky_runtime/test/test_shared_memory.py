@@ -183,6 +183,26 @@ def test_a_node_goes_on_where_one_was_killed_while_it_made_the_port(size: int) -
         assert not port.exists()
 
 
+def test_what_only_looks_like_a_port_is_no_trap(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr('husky_runtime.shared_memory.FOLDER', tmp_path)
+    monkeypatch.setattr('husky_runtime.ports.FOLDER', tmp_path)
+    mine = tmp_path / 'mine'
+    mine.write_bytes(bytes(100))
+    os.utime(mine, (0.0, 0.0))
+    (tmp_path / f'{PORT}1').symlink_to(mine)
+    (tmp_path / f'{PORT}2').write_bytes(b'\0')
+    os.mkfifo(tmp_path / f'{PORT}3')
+    (tmp_path / f'sem.{PORT}4_mutex').touch()
+    (tmp_path / f'sem.{PORT}5_mutex').symlink_to(mine)
+    for file in tmp_path.iterdir():
+        os.utime(file, (0.0, 0.0), follow_symlinks=False)
+    clean_shared_memory()
+    assert mine.read_bytes() == bytes(100)
+    assert list(tmp_path.iterdir()) == [mine]
+
+
 Process = subprocess.Popen[bytes]
 
 
