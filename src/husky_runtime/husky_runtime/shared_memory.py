@@ -40,7 +40,7 @@ def _remove_older() -> list[float]:
 
     :raises BlockingIOError: if others do the same for too long.
     """
-    with closing(_wait_for_lock()):
+    with closing(wait_for_lock()):
         free_half_made_ports()
         ages = unused_files()
         if old := _older(ages):
@@ -66,7 +66,7 @@ def _remove(files: set[Path]) -> None:
         file.unlink(missing_ok=True)
 
 
-def _wait_for_lock() -> Lock:
+def wait_for_lock() -> Lock:
     """
     Wait until no other clean-up of this user is at work.
 

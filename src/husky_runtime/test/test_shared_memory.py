@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What killed nodes leave in shared memory goes, and nothing that a node has or takes."""
 
+from contextlib import suppress
 import fcntl
 import os
 from pathlib import Path
@@ -9,9 +10,9 @@ import subprocess
 import sys
 import time
 
-from husky_runtime.domains import OwnDomain
+from husky_runtime.domains import Lock, OwnDomain
 from husky_runtime.ports import FOLDER, Mutex, PORT
-from husky_runtime.shared_memory import clean_shared_memory, unused_files
+from husky_runtime.shared_memory import clean_shared_memory, unused_files, wait_for_lock
 from playpen_testing.shared_memory import Files, lost, mapped_by
 from playpen_testing.waiting import wait_until
 import psutil
@@ -122,6 +123,7 @@ def test_a_port_of_the_dead_that_a_node_takes_after_a_look_stays(
         dead = participant(domain.number)
         port = port_of(domain.number)
         assert port in mapped_by([dead.pid])
+        locks = [no_other_clean_up()]  # it would remove what the dead leaves
         dead.kill()
         dead.communicate()
         if mutex == 'is gone':
@@ -142,6 +144,10 @@ def test_a_port_of_the_dead_that_a_node_takes_after_a_look_stays(
                 )
             return found
 
+        def lock() -> Lock:
+            return locks.pop() if locks else wait_for_lock()
+
+        monkeypatch.setattr('husky_runtime.shared_memory.wait_for_lock', lock)
         monkeypatch.setattr('husky_runtime.shared_memory.unused_files', look_before_it_is_taken)
         clean_shared_memory()
         (alive,) = begun
@@ -204,6 +210,19 @@ def test_what_only_looks_like_a_port_is_no_trap(
 
 
 Process = subprocess.Popen[bytes]
+
+
+def no_other_clean_up() -> Lock:
+    """Wait for a moment without one, of whatever else runs on the machine, and keep it so."""
+    locks = list[Lock]()
+
+    def is_taken() -> bool:
+        with suppress(BlockingIOError):
+            locks.append(wait_for_lock())
+        return bool(locks)
+
+    wait_until(is_taken, timeout_sec=60.0, what='a moment without a clean-up')
+    return locks[0]
 
 
 def port_of(domain: int) -> Path:
