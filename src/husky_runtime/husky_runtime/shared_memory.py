@@ -15,7 +15,7 @@ from pathlib import Path
 import time
 
 from husky_runtime.domains import Lock
-from husky_runtime.ports import FOLDER, free_half_made_ports, Mutex, PORT
+from husky_runtime.shared_memory_ports import FOLDER, free_half_made_ports, Mutex, PORT
 
 _MARK = 'fastrtps_'
 _CAP_SYS_PTRACE = 19  # <linux/capability.h>

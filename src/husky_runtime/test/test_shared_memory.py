@@ -11,8 +11,8 @@ import sys
 import time
 
 from husky_runtime.domains import Lock, OwnDomain
-from husky_runtime.ports import FOLDER, Mutex, PORT
 from husky_runtime.shared_memory import clean_shared_memory, unused_files, wait_for_lock
+from husky_runtime.shared_memory_ports import FOLDER, Mutex, PORT
 from playpen_testing.shared_memory import Files, lost, mapped_by
 from playpen_testing.waiting import wait_until
 import psutil
@@ -25,6 +25,14 @@ node = rclpy.create_node('participant')
 print('here', flush=True)
 sys.stdin.read()
 """
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Put a folder in the place of /dev/shm, of which a run of somebody else knows nothing."""
+    for module in ('shared_memory', 'shared_memory_ports'):
+        monkeypatch.setattr(f'husky_runtime.{module}.FOLDER', tmp_path)
+    return tmp_path
 
 
 def test_the_shared_memory_of_the_dead_goes() -> None:
@@ -72,38 +80,31 @@ def test_shared_memory_that_is_being_made_stays() -> None:
 
 
 def test_a_port_that_is_taken_while_maps_are_read_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Its name is that of a dead one's port, whose files are used again; no node has this one.
-    monkeypatch.setattr('husky_runtime.shared_memory.FOLDER', tmp_path)
-    monkeypatch.setattr('husky_runtime.ports.FOLDER', tmp_path)
     names = ('fastrtps_port99999', 'fastrtps_port99999_el', 'sem.fastrtps_port99999_mutex')
     for name in names:
-        (tmp_path / name).touch()
-        os.utime(tmp_path / name, (0.0, 0.0))
-    with (tmp_path / names[1]).open('w') as lock:
+        (folder / name).touch()
+        os.utime(folder / name, (0.0, 0.0))
+    with (folder / names[1]).open('w') as lock:
 
         def taken(_process: Path) -> str:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            (tmp_path / names[0]).unlink(missing_ok=True)
-            (tmp_path / names[0]).touch()
+            (folder / names[0]).unlink(missing_ok=True)
+            (folder / names[0]).touch()
             return ''
 
         with monkeypatch.context() as patched:
             patched.setattr('husky_runtime.shared_memory._maps_of', taken)
             clean_shared_memory()
-        assert {file.name for file in tmp_path.iterdir()} == set(names)
+        assert {file.name for file in folder.iterdir()} == set(names)
     clean_shared_memory()
-    assert not list(tmp_path.iterdir())
+    assert not list(folder.iterdir())
 
 
-def test_a_clock_that_was_set_back_holds_nobody_up(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # Not in /dev/shm: a run of somebody else would see it.
-    monkeypatch.setattr('husky_runtime.shared_memory.FOLDER', tmp_path)
-    monkeypatch.setattr('husky_runtime.ports.FOLDER', tmp_path)
-    file = tmp_path / 'fastrtps_left_from_the_future'
+def test_a_clock_that_was_set_back_holds_nobody_up(folder: Path) -> None:
+    file = folder / 'fastrtps_left_from_the_future'
     file.touch()
     os.utime(file, (time.time() + 5.0,) * 2)
     begun = time.monotonic()
@@ -128,14 +129,15 @@ def test_a_port_of_the_dead_that_a_node_takes_after_a_look_stays(
         dead.communicate()
         if mutex == 'is gone':
             Mutex(port.name).file.unlink()
-        time.sleep(0.3)  # what is as old is not being made
+        for file in FOLDER.glob(f'*{port.name}*'):
+            os.utime(file, (0.0, 0.0))  # what is as old is not being made
 
         def look_before_it_is_taken() -> dict[Path, float]:
             found = unused_files()
             looks.append(port in found)
             if len(looks) == look:
                 begun.append(begin(domain.number))
-                # Before it is removed nobody gets in.
+                # After the last look it waits for the mutex, before that it gets the port.
                 sought = port if look == 1 else Mutex(port.name).file
                 wait_until(
                     lambda: sought in mapped_by([begun[0].pid]),
@@ -189,24 +191,20 @@ def test_a_node_goes_on_where_one_was_killed_while_it_made_the_port(size: int) -
         assert not port.exists()
 
 
-def test_what_only_looks_like_a_port_is_no_trap(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr('husky_runtime.shared_memory.FOLDER', tmp_path)
-    monkeypatch.setattr('husky_runtime.ports.FOLDER', tmp_path)
-    mine = tmp_path / 'mine'
+def test_what_only_looks_like_a_port_is_no_trap(folder: Path) -> None:
+    mine = folder / 'mine'
     mine.write_bytes(bytes(100))
     os.utime(mine, (0.0, 0.0))
-    (tmp_path / f'{PORT}1').symlink_to(mine)
-    (tmp_path / f'{PORT}2').write_bytes(b'\0')
-    os.mkfifo(tmp_path / f'{PORT}3')
-    (tmp_path / f'sem.{PORT}4_mutex').touch()
-    (tmp_path / f'sem.{PORT}5_mutex').symlink_to(mine)
-    for file in tmp_path.iterdir():
+    (folder / f'{PORT}1').symlink_to(mine)
+    (folder / f'{PORT}2').write_bytes(b'\0')
+    os.mkfifo(folder / f'{PORT}3')
+    (folder / f'sem.{PORT}4_mutex').touch()
+    (folder / f'sem.{PORT}5_mutex').symlink_to(mine)
+    for file in folder.iterdir():
         os.utime(file, (0.0, 0.0), follow_symlinks=False)
     clean_shared_memory()
     assert mine.read_bytes() == bytes(100)
-    assert list(tmp_path.iterdir()) == [mine]
+    assert list(folder.iterdir()) == [mine]
 
 
 Process = subprocess.Popen[bytes]

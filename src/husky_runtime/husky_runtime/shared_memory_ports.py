@@ -79,9 +79,8 @@ class Mutex:
             if not semaphore or _LIBC.sem_trywait(semaphore) != 0:
                 return False
         with suppress(OSError):
-            os.utime(
-                self.file, (0.0, 0.0), follow_symlinks=False
-            )  # it is not being made by a node
+            # One that was made here is none that a node is making.
+            os.utime(self.file, (0.0, 0.0), follow_symlinks=False)
         # It is closed and stays taken: open ones are those of processes that want the port.
         return True
 
