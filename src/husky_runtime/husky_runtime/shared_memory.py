@@ -12,12 +12,14 @@ from contextlib import closing, suppress
 import math
 import os
 from pathlib import Path
+import re
 import time
 
 from husky_runtime.domains import Lock
 from husky_runtime.shared_memory_ports import FOLDER, free_half_made_ports, Mutex, PORT
 
 _MARK = 'fastrtps_'
+_NAME = re.compile(rf'{_MARK}[^\s/]+')
 _CAP_SYS_PTRACE = 19  # <linux/capability.h>
 _MADE_SEC = 0.2  # a younger file may not be mapped yet
 _LOCK_SEC, _POLL_SEC = 5.0, 0.01  # of waiting for another clean-up
@@ -101,11 +103,10 @@ def unused_files() -> dict[Path, float]:
     # In a container root may have fewer rights than another root, whose files these may be.
     if None in maps and os.geteuid() == 0 and not _may_trace():
         return {}
-    mapped = ''.join(filter(None, maps))
     # What follows is quick, and comes last: ports have names that come again, and who takes that
     # of a dead one while all maps are read has it locked, or made anew.
     ages: dict[Path, float] = {}
-    used: set[str] = set()
+    used = {_stem_of(name) for text in filter(None, maps) for name in _NAME.findall(text)}
     locked = _locked_inodes()
     for file in FOLDER.glob(f'*{_MARK}*'):
         try:
@@ -119,10 +120,7 @@ def unused_files() -> dict[Path, float]:
             # A busy machine may take long from the lock on NAME_el to the map of NAME.
             if status.st_ino in locked:
                 used.add(_stem_of(file.name))
-    stems = {file: _stem_of(file.name) for file in ages}
-    return {
-        file: ages[file] for file, stem in stems.items() if stem not in mapped and stem not in used
-    }
+    return {file: age_sec for file, age_sec in ages.items() if _stem_of(file.name) not in used}
 
 
 def _locked_inodes() -> set[int]:

@@ -191,6 +191,19 @@ def test_a_node_goes_on_where_one_was_killed_while_it_made_the_port(size: int) -
         assert not port.exists()
 
 
+def test_a_port_goes_whose_name_begins_that_of_another(folder: Path) -> None:
+    with OwnDomain() as domain:
+        alive = participant(domain.number)
+        port = port_of(domain.number)
+        assert port in mapped_by([alive.pid])
+        left = folder / port.name[:-1]
+        left.touch()
+        os.utime(left, (0.0, 0.0))
+        clean_shared_memory()
+        alive.communicate(b'', timeout=10.0)
+    assert not left.exists()
+
+
 def test_what_only_looks_like_a_port_is_no_trap(folder: Path) -> None:
     mine = folder / 'mine'
     mine.write_bytes(bytes(100))
