@@ -19,6 +19,7 @@ from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.standard_error import standard_error
 from playpen_testing.waiting import wait_until
 import pytest
 from rcl_interfaces.msg import Log
@@ -112,26 +113,22 @@ def test_a_course_through_the_barrier_reports_the_collision(
     assert {collision.obstacle for collision in report.collisions} == {'jersey_barrier_15'}
 
 
-def test_one_that_turns_over_on_the_barrier_is_told_so(
-    nodes: SpunNodes, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_one_that_turns_over_on_the_barrier_is_told_so(nodes: SpunNodes, tmp_path: Path) -> None:
     start, record = 'husky 2.22 1.7 -1.2217', tmp_path / 'run.record'  # aslant towards it
     simulator = nodes.start(
         SimulatorNode, robots=[start], record=str(record), real_time_factor=2.0
     )
     listener = nodes.start(Listener, {'odometry/filtered': Odometry})
-    said = ''
 
     def turns_over() -> bool:
-        nonlocal said
         listener.command(1.0)
-        said += capfd.readouterr().err
-        return 'turned over' in said
+        return 'turned over' in logged()
 
-    wait_until(turns_over, timeout_sec=30.0, what='a line that it has turned over')
-    listener.command(0.0)
-    nodes.close(simulator)
-    (line,) = [line for line in said.splitlines() if 'turned over' in line]
+    with standard_error() as logged:
+        wait_until(turns_over, timeout_sec=30.0, what='a line that it has turned over')
+        listener.command(0.0)
+        nodes.close(simulator)
+        (line,) = [line for line in logged().splitlines() if 'turned over' in line]
     assert 'husky: turned over at (' in line
     assert line.endswith(
         ', as when it climbs an obstacle; its wheels carry it no more: reset the simulation'

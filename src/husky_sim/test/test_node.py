@@ -21,6 +21,7 @@ from husky_sim.scene_topic import QOS as SCENE_QOS
 from husky_sim.world import default_worlds, load_world, urdf_of
 from nav_msgs.msg import Odometry
 import numpy as np
+from playpen_testing.standard_error import standard_error
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -292,7 +293,6 @@ def test_a_command_that_is_no_number_stops_it_with_one_line(
         return bool(run.probe.odometry[-1].twist.twist.linear.x > 0.25)
 
     run.until(pushed, '0.25 m/s')
-    capfd.readouterr()
     run.probe.command(0.3, bad)
     run.until(lambda: run.probe.odometry[-1].twist.twist.linear.x < 0.01, 'the stop')
     lines = [line for line in capfd.readouterr().err.splitlines() if 'finite' in line]
@@ -300,23 +300,18 @@ def test_a_command_that_is_no_number_stops_it_with_one_line(
 
 
 def test_a_stamped_command_is_answered_with_what_is_wrong(
-    bench: Callable[..., Bench], domain_id: int, capfd: pytest.CaptureFixture[str]
+    bench: Callable[..., Bench], domain_id: int
 ) -> None:
     run = bench()
     context = Context()
     rclpy.init(context=context, domain_id=domain_id)
     stranger = Node('stranger', context=context)
-    stranger.create_publisher(TwistStamped, COMMANDS, 10)
-    said = []
-
-    def told() -> bool:
-        said.append(capfd.readouterr().err)
-        return 'publish geometry_msgs/msg/Twist' in ''.join(said)
-
-    run.until(told, 'an explanation')
+    with standard_error() as logged:
+        stranger.create_publisher(TwistStamped, COMMANDS, 10)
+        run.until(lambda: 'publish geometry_msgs/msg/Twist' in logged(), 'an explanation')
+        assert 'stranger publishes geometry_msgs/msg/TwistStamped on ' in logged()
     stranger.destroy_node()
     context.try_shutdown()
-    assert 'stranger publishes geometry_msgs/msg/TwistStamped on ' in ''.join(said)
 
 
 def test_diagnostics_tell_the_pace_and_whether_it_is_kept(bench: Callable[..., Bench]) -> None:

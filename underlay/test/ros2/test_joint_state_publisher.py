@@ -15,6 +15,7 @@ from joint_state_publisher.description import DescriptionError, read_joints
 from joint_state_publisher.joint_state_publisher import JointStatePublisher
 from joint_state_publisher.mimics import Follower, followers
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.standard_error import standard_error
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
@@ -104,9 +105,7 @@ def test_the_husky_has_all_its_frames(domain: int) -> None:
         assert len(publisher.joint_list) == 4
 
 
-def test_joints_are_where_description_parameters_and_sources_have_them(
-    domain: int, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_joints_are_where_description_parameters_and_sources_have_them(domain: int) -> None:
     parameters: dict[str, Any] = {
         'zeros.turns': 0.1,
         'dependent_joints.grips.parent': 'slides',
@@ -116,7 +115,7 @@ def test_joints_are_where_description_parameters_and_sources_have_them(
         'source_list': ['measured'],
         'rate': 100,
     }
-    with SpunNodes(domain) as nodes:
+    with standard_error() as logged, SpunNodes(domain) as nodes:
         listener = Listener(nodes)
         publisher = nodes.start(JointStatePublisher, **parameters)
         updated: list[str] = []
@@ -140,14 +139,11 @@ def test_joints_are_where_description_parameters_and_sources_have_them(
         listener.until('effort', slides=5.0, grips=5.0, turns=0.0)
         assert updated == ['robot', 'source', 'source']
         listener.describe('<robot')
-        told = ''
-
-        def is_told() -> bool:
-            nonlocal told
-            told += capfd.readouterr().err
-            return 'robot_description: this is no XML' in told
-
-        wait_until(is_told, timeout_sec=10.0, what='a warning')
+        wait_until(
+            lambda: 'robot_description: this is no XML' in logged(),
+            timeout_sec=10.0,
+            what=lambda: f'a warning; what was told: {logged()}',
+        )
         assert publisher.joint_list == ALL, 'the robot before stays'
 
 

@@ -22,6 +22,7 @@ from message_filters.delta_filter import DeltaFilter
 from message_filters.input_aligner import InputAligner
 from nav_msgs.msg import Odometry
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.standard_error import standard_error
 from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
@@ -283,7 +284,7 @@ def test_an_aligner_of_topics_sorts_them(nodes: SpunNodes) -> None:
 
 
 def test_a_topic_that_does_not_arrive_is_named(
-    nodes: SpunNodes, ros2: Any, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    nodes: SpunNodes, ros2: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Deaf(Node):
         """Asks for more of the scan than its publisher offers."""
@@ -297,19 +298,17 @@ def test_a_topic_that_does_not_arrive_is_named(
             self.sync = ApproximateTimeSynchronizer(self.inputs, 10, 0.1)
 
     monkeypatch.setattr(silence, 'SILENT_AFTER_SEC', 0.0)
-    robot = nodes.start(Robot)
-    nodes.start(Deaf)
-    robot.wait_for_subscriptions(robot.odometry)
-    robot.scan.publish(LaserScan(header=stamped(1)))
-    robot.odometry.publish(Odometry(header=stamped(1)))
-    said: list[str] = []
 
     def is_said() -> bool:
-        said.append(capfd.readouterr().err)
-        text = ''.join(said)
         ours = '[deaf]: no callback yet: no message on front/scan in 0 s, while odometry/filtered'
-        return ours in text and 'offering incompatible QoS' in text  # which rclpy says
+        return ours in logged() and 'offering incompatible QoS' in logged()  # which rclpy says
 
-    wait_until(is_said, timeout_sec=10.0, what=lambda: f'the warning in {"".join(said)}')
+    with standard_error() as logged:
+        robot = nodes.start(Robot)
+        nodes.start(Deaf)
+        robot.wait_for_subscriptions(robot.odometry)
+        robot.scan.publish(LaserScan(header=stamped(1)))
+        robot.odometry.publish(Odometry(header=stamped(1)))
+        wait_until(is_said, timeout_sec=10.0, what=lambda: f'the warning in {logged()}')
     told = ros2('doctor')
     assert '/front/scan: /robot offers BEST_EFFORT, but /deaf requests RELIABLE' in told.out

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 import math
 from pathlib import Path
@@ -13,6 +12,7 @@ import subprocess
 from typing import Any
 
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.standard_error import standard_error
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
@@ -125,38 +125,31 @@ def test_links_are_where_the_joints_have_them(domain: int) -> None:
             assert result.reason.startswith(why)
 
 
-def test_what_moves_no_link_is_told_once(domain: int, capfd: pytest.CaptureFixture[str]) -> None:
-    told = ''
+def test_what_moves_no_link_is_told_once(domain: int) -> None:
+    def heard(*texts: str) -> bool:
+        arm.publish(elbow=1.0)
+        arm.publish(stamp_sec=0.0, turns=0.3)
+        return all(text in logged() for text in texts)
 
-    def heard(*texts: str) -> Callable[[], bool]:
-        def is_told() -> bool:
-            nonlocal told
-            arm.publish(elbow=1.0)
-            arm.publish(stamp_sec=0.0, turns=0.3)
-            told += capfd.readouterr().err
-            return all(text in told for text in texts)
-
-        return is_told
-
-    with SpunNodes(domain) as nodes:
+    with standard_error() as logged, SpunNodes(domain) as nodes:
         arm = Arm(nodes, robot_description=ARM.replace('HEIGHT', '1'))
         wait_until(
             # In any order: the first of the first two may come before their readers are matched.
-            heard("names 'elbow', which moves nothing here", 'set ignore_timestamp'),
+            partial(heard, "names 'elbow', which moves nothing here", 'set ignore_timestamp'),
             timeout_sec=10.0,
-            what=lambda: f'words about the elbow and about stamps; what was told: {told}',
+            what=lambda: f'words about the elbow and about stamps; what was told: {logged()}',
         )
-        assert "joint_states names 'elbow', which moves nothing here" in told
-        assert 'that move: follows, slides, turns' in told
+        assert "joint_states names 'elbow', which moves nothing here" in logged()
+        assert 'that move: follows, slides, turns' in logged()
         assert arm.place('mast', 'boom') is None
         arm.publisher.set_parameters([Parameter('ignore_timestamp', value=True)])
         at = [1.0, 0.0, 0.0, *turned(2, 0.5 * math.pi + 0.3)]
         wait_until(
-            lambda: heard()() and arm.place('mast', 'boom') == at,
+            lambda: heard() and arm.place('mast', 'boom') == at,
             timeout_sec=10.0,
             what=lambda: f'the boom; it is at {arm.place("mast", "boom")}',
         )
-        assert told.count('[WARN]') == 2, told
+        assert logged().count('[WARN]') == 2, logged()
 
 
 def test_a_rate_is_kept_by_the_stamps_until_time_goes_back(domain: int) -> None:
