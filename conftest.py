@@ -3,9 +3,9 @@
 """
 What every test relies on.
 
-`./lab test` runs four tests at a time: most wait for a clock more than they compute. The tests of
-a file stay in one process. Each test that uses DDS has a domain of its own, see
-husky_runtime.domains.
+`./lab test` runs two tests at a time for each processor, four at least and eight at most: most
+wait for a clock more than they compute. The tests of a file stay in one process. Each test that
+uses DDS has a domain of its own, see husky_runtime.domains.
 """
 
 from collections.abc import Iterator
@@ -15,6 +15,7 @@ from pathlib import PurePosixPath
 import signal
 from typing import Any
 
+from husky_runtime.processors import usable_processors
 import pytest
 
 
@@ -52,6 +53,12 @@ def pytest_sessionstart() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """Tell how many tests run at a time where nobody says so."""
+    return min(max(4, 2 * usable_processors()), 8)
 
 
 # Files whose tests share what takes long: a browser that draws without a graphics processor, which
