@@ -16,12 +16,17 @@ import signal
 from typing import Any
 
 from husky_runtime.processors import usable_processors
+from hypothesis import HealthCheck, settings
 import pytest
 
 
 def _leave(*_: object) -> None:
     os._exit(pytest.ExitCode.INTERRUPTED)
 
+
+# How long an example takes is a matter of the machine.
+settings.register_profile('lab', deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile('lab')
 
 os.environ['MUJOCO_GL'] = 'disabled'  # as in the lab's programs, see husky_runtime.start
 

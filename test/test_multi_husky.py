@@ -31,6 +31,7 @@ def test_one_of_three_huskies_is_driven_alone(processes: Processes, nodes: SpunN
     launch = processes.start(
         *('ros2', 'launch', 'husky_sim', 'multi_husky_playpen.launch.py', 'real_time_factor:=3.0')
     )
+    launch.wait_for_text('obstacles')
     topics = {f'/{name}/ground_truth/odom': Odometry for name in STARTS}
     listener = nodes.start(partial(Listener, topics, namespace='husky_beta'))
     for name, start in STARTS.items():

@@ -54,7 +54,7 @@ def lab(clone: Path, *words: str, **environment: str) -> subprocess.CompletedPro
         env={**plain_environment(), **environment},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=100,
     )
 
 

@@ -117,8 +117,9 @@ def test_ten_thousand_forged_messages_find_nothing(
             while values(later) != values(honest):  # it has not read everything yet
                 honest.read()
     assert view.returncode is None
-    said = [line for line in view.lines if address not in line]
-    assert said == ['the page is open']
+    # From its address on: before, it may wait for a simulator that comes late, and say so.
+    (place,) = [number for number, line in enumerate(view.lines) if address in line]
+    assert view.lines[place + 1 :] == ['the page is open']
     assert [file.name for file in tmp_path.rglob('*.yaml')] == []
 
 

@@ -31,6 +31,8 @@ from tf2_msgs.msg import TFMessage
 
 PATIENCE_SEC = 60.0
 PUBLISHERS, EXECUTORS = 3, 4
+ALL = ('heard', 'called', 'acted', 'feedback')
+"""What is counted of the answers; each is there in the end."""
 
 
 def transforms(number: int) -> TFMessage:
@@ -71,13 +73,16 @@ class Stress:
         self._executor.add_node(node)
 
     def run(self, seconds: float) -> None:
-        """Do everything at once for a time."""
+        """Do everything at once for a time, and longer where something was never done by then."""
         publish = [Thread(target=self._publish, args=(one,)) for one in self._publishers]
         callers = [Thread(target=self._call), Thread(target=self._act)]
         spin = Thread(target=self._executor.spin)
         for thread in (spin, *publish, *callers):
             thread.start()
         time.sleep(seconds)
+        deadline = time.monotonic() + PATIENCE_SEC
+        while not all(map(self.counts.get, ALL)) and time.monotonic() < deadline:
+            time.sleep(0.1)
         self._end.set()
         for thread in (*publish, *callers):
             thread.join()

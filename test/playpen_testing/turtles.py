@@ -14,6 +14,7 @@ from rclpy.action import ActionClient
 from rclpy.action.client import ClientGoalHandle
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
 from rclpy.task import Future
 from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Color, Pose
@@ -129,7 +130,9 @@ class TurtleClient:
         """Send a goal and return its handle; what is fed back is in `feedback`."""
         name = f'{turtle}/rotate_absolute'
         if name not in self._made:
-            self._made[name] = ActionClient(self.node, RotateAbsolute, name)
+            self._made[name] = ActionClient(
+                *(self.node, RotateAbsolute, name), feedback_sub_qos_profile=QoSProfile(depth=1000)
+            )
         client = self._made[name]
         self.wait_for(client.server_is_ready, f'the action {name}')
         self.feedback.clear()

@@ -39,6 +39,7 @@ class Lab:
         self._processes = processes
         self._environment = environment
         self.simulator = self.start_simulator()
+        self.simulator.wait_for_text('obstacles')
         self.view = processes.start(
             *('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p', 'viewer_port:=18080'),
             *('-p', f'waypoints_folder:={folder}'),

@@ -20,9 +20,8 @@ import yaml
 
 _SETTINGS = settings(
     max_examples=250,
-    deadline=None,
     derandomize=True,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 _PIECES = [
     '$(',

@@ -77,7 +77,7 @@ def test_a_stamp_far_ahead_is_named() -> None:
     assert said == 'its stamp jumps ahead from 30.00 s to 130.00 s'
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(strategies.floats(0.02, 200.0), strategies.integers(1, 4), strategies.integers(1, 4))
 def test_two_simulators_at_different_times_are_noticed(
     apart_sec: float, ours: int, theirs: int

@@ -186,7 +186,7 @@ def test_what_may_close_closes_and_what_is_deaf_is_killed(
         deaf = jail.start(python(DEAF, mark), log=logs['deaf'])
         has_said(logs['closing'], 'here')
         has_said(logs['deaf'], 'here')
-        closing.end()
+        closing.end(within_sec=20.0)
         assert (closing.exit_code, deaf.exit_code) == (0, None)
         assert logs['closing'].read_text() == 'here\nclosed\n'
         begun = time.monotonic()

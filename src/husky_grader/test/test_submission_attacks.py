@@ -400,7 +400,7 @@ NAMES = st.lists(
 ).map('/'.join)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.lists(NAMES, max_size=4))
 @example(['ws/src/\u0130', 'ws/src/i\u0307'])
 @example(['\0'])
@@ -415,7 +415,7 @@ def test_no_name_leads_out_of_the_folder(place: Path, names: list[str]) -> None:
     )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(
     st.sampled_from(['zip', 'tar', 'gz', 'xz', 'sparse']),
     st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 255)), min_size=1, max_size=4),

@@ -65,9 +65,9 @@ sys.stdin.read()
 NOHUP = """
 import os, sys
 from husky_runtime.supervise import run_to_end
-hang_up = 'import os, signal, time; os.kill(os.getppid(), signal.SIGHUP); '
-hang_up += 'time.sleep(0.5); print("goes on")'
-sys.exit(run_to_end([sys.executable, '-c', hang_up], os.environ))
+hang_up = 'import os, signal, sys, time; os.kill(os.getppid(), signal.SIGHUP); '
+hang_up += 'time.sleep(float(sys.argv[1])); print("goes on")'
+sys.exit(run_to_end([sys.executable, '-c', hang_up, sys.argv[1]], os.environ))
 """
 
 
@@ -110,7 +110,7 @@ def test_a_child_that_ignores_signals_ends_in_2_s(tmp_path: Path) -> None:
 
 def test_what_a_hasty_child_has_started_may_close(tmp_path: Path) -> None:
     process = start(HASTY, tmp_path / 'log')
-    process.end(signal.SIGTERM)
+    process.end(signal.SIGTERM, within_sec=20.0, firm_sec=20.0)
     assert process.exit_code == -signal.SIGTERM
     assert (tmp_path / 'log').read_text() == 'ready\nclosed\n'
 
@@ -157,12 +157,13 @@ def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
 
 
 def test_under_nohup_a_run_outlives_its_terminal(tmp_path: Path) -> None:
-    for prefix, said, status in ([], '', 128 + signal.SIGHUP), (['nohup'], 'goes on\n', 0):
+    ends, goes_on = ('', 128 + signal.SIGHUP), ('goes on\n', 0)
+    for prefix, seconds, expected in ([], '60', ends), (['nohup'], '0.5', goes_on):
         run = subprocess.run(
-            [*prefix, sys.executable, '-c', NOHUP],
+            [*prefix, sys.executable, '-c', NOHUP, seconds],
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
             timeout=20.0,
         )
-        assert (run.stdout, run.returncode) == (said, status), run.stderr
+        assert (run.stdout, run.returncode) == expected, run.stderr

@@ -76,7 +76,7 @@ def padding_of(message: Any) -> set[int]:
 
 
 @pytest.mark.parametrize('package', PACKAGES)
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(data=strategies.data())
 def test_it_writes_and_reads_what_the_middleware_does(package: str, data: Any) -> None:
     message = data.draw(strategies.sampled_from(kinds_of(package)).flatmap(messages_of))
@@ -246,7 +246,6 @@ def test_bytes_that_are_no_such_message_are_refused(slot: Any, data: str, says: 
         decode(kind_with(slot), bytes.fromhex(data))
 
 
-@settings(deadline=None)
 @given(strategies.sampled_from(kinds_of('sensor_msgs.msg')), strategies.binary(max_size=200))
 @example(Header, b'\xff' * 12)
 def test_any_bytes_are_read_or_refused(kind: Any, data: bytes) -> None:

@@ -52,13 +52,13 @@ class Run:
         node = Node(name, context=self._context())
         node.create_publisher(kind, topic, 10)
         self._others.append(node)
-        self.until(
-            lambda: any(
-                info.node_name == name
-                for info in self._simulator.get_publishers_info_by_topic(topic)
-            ),
-            f'{name} on {topic}',
-        )
+        names = [other.get_name() for other in self._others]
+
+        def is_seen() -> bool:
+            seen = self._simulator.get_publishers_info_by_topic(topic)
+            return [info.node_name for info in seen].count(name) == names.count(name)
+
+        self.until(is_seen, f'{name} on {topic}')
 
     def command_once(self, name: str) -> None:
         """Let a node publish commands until the simulator takes one of them, no longer."""

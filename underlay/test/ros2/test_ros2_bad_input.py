@@ -62,7 +62,7 @@ def _refusal(function: Callable[[Any], Any], argument: Any) -> tuple[str | None,
         return str(error), None
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=600)
 @given(st.sampled_from(MESSAGES), _values, st.integers(0, 2**32))
 def test_a_message_is_filled_and_sent_or_refused(name: str, value: Any, seed: int) -> None:
     message_class = interfaces.message(name)
@@ -77,14 +77,14 @@ def test_a_message_is_filled_and_sent_or_refused(name: str, value: Any, seed: in
     assert repr(deserialize_message(serialize_message(msg), message_class)) is not None
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.text(alphabet='{}[]:,"\'&*!|>%@`-# \n\tabx019.~', max_size=30) | st.text(max_size=30))
 def test_any_text_is_yaml_or_refused(text: str) -> None:
     refusal, values = _refusal(interfaces.yaml_mapping, text)
     assert isinstance(values, dict) or (refusal and '\n' not in refusal)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.text(max_size=20) | _values.map(str))
 def test_any_text_is_a_parameter_value_or_refused(text: str) -> None:
     try:
@@ -94,7 +94,7 @@ def test_any_text_is_a_parameter_value_or_refused(text: str) -> None:
     assert repr(deserialize_message(serialize_message(value), type(value))) is not None
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.lists(st.text(max_size=10), max_size=4))
 def test_any_words_are_launch_arguments_or_refused(words: list[str]) -> None:
     refusal, parsed = _refusal(api.parse_launch_arguments, words)

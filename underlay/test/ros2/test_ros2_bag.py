@@ -36,15 +36,32 @@ def _record(processes: Any, folder: Path, *words: str, until: str) -> str:
     return str(rest)
 
 
+def _metadata(bag: Path) -> dict[str, Any]:
+    whole: dict[str, Any] = yaml.safe_load((bag / 'metadata.yaml').read_text())
+    return whole['rosbag2_bagfile_information']  # type: ignore[no-any-return]
+
+
+def _counts(bag: Path) -> dict[str, int]:
+    return {
+        topic['topic_metadata']['name']: topic['message_count']
+        for topic in _metadata(bag)['topics_with_message_count']
+    }
+
+
 @pytest.fixture
 def bag(processes: Any, tmp_path: Path) -> Path:
     talker = processes.node('talker', 'talker')
     processes.node('latched', 'latched')
-    rest = _record(processes, tmp_path / 'run', '--all', until='Recording...')
-    assert 'Recording stopped: ' in rest
+    for number in range(5):  # on a busy machine its second may be over before it hears all
+        folder = tmp_path / str(number) / 'run'
+        rest = _record(processes, folder, '--all', until='Recording...')
+        assert 'Recording stopped: ' in rest
+        counts = _counts(folder)
+        if counts.get('/chatter', 0) > 5 and counts.get('/latched'):
+            break
     talker.terminate()
     talker.wait()
-    return tmp_path / 'run'
+    return folder
 
 
 def test_a_bag_is_recorded_described_and_played(
@@ -55,14 +72,10 @@ def test_a_bag_is_recorded_described_and_played(
     assert 'Topic: /chatter | Type: std_msgs/msg/String | Count: ' in info
     assert 'Topic: /latched | Type: std_msgs/msg/String | Count: 1 | ' in info
 
-    metadata = yaml.safe_load((bag / 'metadata.yaml').read_text())
-    content = metadata['rosbag2_bagfile_information']
+    content = _metadata(bag)
     assert content['version'] == 9
     assert content['relative_file_paths'] == ['run_0.mcap']
-    counts = {
-        topic['topic_metadata']['name']: topic['message_count']
-        for topic in content['topics_with_message_count']
-    }
+    counts = _counts(bag)
     assert counts['/chatter'] > 5
 
     decoder = importlib.import_module('mcap_ros2.decoder').DecoderFactory()
@@ -110,8 +123,7 @@ def test_sqlite3_is_recorded_described_and_played(
     assert 'Files:             run_0.db3\n' in info
     assert 'Storage id:        sqlite3' in info
     assert f'Topic: /chatter | Type: std_msgs/msg/String | Count: {count} | ' in info
-    content = yaml.safe_load((tmp_path / 'run' / 'metadata.yaml').read_text())
-    assert content['rosbag2_bagfile_information']['storage_identifier'] == 'sqlite3'
+    assert _metadata(tmp_path / 'run')['storage_identifier'] == 'sqlite3'
 
     listener = processes.node('listener', 'listener')
     played = ros2('bag', 'play', str(file), '-s', 'sqlite3', '--topics', '/chatter', '-r', '4')

@@ -12,6 +12,7 @@ import sys
 import time
 from typing import Any
 
+from playpen_testing.waiting import wait_until
 import pytest
 from rtps_graph import announcements
 from rtps_graph.observer import Observer
@@ -232,7 +233,12 @@ def test_one_of_another_host_may_have_the_port_of_one_here(processes: Any, domai
             super()._ask_participant(participant)
 
     with Meeting(domain_id=domain) as observer:
-        assert not observer.observe(timeout_sec=1.0), 'the other one never answers'
+
+        def is_complete() -> bool:
+            assert not observer.observe(timeout_sec=1.0), 'the other one never answers'
+            return any(each.complete for each in observer.participants.values())
+
+        wait_until(is_complete, timeout_sec=20.0, what='all of one of them')
         known = {each.address: each for each in observer.participants.values()}
     assert known.keys() == {'127.0.0.1', '127.0.0.2'}
     assert known['127.0.0.1'].complete

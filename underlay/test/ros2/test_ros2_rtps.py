@@ -56,7 +56,7 @@ def test_what_is_meant_for_others_is_left_out() -> None:
     assert len(_parse(wire.info_destination(PREFIX) + heartbeat)) == 1
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(st.binary(max_size=80), st.sampled_from([6, 7, 8, 9, 12, 14, 21, 22]), st.integers(0, 255))
 def test_no_bytes_from_the_network_break_the_parser(body: bytes, kind: int, flags: int) -> None:
     for datagram in (body, bytes((kind, flags)) + body):

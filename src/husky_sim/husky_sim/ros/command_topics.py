@@ -14,10 +14,12 @@ from std_msgs.msg import Bool
 
 from husky_sim.messages.unpacked_numbers import reader_of
 from husky_sim.ros import clearpath
+from husky_sim.ros.interference import UNKNOWN_NAME
 from husky_sim.simulation import SimulatedRobot, Simulation
 
 _NAMES = {Twist: 'geometry_msgs/msg/Twist', TwistStamped: 'geometry_msgs/msg/TwistStamped'}
 _Found = Callable[[str, int], None]
+_NAME_LOOKS = 2  # how many looks, one a second, to wait for the name of a node
 
 
 class CommandTopics:
@@ -48,6 +50,7 @@ class CommandTopics:
         self._simulation = simulation
         self._on_command = on_command
         self._logger = node.get_logger()
+        self._nameless_looks = 0
         self._read = reader_of(Twist, 'linear.x', 'angular.z')
         takes: list[tuple[Any, str, Callable[[Any], None], bool]] = [
             (Twist, 'husky_velocity_controller/cmd_vel', self._take_bytes, True)
@@ -128,6 +131,10 @@ class CommandTopics:
             for publisher in node.get_publishers_info_by_topic(topic):
                 kind = publisher.topic_type
                 if kind != taken and kind not in self._other_types:
+                    nameless = UNKNOWN_NAME in publisher.node_name
+                    if nameless and self._nameless_looks < _NAME_LOOKS:
+                        self._nameless_looks += 1
+                        continue
                     self._other_types.add(kind)
                     self._logger.error(
                         f'{publisher.node_name} publishes {kind} on {topic}, which nobody hears; '

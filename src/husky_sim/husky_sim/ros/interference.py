@@ -23,7 +23,9 @@ UNSEEN_CHECKS = 2
 
 GONE = 'a node that is gone already'
 
-_UNKNOWN = '_NODE_NAME_UNKNOWN_'  # rmw_dds_common, until that message is there
+UNKNOWN_NAME = '_NODE_NAME_UNKNOWN_'
+"""What rmw_dds_common calls a node until that message is there."""
+
 _PARTICIPANT = 12
 """Bytes of an endpoint's GUID that name its participant (OMG DDSI-RTPS 2.2, 9.3.1)."""
 
@@ -93,7 +95,7 @@ class InterferenceWatch:
                 continue
             spoken = tuple(topic for topic, count in counts.items() if count)
             others = _publishers(self._node, spoken)
-            nameless = any(_UNKNOWN in name for name in others)
+            nameless = any(UNKNOWN_NAME in name for name in others)
             if nameless and self._nameless_checks < NAME_CHECKS and not at_the_end:
                 self._nameless_checks += 1
                 continue
