@@ -302,6 +302,24 @@ def test_a_clone_that_was_moved_or_copied_is_built_again(clone: Path, tmp_path: 
     assert sources(clone.rename(tmp_path / 'moved')) == expected
 
 
+def test_a_terminal_in_another_language_sets_nothing_up_anew(tmp_path: Path) -> None:
+    # As one that sorts otherwise; which languages are there differs from machine to machine.
+    text = 'exec $(PATH=${PATH#*:} command -v sort) $([ "$LC_ALL" = C ] || echo -r) "$@"'
+    path = program(tmp_path, 'sort', text)
+    script = f'source "$0" help >/dev/null; venv={sys.prefix}; build_key; setup_key pip python3 3'
+    keys = [
+        subprocess.run(
+            ['bash', '-c', script, ROOT / 'lab'],
+            env={**plain_environment(), 'PATH': path, 'LC_ALL': language},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for language in ('C', 'de_DE.UTF-8')
+    ]
+    assert keys[0] == keys[1] != ''
+
+
 def test_a_user_without_a_home_can_build() -> None:
     somebody = ['unshare', '--user', '--map-user=12345', 'env', '-u', 'HOME']
     if subprocess.run([*somebody, 'true'], capture_output=True).returncode != 0:

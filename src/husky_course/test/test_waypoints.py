@@ -212,6 +212,11 @@ def test_a_value_that_means_something_else_is_told_what(text: str, expected: str
     assert any(expected in line for line in problems(text))
 
 
+def test_a_number_of_80_kB_is_refused_at_once() -> None:
+    (line,) = problems(f'waypoints: [[0, 0], [{"1" * 80_000}!, 1]]')
+    assert '... is not a number; ' in line
+
+
 def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / 'square.yaml').write_bytes(b'speed: \xff')
     (tmp_path / 'large.yaml').write_bytes(b'#' * 200_000)

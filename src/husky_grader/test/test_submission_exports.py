@@ -185,6 +185,22 @@ def test_broken_metadata_costs_only_the_names(tmp_path: Path) -> None:
     assert unpack(one, tmp_path / 'out').kind == 'workspace'
 
 
+@pytest.mark.parametrize(
+    ('metadata', 'why'),
+    [
+        (b'[' * 200_000, 'nested too deep'),
+        (b'[' + b'[],' * 1_000_000 + b']', 'of more than 1000000 parts'),
+        (b'&a {x: *a, *a : {b: !!python/none {c: {d: {e: {f: g}}}}}}', ''),
+    ],
+    ids=['deep', 'long', 'odd'],
+)
+def test_hostile_metadata_costs_only_the_names(tmp_path: Path, metadata: bytes, why: str) -> None:
+    files = {'submission_metadata.yml': metadata, f'submission_1/{MANIFEST}': b'<package/>'}
+    (one,) = find_submissions([str(export(tmp_path / 'hostile.zip', files, as_zip=True))])
+    expected = f'without names: submission_metadata.yml is {why}'
+    assert one.notes[0].startswith(expected if why else 'not in submission_metadata.yml')
+
+
 def test_a_newer_attempt_replaces_the_older_and_says_so(tmp_path: Path) -> None:
     then = {'degrootann_5101_90001_ws.zip': packed('old'), 'li_5103_90002_ws.zip': packed('dan')}
     now = {'degrootann_LATE_5101_90009_ws.zip': packed('new')}

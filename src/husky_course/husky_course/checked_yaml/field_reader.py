@@ -15,6 +15,8 @@ from husky_course.checked_yaml.layout import odd_space
 from husky_course.checked_yaml.yaml_tree import FileRefused, Problem, Value
 
 _NUMBER = re.compile(r'[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?', re.ASCII)
+_MOST_OF_A_NUMBER = 40
+"""Characters; to look for what a longer text may mean takes time by the square of its length."""
 _WHOLE = re.compile(r'[-+]?\d{1,18}', re.ASCII)
 
 
@@ -207,7 +209,7 @@ def choice(value: Value, allowed: Iterable[str]) -> str:
 
 
 def _number_hint(value: Value) -> str:
-    text = value.text if value.kind == 'scalar' else ''
+    text = value.text if value.kind == 'scalar' and len(value.text) <= _MOST_OF_A_NUMBER else ''
     if re.fullmatch(r'[-+]?\d+,\d+', text, re.ASCII):
         return f' (write {text.replace(",", ".")})'
     if re.fullmatch(r'[\u2010-\u2015\u2212]\d*\.?\d+', text, re.ASCII):

@@ -10,8 +10,9 @@ with the files as they were handed in (Gradescope has unpacked archives), and
 2023, and what programs read that others have published.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 import re
 
 import yaml
@@ -22,7 +23,10 @@ from husky_grader.submission.submission import Submission
 
 _METADATA = 'submission_metadata.yml'
 _MOST_BYTES = 32_000_000  # of the metadata, which has the results of earlier gradings in it
-_NULL = 'tag:yaml.org,2002:null'
+_MOST_EVENTS = 1_000_000
+_DEPTH = 4  # of a submitter: all folders, one of them, `:submitters:`, one of those
+_DEEPEST = 100  # of what else is in it
+_NULLS = ('', '~', 'null', 'Null', 'NULL')
 
 
 @dataclass(frozen=True)
@@ -80,10 +84,13 @@ def _read(listing: Listing) -> dict[str, list[_Submitter]]:
     data = listing.read(_METADATA, _MOST_BYTES + 1)
     if len(data) > _MOST_BYTES:
         raise Refused(f'larger than {_MOST_BYTES / 1e6:g} MB')
+    # Only events: what Ruby writes may have tags that no Python class is for.
+    events = yaml.parse(data, Loader=getattr(yaml, 'CSafeLoader', yaml.SafeLoader))
     try:
-        # Only nodes: what Ruby writes may have tags that no Python class is for.
-        root = yaml.compose(data, Loader=getattr(yaml, 'CSafeLoader', yaml.SafeLoader))
-    except (yaml.YAMLError, RecursionError) as error:
+        root = _Builder(events).document()
+    except (yaml.YAMLError, ValueError) as error:
+        if isinstance(error, Refused):
+            raise
         raise Refused(f'not valid YAML ({" ".join(str(error).split())})') from None
     return {
         folder: [
@@ -94,17 +101,71 @@ def _read(listing: Listing) -> dict[str, list[_Submitter]]:
     }
 
 
-def _pairs(node: yaml.Node | None) -> dict[str, yaml.Node]:
-    if not isinstance(node, yaml.MappingNode):
-        return {}
-    return {_text(key): value for key, value in node.value}
+class _Builder:
+    """
+    Makes texts, lists and dicts of the events of YAML, as deep as submitters stand.
+
+    Students may have written the file: to compose it whole would cost stack for each level, and
+    memory for each node.
+    """
+
+    def __init__(self, events: Iterator[yaml.Event]) -> None:
+        self._events = islice(events, _MOST_EVENTS)
+        self._anchored: dict[str, object] = {}
+
+    def document(self) -> object:
+        """
+        Return the first document.
+
+        :raises Refused: when the file is nested too deep or has too many parts.
+        """
+        for event in self._events:
+            if not isinstance(event, (yaml.StreamStartEvent, yaml.DocumentStartEvent)):
+                return self._value(event, 1)
+        return None
+
+    def _value(self, event: yaml.Event, depth: int) -> object:
+        if isinstance(event, yaml.AliasEvent):
+            return self._anchored.get(event.anchor)
+        value: object = None
+        if isinstance(event, yaml.ScalarEvent):
+            value = '' if event.style is None and event.value in _NULLS else event.value
+        elif isinstance(event, yaml.CollectionStartEvent):
+            parts = self._parts(depth)
+            if isinstance(event, yaml.SequenceStartEvent):
+                value = parts
+            else:
+                value = {
+                    _text(key): each for key, each in zip(parts[::2], parts[1::2], strict=True)
+                }
+        if isinstance(event, yaml.NodeEvent) and event.anchor is not None:
+            self._anchored[event.anchor] = value
+        return value
+
+    def _parts(self, depth: int) -> list[object]:
+        """Return what a collection holds; nothing of one that stands too deep."""
+        parts, within = [], 0
+        for event in self._events:
+            if isinstance(event, yaml.CollectionEndEvent):
+                if within == 0:
+                    return parts
+                within -= 1
+            elif depth <= _DEPTH:
+                parts.append(self._value(event, depth + 1))
+            elif isinstance(event, yaml.CollectionStartEvent):
+                within += 1
+                if within > _DEEPEST:  # to parse it takes time by the square of its depth
+                    raise Refused('nested too deep')
+        raise Refused(f'of more than {_MOST_EVENTS} parts')
 
 
-def _items(node: yaml.Node | None) -> list[yaml.Node]:
-    return list(node.value) if isinstance(node, yaml.SequenceNode) else []
+def _pairs(value: object) -> dict[str, object]:
+    return value if isinstance(value, dict) else {}
 
 
-def _text(node: yaml.Node | None) -> str:
-    if not isinstance(node, yaml.ScalarNode) or node.tag == _NULL:
-        return ''
-    return str(node.value)
+def _items(value: object) -> list[object]:
+    return value if isinstance(value, list) else []
+
+
+def _text(value: object) -> str:
+    return value if isinstance(value, str) else ''
