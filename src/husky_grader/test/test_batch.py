@@ -7,12 +7,14 @@ import csv
 from dataclasses import dataclass
 import hmac
 import json
+import multiprocessing
 import os
 from pathlib import Path
 import signal
 import subprocess
 import sys
 import time
+from typing import Any
 
 from husky_grader.batch.batch import Batch, How
 from husky_grader.batch.job import Outcome
@@ -329,6 +331,39 @@ def test_a_worker_that_dies_between_two_jobs_costs_none(tmp_path: Path) -> None:
         wait_until(lambda: ') Z ' in stat.read_text(), what='its end')
         processes += [process_of(start(OwnEnd('', 'job'), tmp_path))]
     assert processes[0] != processes[1]
+
+
+@dataclass(frozen=True)
+class Long(FileJob):
+    """A job that writes its process into its folder, and does not end."""
+
+    def run(self, folder: Path, _alive: Callable[[], object]) -> Outcome:
+        (folder / f'{self.name}.pid').write_text(f'{os.getpid()}\n')
+        time.sleep(600.0)
+        return Outcome(None)
+
+
+def test_a_second_ctrl_c_leaves_no_worker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kill = multiprocessing.context.SpawnProcess.kill
+
+    def kill_amid(process: Any) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        kill(process)
+
+    def interrupted(files: list[Path]) -> None:
+        with workers(2) as start:
+            for file in files:
+                start(Long('', file.stem), tmp_path)
+            wait_until(
+                lambda: all(file.is_file() and file.stat().st_size for file in files), what='two'
+            )
+            monkeypatch.setattr('multiprocessing.context.SpawnProcess.kill', kill_amid)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    files = [tmp_path / f'{number}.pid' for number in range(2)]
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(files)
+    assert [file for file in files if Path('/proc', file.read_text().strip()).exists()] == []
 
 
 def process_of(future: 'Future[Outcome]') -> int:

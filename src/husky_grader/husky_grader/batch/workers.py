@@ -17,7 +17,7 @@ from multiprocessing.context import SpawnProcess
 from pathlib import Path
 from queue import SimpleQueue
 import signal
-from threading import Lock
+from threading import current_thread, Lock, main_thread
 
 from husky_runtime.parent_death import die_with_parent
 
@@ -59,10 +59,13 @@ def workers(
     try:
         yield lambda job, folder: threads.submit(do, job, folder)
     finally:
-        threads.shutdown(wait=False, cancel_futures=True)
-        for worker in all_workers:
-            worker.end()
-        threads.shutdown()
+        with _interrupts_deferred():  # a second one would leave workers to their jobs
+            threads.shutdown(wait=False, cancel_futures=True)
+            for worker in all_workers:
+                worker.kill()
+            for worker in all_workers:
+                worker.reap()
+            threads.shutdown()
 
 
 class _Worker:
@@ -92,14 +95,17 @@ class _Worker:
             )
         return Outcome(None, 'the grader itself crashed on this one')
 
-    def end(self) -> None:
+    def kill(self) -> None:
         """Kill it, whatever it does; it does no job any more."""
         with _CHANGING:
             self._ended = True
-            process = self._process
-        if process is not None:
-            process.kill()
-            _end_of(process)
+        if self._process is not None:
+            self._process.kill()
+
+    def reap(self) -> None:
+        """Wait until it has ended."""
+        if self._process is not None:
+            _end_of(self._process)
 
     def _living(self) -> tuple[SpawnProcess, Connection]:
         """Return the process and our end of the pipe to it; a new one where it has ended."""
@@ -126,6 +132,22 @@ def _end_of(process: SpawnProcess) -> int | None:
 def _block_interrupt() -> None:
     """Block it in this thread: the processes that it starts inherit that."""
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+
+
+@contextmanager
+def _interrupts_deferred() -> Iterator[None]:
+    """Let an interrupt act at the end. To block it would take all threads, those of numpy, too."""
+    if current_thread() is not main_thread():  # no interrupt acts there
+        yield
+        return
+    came: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if came:
+            signal.raise_signal(signal.SIGINT)
 
 
 def _serve(pipe: Connection) -> None:
