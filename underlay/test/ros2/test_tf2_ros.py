@@ -23,6 +23,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
+import tf2_geometry_msgs
 from tf2_msgs.srv import FrameGraph
 import tf2_ros
 
@@ -302,6 +303,14 @@ def test_what_a_package_registers_transforms_and_converts() -> None:
 )
 def test_arguments_have_the_names_of_jazzy(of: Any, arguments: str) -> None:
     assert list(inspect.signature(of).parameters) == arguments.split()
+
+
+def test_programs_find_the_names_that_modules_of_jazzy_hand_on() -> None:
+    # As in the tutorial on robot_state_publisher, and in much that people have written.
+    assert tf2_ros.TransformStamped is tf2_geometry_msgs.TransformStamped is TransformStamped
+    assert tf2_ros.PointStamped is tf2_geometry_msgs.PointStamped is PointStamped
+    assert (tf2_ros.Duration, tf2_ros.Time, tf2_ros.Node) == (Duration, Time, Node)
+    assert tf2_ros.TFMessage().transforms == []
 
 
 def test_the_laser_of_the_simulated_husky_is_found_in_odom(nodes: SpunNodes) -> None:

@@ -1,6 +1,22 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Points, vectors, poses and polygons taken into another frame."""
+"""
+Points, vectors, poses and polygons taken into another frame.
+
+Upstream's names come by `*`, with those of the messages; programs take them from here.
+"""
+
+from geometry_msgs.msg import (
+    Point,
+    Point32,
+    PointStamped,
+    PolygonStamped,
+    Pose,
+    PoseStamped,
+    PoseWithCovarianceStamped,
+    TransformStamped,
+    Vector3Stamped,
+)
 
 from tf2_geometry_msgs.tf2_geometry_msgs import (
     do_transform_point,
@@ -15,6 +31,15 @@ from tf2_geometry_msgs.tf2_geometry_msgs import (
 )
 
 __all__ = [
+    'Point',
+    'Point32',
+    'PointStamped',
+    'PolygonStamped',
+    'Pose',
+    'PoseStamped',
+    'PoseWithCovarianceStamped',
+    'TransformStamped',
+    'Vector3Stamped',
     'do_transform_point',
     'do_transform_polygon_stamped',
     'do_transform_pose',
