@@ -21,7 +21,6 @@ from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.live_steps import live_step
-from husky_grader.lab.messages import about
 from husky_grader.lab.programs import Programs
 from husky_grader.playpen import default_rubric
 from husky_grader.rubric.rubric_file import load_rubric
@@ -173,10 +172,16 @@ def test_a_rate_in_doubt_is_listened_to_for_longer(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ('rate_hz', 'told'), [(4.93, '5'), (0.51, '0.5'), (198.0, '200'), (9.6, '10'), (0.0, '0')]
+    ('rate_hz', 'within_sec', 'period_sec', 'told'),
+    [(0.5, 1.0, 2.0, ''), (4.0, 15.0, 1.0, 'about 1 messages a second; the lab asks for 4')],
 )
-def test_a_rate_is_told_in_round_numbers(rate_hz: float, told: str) -> None:
-    assert about(rate_hz) == told
+def test_a_slow_publisher_is_heard_until_its_rate_is_known(
+    tmp_path: Path, rate_hz: float, within_sec: float, period_sec: float, told: str
+) -> None:
+    assert isinstance(PUBLISHES, PublisherStep)
+    step = replace(PUBLISHES, rate_hz=rate_hz, within_sec=within_sec, listen_sec=0.5)
+    found = found_of(step, tmp_path, PUBLISHER % (sys.executable, 'topic_test', period_sec))
+    assert (found.score, found.defects.get('rate', '')) == (100.0, told), found
 
 
 @pytest.mark.parametrize(

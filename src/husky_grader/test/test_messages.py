@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a rubric asks of the fields of a message."""
 
-from husky_grader.lab.messages import complaint
+from husky_grader.lab.messages import about, complaint
 from husky_grader.rubric.steps import FieldCheck
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
@@ -29,3 +29,10 @@ def test_another_number_of_32_bits_is_told() -> None:
     assert complaint(heard, [FieldCheck(field='data', equals=0.1)]) == wrong
     most = complaint(heard, [FieldCheck(field='data', most=0.1)])
     assert most == f'{wrong} or less'
+
+
+@pytest.mark.parametrize(
+    ('rate_hz', 'told'), [(4.93, '5'), (0.51, '0.5'), (198.0, '200'), (9.6, '10'), (0.0, '0')]
+)
+def test_a_rate_is_told_in_round_numbers(rate_hz: float, told: str) -> None:
+    assert about(rate_hz) == told

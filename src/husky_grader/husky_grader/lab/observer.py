@@ -51,7 +51,9 @@ NAME = 'grader'
 OTHERS = ('husky_sim', 'follow_path')  # the nodes of the robot beside, where there is one
 SEND_EVERY_SEC = 0.1
 SETTLED_SEC = 0.3  # what was on its way when a service answered has come by then
-LISTEN_TIMES = 4  # at most, while a rate is off by no more tolerances than ...
+HEARD_PERIODS = 3  # of the rate that is asked for: so long is waited and listened at least
+JUDGED_GAPS = 2  # between messages: of fewer no rate is told while there is time to hear more
+LISTEN_TIMES = 4  # at most, while a rate is unknown, or off by no more tolerances than ...
 DOUBTFUL_TOLERANCES = 4.0
 TOKENS = (10_000_000, 2**24)  # any field of numbers but the smallest holds them exactly
 MAX_MESSAGES = 2000  # that are judged
@@ -144,7 +146,8 @@ def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = N
     def listen() -> str:
         """Wait for a message; return why there is none that can be judged, or nothing."""
         observer.spin_until(
-            lambda: times_sec or _other_fields(step, observer.node), step.within_sec
+            lambda: times_sec or _other_fields(step, observer.node),
+            _lengthened(step.within_sec, step),
         )
         other = _other_fields(step, observer.node)
         if times_sec or other:
@@ -189,19 +192,27 @@ def _rate_hz(step: PublisherStep, observer: _Observer, times_sec: Sequence[float
     """
     Listen as long as the step says, and again while a busy machine may have made the difference.
 
+    Where a rate is asked for, also while too few messages came to tell one.
     What was heard last counts by itself, too: a program that was kept waiting before has its rate.
 
     :param times_sec: of the messages; grows meanwhile.
     """
+    fewest_gaps = 0 if step.rate_hz is None else JUDGED_GAPS
     rates: list[float] = []
     for _ in range(LISTEN_TIMES):
         before = len(times_sec)
-        observer.spin_for(step.listen_sec)
-        rates += [rate_hz(times_sec), rate_hz(times_sec[before:])]
-        best = min(rates, key=lambda rate: _tolerances_off(rate, step))
-        if not 1.0 < _tolerances_off(best, step) <= DOUBTFUL_TOLERANCES:
+        observer.spin_for(_lengthened(step.listen_sec, step))
+        heard = (times_sec, times_sec[before:])
+        rates += [rate_hz(each) for each in heard if len(each) > fewest_gaps]
+        off = [_tolerances_off(rate, step) for rate in rates]
+        if off and not 1.0 < min(off) <= DOUBTFUL_TOLERANCES:
             break
-    return best
+    return min(rates or [rate_hz(times_sec)], key=lambda rate: _tolerances_off(rate, step))
+
+
+def _lengthened(duration_sec: float, step: PublisherStep) -> float:
+    """Return a duration, or that of HEARD_PERIODS where the rate that is asked for needs more."""
+    return max(duration_sec, HEARD_PERIODS / step.rate_hz) if step.rate_hz else duration_sec
 
 
 def _tolerances_off(rate: float, step: PublisherStep) -> float:
@@ -235,7 +246,8 @@ def _why_silent(step: PublisherStep, graph: Graph) -> str:
     if topics and not types:
         topic = nearest(step.topic, topics) or topics[0]
         return f'it publishes on {topic}; {asked(step.topic)}'
-    nothing_came = f'nothing came on {step.topic} within {step.within_sec:g} s'
+    waited_sec = _lengthened(step.within_sec, step)
+    nothing_came = f'nothing came on {step.topic} within {waited_sec:g} s'
     return '; '.join([nothing_came, *unheard_topics(graph)])
 
 

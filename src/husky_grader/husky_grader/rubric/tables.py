@@ -243,7 +243,10 @@ STEPS = {
                 ),
                 'within_sec': _WITHIN,
                 'listen_sec': Field(
-                    'listen_sec', 's of the clock: so long is listened.', number(0.5, 60), 's'
+                    'listen_sec',
+                    's of the clock: so long is listened; at least three periods of rate_hz.',
+                    number(0.5, 60),
+                    's',
                 ),
                 'costs': _costs(
                     PublisherCosts, rate='another rate', content='a field holds something else'
