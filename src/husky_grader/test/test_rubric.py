@@ -124,6 +124,79 @@ def test_a_mistake_in_a_step_is_told_with_what_is_allowed(step: str, expected: s
     assert any(expected in line for line in problems(step)), problems(step)
 
 
+@pytest.mark.parametrize(
+    ('kind', 'check', 'expected'),
+    [
+        ('std_msgs/msg/String', 'data, least: 3', 'type string; least and most are for numbers'),
+        ('std_msgs/msg/Bool', 'data, most: 1', 'type boolean; least and most are for numbers'),
+        ('std_msgs/msg/String', 'data, equals: 5', 'type string; equals must be a text in quotes'),
+        ('std_msgs/msg/Bool', 'data, equals: 1', 'type boolean; equals must be true or false'),
+        ('std_msgs/msg/Int32', 'data, equals: true', 'type int32; equals must be a number'),
+        ('std_msgs/msg/Int32', 'data, equals: 0.5', 'type int32; equals must be a whole number'),
+        ('std_msgs/msg/Float64', "data, equals: '5'", 'type double; equals must be a number'),
+        (
+            'sensor_msgs/msg/JointState',
+            'name, equals: 5',
+            'type sequence<string>; equals must be a text in quotes',
+        ),
+        (
+            'sensor_msgs/msg/CameraInfo',
+            'k, equals: no',
+            'type double[9]; equals must be a number',
+        ),
+        (
+            'diagnostic_msgs/msg/DiagnosticStatus',
+            'level, equals: 0',
+            'type octet; equals must be left out',
+        ),
+        (
+            'geometry_msgs/msg/PoseArray',
+            'poses, least: 1',
+            'type sequence<geometry_msgs/Pose>; least and most are for numbers',
+        ),
+    ],
+)
+def test_a_check_that_no_value_of_its_field_fits_is_told(
+    kind: str, check: str, expected: str
+) -> None:
+    (told,) = problems(f'kind: publisher, {TOPIC}, type: {kind}, content: [{{field: {check}}}]')
+    name = check.partition(',')[0]
+    assert told.endswith(f'steps[1].content: {name} is of {expected}')
+
+
+@pytest.mark.parametrize('asked', ['least: 3', 'equals: 5', 'form: <text>'])
+def test_a_message_is_no_field_that_can_be_checked(asked: str) -> None:
+    service = 'service: s, type: std_srvs/srv/Trigger, response: [{field: message, most: 1}]'
+    content = f'type: std_msgs/msg/Header, content: [{{field: stamp, {asked}}}]'
+    message, text = problems(
+        f'kind: publisher, {TOPIC}, {content}', f'kind: service, {PROGRAM}, {service}'
+    )
+    assert message.endswith('.content: stamp is a message; name one of its fields: sec, nanosec')
+    assert text.endswith('.response: message is of type string; least and most are for numbers')
+
+
+@pytest.mark.parametrize(
+    ('kind', 'check'),
+    [
+        ('std_msgs/msg/Float32', 'data, equals: 5'),
+        ('std_msgs/msg/Int32', 'data, equals: 5.0, least: 1'),
+        ('std_msgs/msg/Bool', "data, equals: true, form: 'True'"),
+        ('std_msgs/msg/String', "data, equals: '5'"),
+        ('sensor_msgs/msg/LaserScan', 'ranges, least: 0.1, most: 30'),
+        ('sensor_msgs/msg/CameraInfo', 'k, equals: 0'),
+        ('sensor_msgs/msg/JointState', 'name, equals: wheel'),
+        ('diagnostic_msgs/msg/DiagnosticStatus', 'level, form: <text>'),
+        ('geometry_msgs/msg/PoseArray', 'poses, form: <text>'),
+    ],
+)
+def test_a_check_that_a_value_of_its_field_can_fit_is_taken(kind: str, check: str) -> None:
+    step = f'kind: publisher, {TOPIC}, type: {kind}, content: [{{field: {check}}}]'
+    build = 'kind: build, points: 1'
+    rubric = parse_rubric(f'title: T\nsteps: [{{{build}}}, {{{step}}}]')
+    assert isinstance(rubric.steps[1], PublisherStep)
+    assert len(rubric.steps[1].content) == 1
+
+
 JUNK = ['', '~', '[]', '{}', '-1', 'x', '[x, {y: z}]', '{kind: build}', "''", '.nan', '&a 1', '{{']
 
 

@@ -46,20 +46,27 @@ def _known(name: str, find: Callable[[str], object], interfaces: _Interfaces, ex
     raise ValueError(f'{name} is no type that is installed here; {hint}')
 
 
-def check_field(message: Any, path: str) -> None:
+def type_of_field(message: Any, path: str) -> str:
     """
-    Check that a message has a field, as `header.frame_id`.
+    Return the type of a field, as `header.frame_id`, in the words of its class: `double[9]`.
 
-    :raises ValueError: when it has none; it says which there are.
+    :raises ValueError: when there is none, or it is a message itself; it says which there are.
     """
+    kind = ''
     for name in path.split('.'):
-        names = list(getattr(message, 'get_fields_and_field_types', dict)())
-        if name not in names:
+        kinds: Mapping[str, str] = getattr(message, 'get_fields_and_field_types', dict)()
+        if name not in kinds:
+            names = list(kinds)
             near = get_close_matches(name, names, n=1)
             hint = f'did you mean {near[0]}? ' if near else ''
             there = f'allowed: {", ".join(names)}' if names else 'nothing is below it'
             raise ValueError(f'{name} of {path} is no field; {hint}{there}')
+        kind = kinds[name]
         message = getattr(message, name)
+    if hasattr(message, 'get_fields_and_field_types'):
+        fields = ', '.join(message.get_fields_and_field_types())
+        raise ValueError(f'{path} is a message; name one of its fields: {fields}')
+    return kind
 
 
 def filled(message: Any, values: Mapping[str, Any]) -> Any:

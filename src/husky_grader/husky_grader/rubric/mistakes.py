@@ -3,12 +3,13 @@
 """What a step of a rubric asks for that cannot be: fields that a type lacks, and the like."""
 
 from collections.abc import Iterator, Mapping, Sequence
+import re
 from typing import Any
 
 from rosidl_runtime_py.utilities import get_message, get_service
 
 from husky_grader.rubric.forms import Form, TOKEN, with_token
-from husky_grader.rubric.interfaces import check_field, filled
+from husky_grader.rubric.interfaces import filled, type_of_field
 from husky_grader.rubric.steps import (
     COURSE,
     DriveStep,
@@ -22,6 +23,11 @@ from husky_grader.rubric.steps import (
 )
 
 A_TOKEN = '12345678'
+_ENTRY = re.compile(r'(sequence<)?([\w/]+).*')  # the type of what is in sequence<string<9>, 3>
+_NUMBER = re.compile(r'u?int\d+|float|double')
+_A_NUMBER = (int, float), 'a number'
+_A_TEXT = (str,), 'a text in quotes'
+_EQUAL = {'boolean': ((bool,), 'true or false'), 'string': _A_TEXT, 'wstring': _A_TEXT}
 
 _Mistakes = Iterator[tuple[str, str]]
 
@@ -81,10 +87,30 @@ def _content(field: str, message: Any, values: Mapping[str, Any]) -> _Mistakes:
 def _checks(field: str, message: Any, checks: Sequence[FieldCheck]) -> _Mistakes:
     for check in checks:
         try:
-            check_field(message, check.field)
+            kind = type_of_field(message, check.field)
         except ValueError as error:
             yield field, str(error)
+        else:
+            for why in _unfit(check, _ENTRY.sub(r'\2', kind)):
+                yield field, f'{check.field} is of type {kind}; {why}'
         if isinstance(check.equals, (list, dict)):
             yield field, f'{check.field} equals a text, a number, true or false, and nothing else'
         if (check.form, check.equals, check.least, check.most) == (None, None, None, None):
             yield field, f'{check.field}: say what it must hold: form, equals, least or most'
+
+
+def _unfit(check: FieldCheck, entry: str) -> Iterator[str]:
+    """
+    Yield why no value of a field can be what is asked for.
+
+    :param entry: its type; that of its entries, where it is a list.
+    """
+    is_number = _NUMBER.fullmatch(entry) is not None
+    if not is_number and (check.least, check.most) != (None, None):
+        yield 'least and most are for numbers'
+    fitting, words = _A_NUMBER if is_number else _EQUAL.get(entry, ((), 'left out'))
+    given = check.equals
+    if isinstance(given, (bool, int, float, str)) and type(given) not in fitting:
+        yield f'equals must be {words}'
+    elif 'int' in entry and isinstance(given, float) and not given.is_integer():
+        yield 'equals must be a whole number'
