@@ -29,7 +29,8 @@ if TYPE_CHECKING:  # they take their time
 
 PASSED, NOT_PASSED = 0, 1
 AJob = TypeVar('AJob', bound='Job')
-_NOT_BUILT_IN = ':${}'  # parts lists of folders; begin and end variables of setuptools
+# Parts lists of folders; begin and end variables of setuptools; end names in scripts of shells.
+_NOT_BUILT_IN = ':${}"`'
 FEW_FILES = 8  # so many are told by their names
 
 
@@ -161,8 +162,16 @@ def _check_programs_run(folder: Path) -> None:
 
     :raises ValueError: if it cannot, for which each student would lose points.
     """
+    place = os.path.realpath(folder)
+    try:
+        place.encode()
+    except UnicodeEncodeError:
+        raise ValueError(
+            f'{folder}: nothing can be built in a folder whose name is not UTF-8; name another '
+            'folder with --report DIR'
+        ) from None
     for char in _NOT_BUILT_IN:
-        if char in os.path.realpath(folder):
+        if char in place:
             raise ValueError(
                 f"{folder}: nothing can be built in a folder with a '{char}' in its name; name "
                 'another folder with --report DIR'

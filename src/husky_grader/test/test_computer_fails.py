@@ -98,7 +98,7 @@ def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize('char', ':${}')
+@pytest.mark.parametrize('char', ':${}"`')
 def test_a_report_where_nothing_can_be_built_is_refused(
     tmp_path: Path, char: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -111,6 +111,20 @@ def test_a_report_where_nothing_can_be_built_is_refused(
         'folder with --report DIR\n'
     )
     assert not report.exists()
+
+
+def test_a_report_in_a_folder_that_is_not_utf8_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_workspace(tmp_path / 'ws')
+    folder = tmp_path / os.fsdecode(b'a\xff')
+    words = ['--lab', str(tmp_path / 'ws'), '--sandbox', 'none', '--report', str(folder / 'r')]
+    assert grade(words) == 2
+    assert capsys.readouterr().err == (
+        f'{tmp_path}/a\\xff/r: nothing can be built in a folder whose name is not UTF-8; name '
+        'another folder with --report DIR\n'
+    )
+    assert not folder.exists()
 
 
 def test_a_missing_colcon_is_not_the_fault_of_a_student(
