@@ -10,6 +10,7 @@ import subprocess
 import tarfile
 import zipfile
 
+from husky_grader.grade import main as grade
 from husky_grader.submission import find_submissions, Refused, Submission, unpack, Workspace
 import pytest
 
@@ -298,3 +299,31 @@ def test_a_copy_that_an_earlier_grading_has_made_is_left_out(tmp_path: Path, nam
     assert workspace.notes == (f'left out: ws/my_report/{name}',)
     assert sorted(path.name for path in workspace.path.iterdir()) == ['my_report', 'src']
     assert list((workspace.path / 'my_report').iterdir()) == []
+
+
+@pytest.mark.parametrize('name', ['COLCON_IGNORE', 'Colcon_Ignore'])
+def test_a_workspace_leaves_the_name_of_the_mark_for_colcon_free(
+    tmp_path: Path, name: str
+) -> None:
+    in_folder(tmp_path / 'report', {'COLCON_IGNORE': ''})
+    for archive, files in ('ann.zip', below(name, SOURCES)), (f'{name}.zip', SOURCES):
+        workspace = unpack(only(in_zip(tmp_path / archive, files)), tmp_path / 'report')
+        assert workspace.path.name == f'{name}_2'
+        assert tree(workspace.path) == SOURCES
+    assert (tmp_path / 'report' / 'COLCON_IGNORE').is_file()
+
+
+def test_a_class_is_graded_where_a_workspace_is_named_as_that_mark(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state'))
+    built = '<export><build_type>ament_python</build_type></export>'
+    manifest = f'<package><name>p</name>{built}</package>'
+    handed_in = tmp_path / 'class'
+    handed_in.mkdir()
+    for student, name in ('ann', 'COLCON_IGNORE'), ('bob', 'ws'):
+        in_zip(handed_in / f'{student}.zip', {f'{name}/src/p/package.xml': manifest})
+    rubric = tmp_path / 'rubric.yaml'
+    rubric.write_text('title: T\nsteps: [{kind: package, points: 1, package: p}]\n')
+    words = ['--lab', str(handed_in), '--rubric', str(rubric), '--report', str(tmp_path / 'r')]
+    assert grade(words) == 0

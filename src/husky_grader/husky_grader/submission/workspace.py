@@ -10,7 +10,7 @@ from typing import Literal
 
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
 from husky_grader.submission.limits import BUILT, COPY, FOLDERS_OF_COLCON, IGNORED, Refused
-from husky_grader.submission.names import harmless
+from husky_grader.submission.names import folder_names
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
 _MANIFEST = 'package.xml'
@@ -58,7 +58,7 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     for each in left:
         if each[: len(root.parts)] == root.parts:
             shutil.rmtree(staging.joinpath(*each))
-    place = _cleared(folder / harmless(root.parts[-1] if root.parts else name))
+    place = _place(folder, root.parts[-1] if root.parts else name)
     if root.handed == 'workspace':
         target = place
     else:
@@ -79,7 +79,7 @@ def _settle_file(parts: Parts, staging: Path, folder: Path) -> Workspace:
         raise Refused(f'only another archive is in it, {shown(parts)}; hand in that one')
     if kind != 'yaml':
         raise Refused(f'only {shown(parts)} is in it; {_HAND_IN}')
-    place = _cleared(folder / harmless(path.name))
+    place = _place(folder, path.name)
     path.rename(place)
     return Workspace(place, 'waypoints', 'file')
 
@@ -159,8 +159,14 @@ def _listed(paths: Sequence[Parts]) -> str:
     return ', '.join([*names, *more]) or 'nothing'
 
 
-def _cleared(place: Path) -> Path:
-    """Return the place, after a workspace that an earlier call has left there is gone."""
+def _place(folder: Path, name: str) -> Path:
+    """
+    Return the place for what has a name, after one that an earlier call has left there is gone.
+
+    It is never that of the file which keeps colcon out of the folder.
+    """
+    (free,) = folder_names([Path(name)], taken=[IGNORED])
+    place = folder / free
     if place.is_dir():
         shutil.rmtree(place)
     return place
