@@ -126,7 +126,7 @@ class _Builder:
 
     def _value(self, event: yaml.Event, depth: int) -> object:
         if isinstance(event, yaml.AliasEvent):
-            return self._anchored.get(event.anchor)
+            return self._anchored.get(event.anchor or '')
         value: object = None
         if isinstance(event, yaml.ScalarEvent):
             value = '' if event.style is None and event.value in _NULLS else event.value
@@ -144,7 +144,8 @@ class _Builder:
 
     def _parts(self, depth: int) -> list[object]:
         """Return what a collection holds; nothing of one that stands too deep."""
-        parts, within = [], 0
+        parts: list[object] = []
+        within = 0
         for event in self._events:
             if isinstance(event, yaml.CollectionEndEvent):
                 if within == 0:
