@@ -78,11 +78,7 @@ class PlayVerb(VerbExtension):
         chosen = _chosen(bag, args.topics)
         remaps = _remaps(args.remap)
         with command_node(args, name='rosbag2_player') as node:
-            publishers = {}
-            for topic in chosen:
-                publishers[topic.name] = _publisher(
-                    node, topic, remaps.get(names.expand(topic.name), topic.name)
-                )
+            publishers = _publishers(node, chosen, remaps)
             clock = node.node.create_publisher(Clock, '/clock', 10) if args.clock else None
             _wait_for_subscriptions(node, list(publishers.values()))
             node.spin_until(lambda: False, args.delay)
@@ -134,6 +130,28 @@ def _publish_clock(publisher: Any, now_ns: int) -> None:
     msg = Clock()
     msg.clock.sec, msg.clock.nanosec = divmod(now_ns, 10**9)
     publisher.publish(msg)
+
+
+def _publishers(
+    node: CommandNode, topics: list[rosbag2_py.TopicMetadata], remaps: dict[str, str]
+) -> dict[str, Any]:
+    """
+    Return a publisher for each topic whose type is installed; say which are left out.
+
+    :raises CommandError: there are topics, but no type of theirs is installed.
+    """
+    publishers, reasons = {}, []
+    for topic in topics:
+        name = remaps.get(names.expand(topic.name), topic.name)
+        try:
+            publishers[topic.name] = _publisher(node, topic, name)
+        except CommandError as error:
+            reasons.append(f"Topic '{topic.name}' is left out: {error}")
+    if reasons and not publishers:
+        raise CommandError('; '.join(reasons))
+    for reason in reasons:
+        node.node.get_logger().warning(reason)
+    return publishers
 
 
 def _publisher(node: CommandNode, topic: rosbag2_py.TopicMetadata, name: str) -> Any:
