@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import re
 
+from rosbag2_py._log import warn
 from rosbag2_py._metadata import MessageDefinition
 from rosbag2_py.errors import BagError
 
 _NAME = re.compile(r'(\w+)/(?:(msg|srv)/)?(\w+)')
 _SEPARATOR = '=' * 80
+_EVENT = '_Event'
 
 
 class LocalMessageDefinitionSource:
@@ -47,6 +49,17 @@ class LocalMessageDefinitionSource:
 
 def empty(type_name: str) -> MessageDefinition:
     return MessageDefinition(type_name, 'unknown', '', '')
+
+
+def definition_or_empty(type_name: str) -> MessageDefinition:
+    """Return what a writer keeps of a type: for a service's events the service, or no text."""
+    if type_name.endswith(_EVENT) and '/srv/' in type_name:
+        type_name = type_name.removesuffix(_EVENT)
+    try:
+        return LocalMessageDefinitionSource().get_full_text(type_name)
+    except BagError as error:
+        warn(f'{error}; the bag has none either')
+        return empty(type_name)
 
 
 def _text(type_name: str) -> str:

@@ -11,8 +11,7 @@ from typing import Any
 import weakref
 
 from rosbag2_py._fields import check_kind, nanoseconds_of
-from rosbag2_py._log import warn
-from rosbag2_py._message_definitions import empty, LocalMessageDefinitionSource
+from rosbag2_py._message_definitions import definition_or_empty
 from rosbag2_py._metadata import MessageDefinition, TopicMetadata
 from rosbag2_py._options import ConverterOptions, StorageOptions
 from rosbag2_py._writing_thread import WritingThread
@@ -20,8 +19,6 @@ from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.errors import BagError
 from rosbag2_py.storages import DEFAULT_ID, storage_of, STORAGES
 from rosbag2_py.storages.interface import Storage
-
-_EVENT = '_Event'
 
 
 class SequentialWriter:
@@ -88,7 +85,7 @@ class SequentialWriter:
             self._check_open()
             if topic_with_type.name in self._topics:
                 return
-            definition = definition or _definition_of(topic_with_type.type)
+            definition = definition or definition_or_empty(topic_with_type.type)
             self._topics[topic_with_type.name] = topic_with_type
             self._thread.put(0, self._writer.add_topic, topic_with_type, definition)
 
@@ -158,16 +155,6 @@ def add_topic(
 ) -> None:
     """Add a topic as `create_topic` does, with the definition of its type if one is known."""
     writer._create(topic, definition)
-
-
-def _definition_of(type_name: str) -> MessageDefinition:
-    if type_name.endswith(_EVENT) and '/srv/' in type_name:
-        type_name = type_name.removesuffix(_EVENT)
-    try:
-        return LocalMessageDefinitionSource().get_full_text(type_name)
-    except BagError as error:
-        warn(f'{error}; the bag has none either')
-        return empty(type_name)
 
 
 def get_registered_writers() -> set[str]:

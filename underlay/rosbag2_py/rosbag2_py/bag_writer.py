@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosbag2_py import _qos
-from rosbag2_py._message_definitions import LocalMessageDefinitionSource
+from rosbag2_py._message_definitions import definition_or_empty
 from rosbag2_py._metadata import (
     BagMetadata,
     FileInformation,
@@ -116,10 +116,11 @@ class BagWriter:
         """
         Add a topic before its first message.
 
-        :param definition: that of its type; looked up where none is given.
+        :param definition: that of its type; looked up where none is given, and empty where there
+            is none.
         """
         if definition is None:
-            definition = LocalMessageDefinitionSource().get_full_text(metadata.type)
+            definition = definition_or_empty(metadata.type)
         self._topics[metadata.name] = _Topic(metadata, definition)
         self._file.add_topic(metadata, definition)
 
