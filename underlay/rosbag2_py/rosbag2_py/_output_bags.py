@@ -7,14 +7,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 import difflib
 from pathlib import Path
-from typing import Any
 
 import yaml
 
-from rosbag2_py._fields import Field, many, text
+from rosbag2_py._fields import Field
 from rosbag2_py._options import StorageOptions
-from rosbag2_py._pattern import EVENTS, pattern
 from rosbag2_py.errors import BagError
+from rosbag2_py.selection import pattern, Selection
 
 _KEY = 'output_bags'
 # Of a recording; to rewrite a bag, upstream takes them as well and does nothing by them.
@@ -33,78 +32,6 @@ _OF_RECORDINGS = (
     'use_sim_time',
 )
 _OLDER = {'exclude': ('exclude_regex',), 'all': ('all_topics', 'all_services')}
-_COMPRESS = 'storage_preset_profile: zstd_fast compresses an MCAP bag'
-
-
-def _yes_or_no(value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise TypeError('true or false')
-    return value
-
-
-def _unset(why: str) -> Any:
-    """Return a check of what is not offered: it may be empty."""
-
-    def convert(value: Any) -> str:
-        if value:
-            raise TypeError(f'nothing: {why}')
-        return ''
-
-    return convert
-
-
-class Selection:
-    """Which topics a bag is given; the names are those of upstream's RecordOptions."""
-
-    all_topics = Field(_yes_or_no)
-    all_services = Field(_yes_or_no)
-    topics = Field(many(text))
-    topic_types = Field(many(text))
-    services = Field(many(text))
-    regex = Field(text)
-    exclude_topics = Field(many(text))
-    exclude_topic_types = Field(many(text))
-    exclude_services = Field(many(text))
-    exclude_regex = Field(text)
-    include_hidden_topics = Field(_yes_or_no)
-    compression_mode = Field(_unset(_COMPRESS))
-    compression_format = Field(_unset(_COMPRESS))
-    rmw_serialization_format = Field(_unset('messages stay as they are'))
-
-    def __init__(self) -> None:
-        self.all_topics = self.all_services = self.include_hidden_topics = False
-        self.topics = self.topic_types = self.services = []
-        self.exclude_topics = self.exclude_topic_types = self.exclude_services = []
-        self.regex = self.exclude_regex = ''
-
-    def is_empty(self) -> bool:
-        return not (
-            self.all_topics
-            or self.all_services
-            or self.topics
-            or self.topic_types
-            or self.services
-            or self.regex
-        )
-
-    def wants(self, name: str, type_name: str) -> bool:
-        if name.endswith(EVENTS) and type_name.endswith('_Event'):
-            service = name.removesuffix(EVENTS)
-            named = bool({name, service} & set(self.services))
-            excluded = bool({name, service} & set(self.exclude_services))
-            return not excluded and self._passes(service, named or self.all_services)
-        named = name in self.topics or type_name in self.topic_types
-        if name in self.exclude_topics or type_name in self.exclude_topic_types:
-            return False
-        if not self.include_hidden_topics and '/_' in name:
-            return False
-        return self._passes(name, named or self.all_topics)
-
-    def _passes(self, name: str, named: bool) -> bool:  # noqa: FBT001
-        wanted, unwanted = pattern(self.regex), pattern(self.exclude_regex)
-        if unwanted and unwanted.search(name):
-            return False
-        return named or bool(wanted and wanted.search(name))
 
 
 @dataclass

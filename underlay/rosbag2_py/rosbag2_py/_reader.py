@@ -21,8 +21,8 @@ from rosbag2_py._options import (
     StorageFilter,
     StorageOptions,
 )
-from rosbag2_py._pattern import EVENTS, pattern
 from rosbag2_py.errors import BagError
+from rosbag2_py.selection import wanted
 from rosbag2_py.storages import STORAGES
 from rosbag2_py.storages.interface import Key, Start, Storage, StoredFile, StoredMessage
 
@@ -201,30 +201,6 @@ def stored_messages(reader: SequentialReader) -> Iterator[StoredMessage]:
 
 def get_registered_readers() -> set[str]:
     return set(STORAGES)
-
-
-def wanted(storage_filter: StorageFilter) -> Callable[[str], bool]:
-    """
-    Return whether a filter lets a topic pass.
-
-    :raises BagError: an expression is none.
-    """
-    regex = pattern(storage_filter.regex)
-    exclude_regex = pattern(storage_filter.regex_to_exclude)
-    topics, events = storage_filter.topics, storage_filter.services_events
-    exclude_topics = storage_filter.exclude_topics
-    exclude_events = storage_filter.exclude_service_events
-
-    def passes(topic: str) -> bool:
-        is_event = topic.endswith(EVENTS) and topic != EVENTS
-        included, excluded = (events, exclude_events) if is_event else (topics, exclude_topics)
-        if topic in excluded or (exclude_regex and exclude_regex.fullmatch(topic)):
-            return False
-        if not included and not regex:
-            return True
-        return topic in included or bool(regex and regex.fullmatch(topic))
-
-    return passes
 
 
 def _check_formats(metadata: BagMetadata, asked: str) -> None:

@@ -15,8 +15,9 @@ from typing import Any
 
 from playpen_testing.bags import opened_reader
 import pytest
+from rosbag2_py.selection import EVENTS
 
-SUMS = '/add_two_ints/_service_event'
+CHATTER, FLIPS, SUMS = '/chatter', '/flip/_service_event', '/add_two_ints/_service_event'
 
 
 class Recording:
@@ -34,12 +35,12 @@ class Recording:
             assert time.monotonic() < deadline, f'not recorded within 20 s: {missing}'
             time.sleep(0.05)
 
-    def end(self) -> list[str]:
+    def end(self) -> set[str]:
         """Interrupt it; return the names of what was recorded."""
         self._process.send_signal(signal.SIGINT)
         rest, _ = self._process.communicate(timeout=10)
         assert 'Recording stopped: ' in rest
-        return [each.name for each in opened_reader(self.bag).get_all_topics_and_types()]
+        return {each.name for each in opened_reader(self.bag).get_all_topics_and_types()}
 
     def _count(self, topic: str) -> int:
         query = (
@@ -52,30 +53,70 @@ class Recording:
         return number
 
 
-@pytest.fixture
-def record(processes: Any, tmp_path: Path) -> Callable[..., Recording]:
-    """Return a function that starts a recording, which ends with the test."""
-
-    def start(*words: str) -> Recording:
-        return Recording(processes, tmp_path, *words)
-
-    return start
-
-
-@pytest.fixture
-def sums(processes: Any) -> None:
-    """Let a service add, and tell of it."""
-    processes.start(
+@pytest.fixture(scope='module')
+def graph(shared_processes: Any) -> Any:
+    """Let two services tell of their calls, and a node talk; return where processes start."""
+    shared_processes.start(
         *(sys.executable, '-m', 'demo_nodes_py.services.introspection', '--ros-args'),
         *('-p', 'client_configure_introspection:=contents'),
         *('-p', 'service_configure_introspection:=contents'),
         ready='Result of add_two_ints: 5',
     )
+    shared_processes.node('talker', 'talker')
+    shared_processes.node('service', 'server')
+    # What it tells of a call is kept for who comes later.
+    shared_processes.ros2('service', 'call', '/flip', 'std_srvs/srv/SetBool', ready='flipped')
+    return shared_processes
 
 
-def test_events_of_a_service_are_recorded(sums: None, record: Callable[..., Recording]) -> None:
-    recording = record(SUMS)
+@pytest.mark.parametrize(
+    ('words', 'expected'),
+    [
+        ((SUMS,), {SUMS}),
+        (('--service', 'add_two_ints'), {SUMS}),
+        ((CHATTER, '--services', '/flip', '/add_two_ints'), {CHATTER, FLIPS, SUMS}),
+        (('--all-services', '--exclude-services', '/flip'), {SUMS}),
+        (('--all-services', '--exclude-regex', 'add'), {FLIPS}),
+        (('-a',), {CHATTER, FLIPS, SUMS}),
+        (('--all-topics',), {CHATTER}),
+        (('-e', 'flip|chat'), {CHATTER, FLIPS}),
+    ],
+)
+def test_what_is_chosen_is_recorded(
+    graph: Any, tmp_path: Path, words: tuple[str, ...], expected: set[str]
+) -> None:
+    recording = Recording(graph, tmp_path, *words)
+    recording.wait_for(*expected)
+    assert recording.end() & {CHATTER, FLIPS, SUMS} == expected
+
+
+def test_the_definition_of_a_service_is_kept(graph: Any, tmp_path: Path) -> None:
+    recording = Recording(graph, tmp_path, SUMS)
     recording.wait_for(SUMS, count=4)
-    assert recording.end() == [SUMS]
+    recording.end()
     (definition,) = opened_reader(recording.bag).get_all_message_definitions()
     assert 'int64 sum' in definition.encoded_message_definition
+
+
+def test_a_service_that_does_not_tell_is_waited_for(processes: Any, tmp_path: Path) -> None:
+    words = ('bag', 'record', '-o', str(tmp_path / 'bag'), '--services', '/mute')
+    processes.ros2(*words, ready=f'Waiting for /mute{EVENTS}; a service tells of its calls only')
+
+
+@pytest.mark.parametrize(
+    ('words', 'message'),
+    [
+        ((CHATTER, '--exclude-regex', 'x'), '--exclude-regex goes with one of --all, '),
+        (('--all-services', '--exclude-topics', CHATTER), '--exclude-topics goes with one of'),
+        ((CHATTER, '--exclude-topic-types', 'x'), '--exclude-topic-types goes with one of'),
+        (('--all-topics', '--exclude-services', '/flip'), '--exclude-services goes with one of'),
+        (('-a', '--use-sim-time', '--no-discovery'), 'not --no-discovery'),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(
+    domain: int, ros2: Callable[..., Any], tmp_path: Path, words: tuple[str, ...], message: str
+) -> None:
+    answer = ros2('bag', 'record', '-o', str(tmp_path / 'bag'), *words)
+    assert (answer.status, answer.err.count('\n')) == (2, 1)
+    assert message in answer.err
+    assert not (tmp_path / 'bag').exists()

@@ -1,0 +1,77 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Subscribe to what is to be recorded, and write it down."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from ros2cli import interfaces
+from ros2cli.errors import CommandError
+from ros2cli.node.direct import CommandNode
+from rosbag2_py import TopicMetadata
+from rosbag2_py.bag_writer import BagWriter, offered_qos
+from rosbag2_py.selection import Selection
+from rtps_graph.graph import Endpoint, Graph, Role
+
+_QUEUE_DEPTH = 1000
+
+
+class Recorder:
+    """Subscribes to what is asked for, as it appears, and writes it down."""
+
+    def __init__(self, node: CommandNode, writer: BagWriter, selection: Selection) -> None:
+        self._node = node
+        self._writer = writer
+        self._selection = selection
+        self._seen: set[str] = set()
+
+    def missing(self) -> list[str]:
+        """Return the topics that were named, those of services as well, and are not there."""
+        return sorted({*self._selection.topics, *self._selection.services} - self._seen)
+
+    def subscribe_to_new_topics(self, graph: Graph) -> None:
+        for name, types in graph.topics().items():
+            if name in self._seen or not self._wants(name, types[0]):
+                continue
+            publishers = graph.with_role(Role.PUBLISHER, name)
+            if not publishers:
+                continue
+            self._seen.add(name)
+            if len(types) > 1:
+                self._log(f"Topic '{name}' has several types and is left out: {types}")
+                continue
+            self._subscribe(name, types[0], publishers)
+
+    def _wants(self, name: str, type_name: str) -> bool:
+        # Who names a hidden topic need not ask for all of them.
+        is_named = name in self._selection.topics
+        return self._selection.wants(name, type_name, also_hidden=is_named)
+
+    def _subscribe(self, name: str, type_name: str, publishers: list[Endpoint]) -> None:
+        try:
+            message_class = interfaces.message(type_name)
+        except CommandError as error:
+            self._log(f"Topic '{name}' is left out: {error}")
+            return
+        reliable = all(p.qos.reliable for p in publishers)
+        transient_local = all(p.qos.transient_local for p in publishers)
+        offered = offered_qos(reliable=reliable, transient_local=transient_local)
+        type_hash = publishers[0].type_hash
+        self._writer.add_topic(TopicMetadata(0, name, type_name, 'cdr', [offered], type_hash))
+        qos = QoSProfile(depth=_QUEUE_DEPTH)
+        if not reliable:
+            qos.reliability = ReliabilityPolicy.BEST_EFFORT
+        if transient_local:
+            qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
+        clock = self._node.node.get_clock()
+
+        def on_message(data: bytes, info: dict[str, Any]) -> None:
+            self._writer.write(name, data, clock.now().nanoseconds, info['source_timestamp'])
+
+        self._node.node.create_subscription(message_class, name, on_message, qos, raw=True)
+        self._log(f"Subscribed to topic '{name}'")
+
+    def _log(self, text: str) -> None:
+        self._node.node.get_logger().info(text)
