@@ -15,16 +15,23 @@ from rosbag2_py.bag_writer import BagWriter, offered_qos
 from rosbag2_py.selection import Selection
 from rtps_graph.graph import Endpoint, Graph, Role
 
-_QUEUE_DEPTH = 1000
+from ros2bag.qos_overrides import DEFAULT_DEPTH
 
 
 class Recorder:
     """Subscribes to what is asked for, as it appears, and writes it down."""
 
-    def __init__(self, node: CommandNode, writer: BagWriter, selection: Selection) -> None:
+    def __init__(
+        self,
+        node: CommandNode,
+        writer: BagWriter,
+        selection: Selection,
+        overrides: dict[str, QoSProfile],
+    ) -> None:
         self._node = node
         self._writer = writer
         self._selection = selection
+        self._overrides = overrides
         self._seen: set[str] = set()
 
     def missing(self) -> list[str]:
@@ -60,11 +67,12 @@ class Recorder:
         offered = offered_qos(reliable=reliable, transient_local=transient_local)
         type_hash = publishers[0].type_hash
         self._writer.add_topic(TopicMetadata(0, name, type_name, 'cdr', [offered], type_hash))
-        qos = QoSProfile(depth=_QUEUE_DEPTH)
+        qos = QoSProfile(depth=DEFAULT_DEPTH)
         if not reliable:
             qos.reliability = ReliabilityPolicy.BEST_EFFORT
         if transient_local:
             qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
+        qos = self._overrides.get(name, qos)
         clock = self._node.node.get_clock()
 
         def on_message(data: bytes, info: dict[str, Any]) -> None:

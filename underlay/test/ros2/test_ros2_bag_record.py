@@ -103,6 +103,45 @@ def test_a_service_that_does_not_tell_is_waited_for(processes: Any, tmp_path: Pa
     processes.ros2(*words, ready=f'Waiting for /mute{EVENTS}; a service tells of its calls only')
 
 
+def test_a_file_sets_the_quality_of_service(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    processes.node('talker', 'talker')
+    (tmp_path / 'qos.yaml').write_text('/chatter: {reliability: best_effort, history: keep_all}')
+    words = ('-a', '--qos-profile-overrides-path', str(tmp_path / 'qos.yaml'))
+    recording = Recording(processes, tmp_path, *words)
+    recording.wait_for(CHATTER)
+    _, subscription = ros2('topic', 'info', '-v', CHATTER).out.split('Node name: rosbag2_recorder')
+    assert 'Reliability: BEST_EFFORT\n' in subscription
+    assert recording.end() >= {CHATTER}
+
+
+@pytest.mark.parametrize(
+    ('text', 'message'),
+    [
+        ('', 'names no topic: write /topic: {depth: 10}'),
+        ('/chatter: {', 'is no YAML: '),
+        ('/chatter: reliable', "/chatter: 'reliable' is no dictionary of history, "),
+        ('/chatter: {reliabilty: reliable}', '/chatter: there is no reliabilty; there are his'),
+        ('/chatter: {history: keep_some}', "history: 'keep_some' must be one of system_default,"),
+        ('/chatter: {liveliness: unknown}', "liveliness: 'unknown' must be one of "),
+        ('/chatter: {depth: -1}', 'depth: -1 must be a whole number from 0 to 2147483647'),
+        ('/chatter: {depth: 0}', 'depth: 0 keeps no message'),
+        ('/chatter: {deadline: {sec: 2}}', "{'sec': 2} must have both, as {sec: 1, nsec: 0}"),
+        ('/chatter: {lifespan: {sec: -2, nsec: 0}}', 'lifespan: sec: -2 must be a whole number'),
+        ('/chatter: {avoid_ros_namespace_conventions: 1}', '1 must be true or false'),
+    ],
+)
+def test_a_bad_file_of_qualities_is_refused(
+    domain: int, ros2: Callable[..., Any], tmp_path: Path, text: str, message: str
+) -> None:
+    (tmp_path / 'qos.yaml').write_text(text)
+    answer = ros2('bag', 'record', '-a', '--qos-profile-overrides-path', 'qos.yaml')
+    assert (answer.status, answer.err.count('\n')) == (2, 1)
+    assert "--qos-profile-overrides-path 'qos.yaml'" in answer.err
+    assert message in answer.err
+
+
 @pytest.mark.parametrize(
     ('words', 'message'),
     [
@@ -110,10 +149,11 @@ def test_a_service_that_does_not_tell_is_waited_for(processes: Any, tmp_path: Pa
         (('--all-services', '--exclude-topics', CHATTER), '--exclude-topics goes with one of'),
         ((CHATTER, '--exclude-topic-types', 'x'), '--exclude-topic-types goes with one of'),
         (('--all-topics', '--exclude-services', '/flip'), '--exclude-services goes with one of'),
+        (('-a', '--qos-profile-overrides-path', 'none'), "'none' cannot be read: No such file"),
         (('-a', '--use-sim-time', '--no-discovery'), 'not --no-discovery'),
     ],
 )
-def test_options_that_do_not_go_together_are_refused(
+def test_options_that_make_no_sense_are_refused(
     domain: int, ros2: Callable[..., Any], tmp_path: Path, words: tuple[str, ...], message: str
 ) -> None:
     answer = ros2('bag', 'record', '-o', str(tmp_path / 'bag'), *words)

@@ -16,7 +16,7 @@ from rosbag2_py.bag_writer import BagWriter
 from rosbag2_py.selection import EVENTS
 from rosbag2_py.storages import DEFAULT_ID, STORAGES
 
-from ros2bag import choice
+from ros2bag import choice, qos_overrides
 from ros2bag.recorder import Recorder
 from ros2bag.refusals import refused_in_one_line
 
@@ -60,9 +60,12 @@ class RecordVerb(VerbExtension):
             help='Use simulation time for message timestamps by subscribing to the /clock topic.',
         )
 
+        qos_overrides.add_argument(parser)
+
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
         selection = choice.selection(args)
+        overrides = qos_overrides.read(args.qos_profile_overrides_path)
         if args.use_sim_time and args.no_discovery:
             raise UsageError('--use-sim-time needs /clock to be discovered: not --no-discovery')
         storage = STORAGES[args.storage]
@@ -78,7 +81,7 @@ class RecordVerb(VerbExtension):
             command_node(args, name='rosbag2_recorder', may_spin_when_interrupted=True) as node,
         ):
             _end_with_the_terminal()
-            recorder = Recorder(node, writer, selection)
+            recorder = Recorder(node, writer, selection, overrides)
             log = node.node.get_logger()
             log.info('Listening for topics...')
             recorder.subscribe_to_new_topics(discovery.read_graph())
