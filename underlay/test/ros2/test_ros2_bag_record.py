@@ -19,6 +19,12 @@ from rosbag2_py.selection import EVENTS
 
 CHATTER, FLIPS, SUMS = '/chatter', '/flip/_service_event', '/add_two_ints/_service_event'
 
+WITHOUT_EFFECT = (
+    *('--max-cache-size', '0', '--disable-keyboard-controls', '--compression-mode', 'none'),
+    *('--compression-queue-size', '1', '--compression-threads', '2'),
+    *('--compression-threads-priority', '-5'),
+)
+
 
 class Recording:
     """`ros2 bag record` into sqlite3, where all that is recorded can be counted at once."""
@@ -80,6 +86,10 @@ def graph(shared_processes: Any) -> Any:
         (('-a',), {CHATTER, FLIPS, SUMS}),
         (('--all-topics',), {CHATTER}),
         (('-e', 'flip|chat'), {CHATTER, FLIPS}),
+        (('--topic-types', 'std_msgs/msg/String', 'x/msg/Y'), {CHATTER}),
+        (('-a', '--exclude-topic-types', 'std_msgs/msg/String'), {FLIPS, SUMS}),
+        (('-a', '--exclude-topics', 'chatter', '--exclude-services', 'flip'), {SUMS}),
+        (('--all-topics', *WITHOUT_EFFECT), {CHATTER}),
     ],
 )
 def test_what_is_chosen_is_recorded(
@@ -88,6 +98,35 @@ def test_what_is_chosen_is_recorded(
     recording = Recording(graph, tmp_path, *words)
     recording.wait_for(*expected)
     assert recording.end() & {CHATTER, FLIPS, SUMS} == expected
+
+
+@pytest.mark.parametrize('words', [('-d', '1'), ('-s', 'mcap', '--max-bag-size', '2000')])
+def test_a_limit_begins_new_files(processes: Any, tmp_path: Path, words: tuple[str, ...]) -> None:
+    # MCAP is written by the megabyte.
+    publish = ('topic', 'pub', '-r', '40', '--print', '1000000', '/large', 'std_msgs/msg/String')
+    processes.ros2(*publish, f'data: {"x" * 50_000}')
+    recording = Recording(processes, tmp_path, '/large', *words)
+    deadline = time.monotonic() + 20.0
+    while len({file.stem for file in recording.bag.glob('bag_*')}) < 3:
+        assert time.monotonic() < deadline, 'not three files within 20 s'
+        time.sleep(0.05)
+    assert recording.end() == {'/large'}
+    files = opened_reader(recording.bag).get_metadata().files
+    assert len(files) >= 3
+    assert all(file.message_count > 1 for file in files[:2])
+
+
+def test_custom_data_is_kept(graph: Any, tmp_path: Path) -> None:
+    recording = Recording(graph, tmp_path, CHATTER, '--custom-data', 'robot=husky', 'sum=1+1=2')
+    recording.end()
+    kept = opened_reader(recording.bag).get_metadata().custom_data
+    assert kept == {'robot': 'husky', 'sum': '1+1=2'}
+
+
+def test_what_has_no_effect_is_said(ros2: Callable[..., Any]) -> None:
+    for verb, count in (('record', 5), ('play', 1)):
+        text = ' '.join(ros2('bag', verb, '--help').out.split())
+        assert text.count('Accepted, and without effect here.') == count
 
 
 def test_the_definition_of_a_service_is_kept(graph: Any, tmp_path: Path) -> None:
@@ -101,6 +140,12 @@ def test_the_definition_of_a_service_is_kept(graph: Any, tmp_path: Path) -> None
 def test_a_service_that_does_not_tell_is_waited_for(processes: Any, tmp_path: Path) -> None:
     words = ('bag', 'record', '-o', str(tmp_path / 'bag'), '--services', '/mute')
     processes.ros2(*words, ready=f'Waiting for /mute{EVENTS}; a service tells of its calls only')
+
+
+def test_custom_data_without_a_key_is_refused(ros2: Callable[..., Any]) -> None:
+    answer = ros2('bag', 'record', '-a', '--custom-data', 'husky')
+    assert answer.status == 2
+    assert "'husky' is no KEY=VALUE" in answer.err
 
 
 def test_a_file_sets_the_quality_of_service(
@@ -150,6 +195,9 @@ def test_a_bad_file_of_qualities_is_refused(
         ((CHATTER, '--exclude-topic-types', 'x'), '--exclude-topic-types goes with one of'),
         (('--all-topics', '--exclude-services', '/flip'), '--exclude-services goes with one of'),
         (('-a', '--qos-profile-overrides-path', 'none'), "'none' cannot be read: No such file"),
+        (('-a', '--compression-mode', 'file'), '--storage-preset-profile zstd_fast'),
+        (('-a', '--compression-format', 'zstd'), '--storage-preset-profile zstd_fast'),
+        (('-a', '-b', '1023'), '--max-bag-size 1023: it is 1024 bytes at least for mcap'),
         (('-a', '--use-sim-time', '--no-discovery'), 'not --no-discovery'),
     ],
 )

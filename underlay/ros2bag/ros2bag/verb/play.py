@@ -15,7 +15,7 @@ from rosbag2_py import bag_files
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 
-from ros2bag import player, qos_overrides
+from ros2bag import player, qos_overrides, without_effect
 from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
 
@@ -66,7 +66,7 @@ class PlayVerb(VerbExtension):
             default=0.0,
             help='Start the playback player this many seconds into the bag file.',
         )
-        arguments.add_flags(parser, {'--disable-keyboard-controls': 'Accepted: there are none.'})
+        without_effect.add_flags(parser, '--disable-keyboard-controls')
         qos_overrides.add_argument(parser)
 
     @refused_in_one_line()

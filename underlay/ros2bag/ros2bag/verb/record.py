@@ -12,15 +12,16 @@ from ros2cli import arguments, discovery
 from ros2cli.errors import UsageError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
-from rosbag2_py.bag_writer import BagWriter
+from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.selection import EVENTS
 from rosbag2_py.storages import DEFAULT_ID, STORAGES
+from rosbag2_py.storages.interface import Storage
 
-from ros2bag import choice, qos_overrides
+from ros2bag import choice, qos_overrides, without_effect
 from ros2bag.recorder import Recorder
 from ros2bag.refusals import refused_in_one_line
 
-_POLL_SEC = 0.3
+_COMPRESS = '--storage-preset-profile zstd_fast compresses an MCAP bag'
 
 
 class RecordVerb(VerbExtension):
@@ -36,31 +37,30 @@ class RecordVerb(VerbExtension):
             },
         )
         parser.add_argument(
-            '-o',
-            '--output',
-            type=Path,
-            help='Destination of the bag to create (default: a timestamp)',
-        )
-        parser.add_argument(
-            '-s',
-            '--storage',
-            default=DEFAULT_ID,
-            choices=sorted(STORAGES),
-            help="Storage identifier to be used, defaults to '%(default)s'.",
-        )
-        parser.add_argument(
-            '--storage-preset-profile',
-            default='none',
-            choices=sorted({name for each in STORAGES.values() for name in each.presets}),
-            help=f'Select a preset of the storage ({_presets()}).',
-        )
-        parser.add_argument(
             '--use-sim-time',
             action='store_true',
             help='Use simulation time for message timestamps by subscribing to the /clock topic.',
         )
-
+        parser.add_argument(
+            '-p',
+            '--polling-interval',
+            type=arguments.positive_int,
+            default=300,
+            metavar='MS',
+            help='Look for new topics every so many milliseconds (default: %(default)s).',
+        )
         qos_overrides.add_argument(parser)
+        _add_bag(parser)
+        _add_limits(parser)
+        _add_compression(parser)
+        without_effect.add_numbers(
+            parser,
+            '--max-cache-size',
+            '--compression-queue-size',
+            '--compression-threads',
+            '--compression-threads-priority',
+        )
+        without_effect.add_flags(parser, '--disable-keyboard-controls')
 
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
@@ -68,15 +68,16 @@ class RecordVerb(VerbExtension):
         overrides = qos_overrides.read(args.qos_profile_overrides_path)
         if args.use_sim_time and args.no_discovery:
             raise UsageError('--use-sim-time needs /clock to be discovered: not --no-discovery')
-        storage = STORAGES[args.storage]
-        if args.storage_preset_profile not in storage.presets:
-            raise UsageError(
-                f"--storage-preset-profile '{args.storage_preset_profile}' is none of "
-                f'{storage.id}, which has {", ".join(storage.presets)}'
-            )
+        storage = _storage(args)
         folder = args.output or Path(time.strftime('rosbag2_%Y_%m_%d-%H_%M_%S'))
         with (
-            BagWriter(folder, storage, preset=args.storage_preset_profile) as writer,
+            BagWriter(
+                folder,
+                storage,
+                preset=args.storage_preset_profile,
+                limits=Limits(args.max_bag_size, args.max_bag_duration),
+                custom_data=dict(args.custom_data),
+            ) as writer,
             # Interrupted while it is written or closed, a bag would not be whole.
             command_node(args, name='rosbag2_recorder', may_spin_when_interrupted=True) as node,
         ):
@@ -90,13 +91,102 @@ class RecordVerb(VerbExtension):
                 log.info(f'Waiting for {", ".join(missing)}{_hint(missing)}')
             try:
                 while True:
-                    node.spin_until(lambda: False, _POLL_SEC)
+                    node.spin_until(lambda: False, args.polling_interval * 1e-3)
                     writer.flush()
                     if not args.no_discovery:
                         recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
             except KeyboardInterrupt:
                 writer.close()
                 log.info(f"Recording stopped: {writer.message_count} messages in '{folder}'")
+
+
+def _add_bag(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        help='Destination of the bag to create (default: a timestamp)',
+    )
+    parser.add_argument(
+        '-s',
+        '--storage',
+        default=DEFAULT_ID,
+        choices=sorted(STORAGES),
+        help="Storage identifier to be used, defaults to '%(default)s'.",
+    )
+    parser.add_argument(
+        '--storage-preset-profile',
+        default='none',
+        choices=sorted({name for each in STORAGES.values() for name in each.presets}),
+        help=f'Select a preset of the storage ({_presets()}).',
+    )
+    parser.add_argument(
+        '--custom-data',
+        type=_key_and_value,
+        nargs='*',
+        default=[],
+        metavar='KEY=VALUE',
+        help='Kept as custom_data in metadata.yaml.',
+    )
+
+
+def _add_limits(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        '-b',
+        '--max-bag-size',
+        type=arguments.nonnegative_int,
+        default=0,
+        metavar='BYTES',
+        help='Begin a new file after so many bytes; 0 for never, the default.',
+    )
+    parser.add_argument(
+        '-d',
+        '--max-bag-duration',
+        type=arguments.nonnegative_int,
+        default=0,
+        metavar='SECONDS',
+        help='Begin a new file after so many seconds; 0 for never, the default.',
+    )
+
+
+def _add_compression(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        '--compression-mode',
+        choices=('none', 'file', 'message'),
+        default='none',
+        help=f"Refused, unless it is '%(default)s': {_COMPRESS}.",
+    )
+    parser.add_argument('--compression-format', help=f'Refused: {_COMPRESS}.')
+
+
+def _storage(args: argparse.Namespace) -> Storage:
+    """
+    Return the storage that the options choose.
+
+    :raises UsageError: it cannot do what they ask for.
+    """
+    storage = STORAGES[args.storage]
+    if args.storage_preset_profile not in storage.presets:
+        raise UsageError(
+            f"--storage-preset-profile '{args.storage_preset_profile}' is none of {storage.id}, "
+            f'which has {", ".join(storage.presets)}'
+        )
+    if 0 < args.max_bag_size < storage.smallest_file_bytes:
+        raise UsageError(
+            f'--max-bag-size {args.max_bag_size}: it is {storage.smallest_file_bytes} bytes at '
+            f'least for {storage.id}, or 0 for no limit'
+        )
+    if args.compression_mode != 'none' or args.compression_format:
+        option = 'format' if args.compression_mode == 'none' else 'mode'
+        raise UsageError(f'--compression-{option} is not offered here: {_COMPRESS}')
+    return storage
+
+
+def _key_and_value(text: str) -> tuple[str, str]:
+    key, separator, value = text.partition('=')
+    if not (key and separator):
+        raise argparse.ArgumentTypeError(f"'{text}' is no KEY=VALUE")
+    return key, value
 
 
 def _hint(missing: list[str]) -> str:
