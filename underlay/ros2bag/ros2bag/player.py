@@ -31,12 +31,15 @@ def play(
     clock: Any,
 ) -> None:
     first_ns = bag.starting_time.nanoseconds + int(args.start_offset * 1e9)
+    end_ns = _end_ns(args, first_ns)
     start = time.monotonic()
     tick_sec = 1.0 / args.clock if args.clock else None
     next_tick = 0.0
     for topic, data, time_ns in _messages(args, list(publishers)):
         if time_ns < first_ns:
             continue
+        if end_ns is not None and time_ns > end_ns:
+            return
         due = (time_ns - first_ns) * 1e-9 / args.rate
         while (left := due - (time.monotonic() - start)) > 0:
             if tick_sec is not None and time.monotonic() - start >= next_tick:
@@ -47,6 +50,20 @@ def play(
             if left > 0.01:
                 node.spin_once(0.0)
         publishers[topic].publish(data)
+
+
+def _end_ns(args: argparse.Namespace, first_ns: int) -> int | None:
+    """Return the time in the bag after which nothing is played; None for no such time."""
+    ends = []
+    if args.playback_duration > 0.0:
+        ends.append(first_ns + int(args.playback_duration * 1e9))
+    elif args.playback_duration == 0.0:  # as upstream, not even what comes at the start
+        ends.append(-1)
+    if args.playback_until_sec >= 0.0:
+        ends.append(int(args.playback_until_sec * 1e9))
+    if args.playback_until_nsec >= 0:
+        ends.append(args.playback_until_nsec)
+    return max(ends, default=None)
 
 
 def _messages(args: argparse.Namespace, topics: list[str]) -> Iterator[tuple[str, bytes, int]]:

@@ -39,6 +39,7 @@ def _number(
     return parse
 
 
+finite_float = _number(float, 'a number', math.isfinite)
 positive_float = _number(float, 'a number above 0', lambda number: 0 < number < math.inf)
 nonnegative_float = _number(float, 'a number, 0 or more', lambda number: 0 <= number < math.inf)
 positive_int = _number(int, 'a whole number above 0', lambda number: number > 0)

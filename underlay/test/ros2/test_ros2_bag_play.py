@@ -4,30 +4,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 import time
 from typing import Any
 
+from example_interfaces.srv import AddTwoInts
 from playpen_testing.bags import opened_writer, string
 from playpen_testing.processes import find_line
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
 import pytest
+from rclpy.node import Node
+from rclpy.serialization import serialize_message
 from rosbag2_py import TopicMetadata
+from std_msgs.msg import String
 
 STRING = 'std_msgs/msg/String'
+EVENT = 'example_interfaces/srv/AddTwoInts_Event'
+SUMS = '/add_two_ints/_service_event'
 UNKNOWN = 'not_installed_msgs/msg/Strange'
 
 
 @pytest.fixture
 def write_bag(tmp_path: Path) -> Callable[..., Path]:
-    """Return a function that writes 'number N' to each topic in turn, 10 ms apart."""
+    """Return a function that writes 'number N' to each topic in turn, from 0 on 10 ms apart."""
 
     def write(types: dict[str, str], count: int = 6) -> Path:
         writer = opened_writer(tmp_path / 'bag')
         for name, type_name in types.items():
             writer.create_topic(TopicMetadata(0, name, type_name, 'cdr'))
         for number in range(count):
-            writer.write(list(types)[number % len(types)], string(number), number * 10_000_000)
+            name, type_name = list(types.items())[number % len(types)]
+            is_event = type_name == EVENT
+            data = serialize_message(AddTwoInts.Event()) if is_event else string(number)
+            writer.write(name, data, number * 10_000_000)
         writer.close()
         return tmp_path / 'bag'
 
@@ -95,3 +106,95 @@ def test_a_bad_file_of_qualities_is_refused(
     answer = ros2('bag', 'play', str(bag), '--qos-profile-overrides-path', 'qos.yaml')
     assert (answer.status, answer.err.count('\n')) == (2, 1)
     assert "depth: 'many' must be a whole number" in answer.err
+
+
+@pytest.fixture
+def heard(domain: int) -> Iterator[list[str]]:
+    """Return a list that grows by what is heard: numbers on /chatter, the names of others."""
+    found: list[str] = []
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'student')
+        node.create_subscription(String, '/chatter', lambda msg: found.append(msg.data[-1]), 10)
+        node.create_subscription(String, '/other', lambda _: found.append('/other'), 10)
+        node.create_subscription(AddTwoInts.Event, SUMS, lambda _: found.append('sum'), 10)
+        yield found
+
+
+@pytest.mark.parametrize(
+    ('words', 'expected'),
+    [
+        ((), {'0', '/other', 'sum'}),
+        (('--topics', '/other'), {'/other', 'sum'}),
+        (('--topics', '/other', '--exclude-services', '/add_two_ints'), {'/other'}),
+        (('--topics', SUMS), {'sum'}),
+        (('--services', 'add_two_ints', '--exclude-topics', '/chatter'), {'/other', 'sum'}),
+        (('-e', '/(other|chat.*)'), {'0', '/other'}),
+        (('-e', 'other'), set()),
+        (('-e', '/o.*', '--topics', 'chatter'), {'0', '/other'}),
+        (('-x', '.*_event|/chatter'), {'/other'}),
+    ],
+)
+def test_what_is_chosen_is_played(
+    write_bag: Callable[..., Path],
+    heard: list[str],
+    ros2: Callable[..., Any],
+    words: tuple[str, ...],
+    expected: set[str],
+) -> None:
+    bag = write_bag({'/chatter': STRING, '/other': STRING, SUMS: EVENT}, 3)
+    played = ros2('bag', 'play', str(bag), *words)
+    assert played.status == (0 if expected else 1)
+    assert ('No topic of the bag is chosen; it has ' in played.err) == (not expected)
+    wait_until(lambda: set(heard) >= expected, timeout_sec=10.0, what=lambda: f'more than {heard}')
+    assert set(heard) == expected
+
+
+@pytest.mark.parametrize(
+    ('words', 'expected'),
+    [
+        (('--playback-duration', '0.025'), '012'),
+        (('--playback-duration', '0.015', '--start-offset', '0.02'), '23'),
+        (('--playback-duration', '0'), ''),
+        (('--playback-duration', '-1', '--playback-until-sec', '-1'), '012345'),
+        (('--playback-until-sec', '0.03'), '0123'),
+        (('--playback-until-nsec', '39999999', '--playback-duration', '0.01'), '0123'),
+    ],
+)
+def test_play_ends_where_it_should(
+    write_bag: Callable[..., Path],
+    heard: list[str],
+    ros2: Callable[..., Any],
+    words: tuple[str, ...],
+    expected: str,
+) -> None:
+    bag = write_bag({'/chatter': STRING})
+    words = (*words, '--read-ahead-queue-size', '1', '--disable-keyboard-controls')
+    played = ros2('bag', 'play', str(bag), *words)
+    assert (played.status, played.err) == (0, '')
+    wait_until(
+        lambda: len(heard) >= len(expected), timeout_sec=10.0, what=lambda: f'more than {heard}'
+    )
+    assert ''.join(heard) == expected
+
+
+@pytest.mark.parametrize(
+    ('words', 'message'),
+    [
+        (('--topics', '/clock', '--clock'), 'No topic of the bag is chosen; it has /clock'),
+        (('--services', 'x'), "The bag has no topic '/x/_service_event'; it has /clock"),
+        (('-x', '('), "'(' is no regular expression"),
+        (('--playback-duration', 'inf'), "'inf' is refused: it must be a number"),
+        (('--playback-until-sec', '1', '--playback-until-nsec', '1'), 'not allowed with'),
+    ],
+)
+def test_a_bad_choice_is_refused(
+    write_bag: Callable[..., Path],
+    domain: int,
+    ros2: Callable[..., Any],
+    words: tuple[str, ...],
+    message: str,
+) -> None:
+    bag = write_bag({'/clock': 'rosgraph_msgs/msg/Clock'}, 0)
+    answer = ros2('bag', 'play', str(bag), *words)
+    assert answer.status in (1, 2)
+    assert message in answer.err

@@ -11,11 +11,12 @@ from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 import rosbag2_py
-from rosbag2_py import bag_files
+from rosbag2_py import bag_files, selection
+from rosbag2_py.selection import EVENTS
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 
-from ros2bag import player, qos_overrides, without_effect
+from ros2bag import choice, player, qos_overrides, without_effect
 from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
 
@@ -34,13 +35,7 @@ class PlayVerb(VerbExtension):
             default=1.0,
             help='rate at which to play back messages',
         )
-        parser.add_argument(
-            '--topics',
-            nargs='+',
-            default=[],
-            metavar='topic',
-            help='topics to replay (default: all)',
-        )
+        _add_choice(parser)
         arguments.add_flags(parser, {'-l --loop': 'enables loop playback when playing a bagfile'})
         parser.add_argument(
             '--remap', '-m', nargs='+', default=[], help='list of topics to be remapped: old:=new'
@@ -66,13 +61,15 @@ class PlayVerb(VerbExtension):
             default=0.0,
             help='Start the playback player this many seconds into the bag file.',
         )
-        without_effect.add_flags(parser, '--disable-keyboard-controls')
+        _add_end(parser)
+        without_effect.add_numbers(parser, '--read-ahead-queue-size')
+        without_effect.add_flags(parser, '--disable-keyboard-controls', '--disable-loan-message')
         qos_overrides.add_argument(parser)
 
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
         bag = bag_files.describe(args.bag_path, args.storage)
-        chosen = _chosen(bag, args.topics)
+        chosen = _chosen(bag, args)
         remaps = _remaps(args.remap)
         overrides = qos_overrides.read(args.qos_profile_overrides_path)
         with command_node(args, name='rosbag2_player') as node:
@@ -89,14 +86,81 @@ class PlayVerb(VerbExtension):
                     publisher.wait_for_all_acked()
 
 
-def _chosen(bag: rosbag2_py.BagMetadata, wanted: list[str]) -> list[rosbag2_py.TopicMetadata]:
+def _add_choice(parser: argparse.ArgumentParser) -> None:
+    lists = {
+        '--topics': ('topic', 'Topics to play; of services, --services tells which.'),
+        '--services': ('service', 'Services whose events are played.'),
+        '--exclude-topics': ('topic', 'Topics not to play.'),
+        '--exclude-services': ('service', 'Services whose events are not played.'),
+    }
+    for option, (metavar, text) in lists.items():
+        parser.add_argument(option, nargs='+', default=[], metavar=metavar, help=text)
+    choice.add_expression(
+        parser,
+        '-e',
+        '--regex',
+        help='Play what has a name that matches this as a whole.',
+    )
+    choice.add_expression(
+        parser, '-x', '--exclude-regex', help='Leave out what has a name that matches as a whole.'
+    )
+
+
+def _add_end(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        '--playback-duration',
+        type=arguments.finite_float,
+        default=-1.0,
+        metavar='SECONDS',
+        help='End so many seconds of the bag after the start; below 0 for its end, the default. '
+        'With --playback-until-sec or -nsec, the later counts.',
+    )
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument(
+        '--playback-until-sec',
+        type=arguments.finite_float,
+        default=-1.0,
+        metavar='SECONDS',
+        help='End with the last message up to this time, in seconds since 1970; below 0 for the '
+        'end of the bag, the default.',
+    )
+    group.add_argument(
+        '--playback-until-nsec',
+        type=int,
+        default=-1,
+        metavar='NANOSECONDS',
+        help='The same, in nanoseconds.',
+    )
+
+
+def _chosen(
+    bag: rosbag2_py.BagMetadata, args: argparse.Namespace
+) -> list[rosbag2_py.TopicMetadata]:
     topics = [each.topic_metadata for each in bag.topics_with_message_count]
     # A program may have written them without the slash, as the tutorial's does.
     known = {names.expand(topic.name): topic for topic in topics}
-    for name in map(names.expand, wanted):
+    wanted = [names.expand(name) for name in args.topics]
+    events = [*choice.event_topics(args.services), *(n for n in wanted if n.endswith(EVENTS))]
+    for name in (*wanted, *events):
         if name not in known:
             raise CommandError(f"The bag has no topic '{name}'; it has {', '.join(known)}")
-    return [known[names.expand(name)] for name in wanted] if wanted else list(known.values())
+    passes = selection.wanted(
+        rosbag2_py.StorageFilter(
+            topics=wanted,
+            services_events=events,
+            regex=args.regex,
+            exclude_topics=[
+                *map(names.expand, args.exclude_topics),
+                *(['/clock'] if args.clock else []),
+            ],
+            exclude_service_events=choice.event_topics(args.exclude_services),
+            regex_to_exclude=args.exclude_regex,
+        )
+    )
+    chosen = [topic for name, topic in known.items() if passes(name)]
+    if known and not chosen:
+        raise CommandError(f'No topic of the bag is chosen; it has {", ".join(known)}')
+    return chosen
 
 
 def _remaps(rules: list[str]) -> dict[str, str]:
