@@ -36,7 +36,6 @@ BY_PACKAGE = {
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
-    'xacro': '`xacro FILE` is a command of its own',
     'joint_state_publisher_gui': _JOINTS,
     **dict.fromkeys(
         ('turtle_tf2_py', 'turtle_tf2_cpp'),

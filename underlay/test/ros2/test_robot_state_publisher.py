@@ -194,8 +194,9 @@ def test_a_rate_is_kept_by_the_stamps_until_time_goes_back(domain: int) -> None:
         until_published(10.0, 10.5, 1.0)
 
 
+@pytest.mark.parametrize('command', ['xacro', 'ros2 run xacro xacro'])
 def test_a_launch_file_starts_it_and_ctrl_c_ends_it(
-    domain: int, processes: Any, tmp_path: Path
+    domain: int, processes: Any, tmp_path: Path, command: str
 ) -> None:
     macros = "<robot xmlns:xacro='http://www.ros.org/wiki/xacro' name='arm'>"
     height = "<xacro:property name='height' value='2'/>"
@@ -204,8 +205,8 @@ def test_a_launch_file_starts_it_and_ctrl_c_ends_it(
     launch = tmp_path / 'arm.launch.xml'
     launch.write_text(
         '<launch><node pkg="robot_state_publisher" exec="robot_state_publisher">'
-        f'<param name="robot_description" value="$(command \'xacro {tmp_path}/arm.urdf.xacro\')" '
-        'type="str"/></node></launch>'
+        '<param name="robot_description" type="str" '
+        f'value="$(command \'{command} {tmp_path}/arm.urdf.xacro\')"/></node></launch>'
     )
     process = processes.ros2('launch', str(launch), ready='Robot initialized')
     process.send_signal(signal.SIGINT)

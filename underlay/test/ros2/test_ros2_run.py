@@ -43,6 +43,16 @@ def test_a_prefix_goes_before_the_program(
     assert answer.out == f'a b {prefix}/lib/demo/show c\n'
 
 
+def test_xacro_is_a_package_with_a_program(ros2: Callable[..., Any], tmp_path: Path) -> None:
+    macros = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
+    file = tmp_path / 'arm.xacro'
+    file.write_text(f"<robot {macros}><link name='${{1 + 1}}$(arg side)'/></robot>")
+    answer = ros2('run', 'xacro', 'xacro', str(file), 'side:=left')
+    assert (answer.status, answer.err) == (0, '')
+    assert '<link name="2left"/>' in answer.out
+    assert ros2('pkg', 'prefix', 'xacro').lines == [sys.prefix]
+
+
 _COUNTS = f"""#!{sys.executable}
 import signal, sys, time
 got = []
