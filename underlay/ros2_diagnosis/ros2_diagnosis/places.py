@@ -10,7 +10,7 @@ import os
 from pathlib import Path
 import socket
 
-from rtps_graph import host
+from rtps_graph import graph, host, names
 from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant
 from rtps_graph.settings import Settings
@@ -19,18 +19,19 @@ from ros2_diagnosis.finding import Finding
 
 _LAST_DOMAIN = 101  # Beyond it lie the ports that Linux gives to anybody.
 _LISTEN_SEC = 0.6
+_DAEMON = f'{names.COMMAND_NODE}daemon_'
 _LOOPBACK = '127.0.0.1'
 
 
 def check_domains(settings: Settings, *, here: int) -> Iterator[Finding]:
-    """Find ROS processes of this machine in other domains.
+    """Find ROS processes of this user on this machine in other domains.
 
     :param here: how many there are in this one; where there are some, the others are only noted.
     """
     others = {
         domain_id: number
-        for domain_id, number in domains().items()
-        if domain_id != settings.domain_id and _has_participants(domain_id)
+        for domain_id, ports in _own_ports().items()
+        if domain_id != settings.domain_id and (number := _count(domain_id, ports))
     }
     if others:
         total = sum(others.values())
@@ -45,21 +46,25 @@ def check_domains(settings: Settings, *, here: int) -> Iterator[Finding]:
         )
 
 
-def domains() -> dict[int, int]:
-    """Count this user's participants on this machine by domain, as far as their ports tell."""
+def _own_ports() -> dict[int, set[int]]:
+    """Return the discovery ports that may be of this user's participants, by their domains."""
     bound = host.bound_udp_ports(own=True) or set()
     found = {}
     for domain_id in range(_LAST_DOMAIN + 1):
-        number = sum({port, port + 1} <= bound for port in host.discovery_ports(domain_id))
-        if number:
-            found[domain_id] = number
+        if ports := host.participant_ports(domain_id, bound):
+            found[domain_id] = ports
     return found
 
 
-def _has_participants(domain_id: int) -> bool:
+def _count(domain_id: int, ports: set[int]) -> int:
+    """Count the participants at some ports that hold a node, but for daemons of `ros2`."""
     with Observer(domain_id=domain_id) as observer:
-        observer.observe(timeout_sec=0.3)
-        return bool(observer.participants)
+        observer.observe(timeout_sec=_LISTEN_SEC)
+        return sum(
+            any(not node.name.startswith(_DAEMON) for node in graph.build([participant]).nodes)
+            for participant in observer.participants.values()
+            if participant.discovery_port in ports
+        )
 
 
 def check_range(settings: Settings) -> Iterator[Finding]:

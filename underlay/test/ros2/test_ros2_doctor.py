@@ -146,6 +146,14 @@ def test_a_discovery_server_is_noted(
     assert 'ROS_DISCOVERY_SERVER=127.0.0.1:11899: nodes of' in _line(ros2('doctor'), 'environment')
 
 
+def _told_of_domains(ros2: Callable[..., Any]) -> str:
+    return ' '.join(line for line in ros2('doctor').lines if ' (domain): ' in line)
+
+
+def _named_in(told: str) -> list[str]:
+    return told.partition('in domain ')[2].partition(' on this')[0].split(', ')
+
+
 def test_nodes_in_another_domain(
     processes: Any, ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -154,16 +162,29 @@ def test_nodes_in_another_domain(
         monkeypatch.setenv('ROS_DOMAIN_ID', str(here.number))
         told: list[str] = []
 
-        def is_told() -> bool:  # one that has no processor for 0.3 s is not heard
-            told.append(' '.join(line for line in ros2('doctor').lines if ' (domain): ' in line))
-            named = told[-1].partition('in domain ')[2].partition(' on this')[0]
-            return str(domain) in named.split(', ')
+        def is_told() -> bool:  # one that has no processor for 0.6 s is not heard
+            told.append(_told_of_domains(ros2))
+            return str(domain) in _named_in(told[-1])
 
         wait_until(is_told, timeout_sec=40.0, what=lambda: f'domain {domain}: {told}')
         assert 'export ROS_DOMAIN_ID=' in told[-1]
         hint = ros2('node', 'list')
     assert hint.out == ''
     assert hint.err.startswith('hint: domain ')
+
+
+def test_a_daemon_in_another_domain_is_no_ros_process(
+    ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert ros2('daemon', 'start').status == 0
+    try:
+        with OwnDomain() as here, monkeypatch.context() as elsewhere:
+            elsewhere.setenv('ROS_DOMAIN_ID', str(here.number))
+            # One that has no processor for 0.6 s would not be heard either way.
+            told = [_told_of_domains(ros2) for _ in range(3)]
+    finally:
+        ros2('daemon', 'stop')
+    assert str(domain) not in {name for each in told for name in _named_in(each)}
 
 
 def test_a_workspace_not_built_not_sourced_or_out_of_date(
