@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The sandboxes that work on this machine, for tests that run in each of them."""
 
+from collections.abc import Sequence
 from functools import cache
+import os
 
 from husky_grader.jail import find_sandbox, NoSandbox, Sandbox, SANDBOXES
+import psutil
 import pytest
 
 
@@ -35,3 +38,20 @@ in_each_sandbox = _each(*_WITH_NETWORKS, 'user')
 in_each_way_with_processes = _each(*_WITH_NETWORKS, 'none')
 in_each_with_network = _each(*_WITH_NETWORKS)
 in_each_of_namespaces = _each(*_OF_NAMESPACES)
+
+
+def as_ordinary_user(command: Sequence[str]) -> list[str]:
+    """Return the command that runs another one without the rights of root."""
+    # Root loses them in a namespace where it has another number.
+    ordinary = ['unshare', '--map-user=1000', '--map-group=1000'] if os.geteuid() == 0 else []
+    return [*ordinary, *command]
+
+
+def running(mark: str) -> list[str]:
+    """Return the programs that were started with a mark as their last word."""
+    found = []
+    for process in psutil.process_iter(['cmdline']):
+        words = process.info['cmdline']
+        if words and words[-1] == mark and psutil.pid_exists(process.pid):
+            found.append(' '.join(words))
+    return found

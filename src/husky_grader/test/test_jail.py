@@ -14,14 +14,15 @@ import time
 
 from husky_grader.jail import find_sandbox, Jail, Limits, NoSandbox, Sandbox
 from playpen_testing.jails import (
+    as_ordinary_user,
     in_each_of_namespaces,
     in_each_sandbox,
     in_each_way,
     in_each_way_with_processes,
     in_each_with_network,
+    running,
 )
 from playpen_testing.waiting import wait_until
-import psutil
 import pytest
 
 # Each program is followed by its mark, by which it is found from outside.
@@ -100,16 +101,6 @@ def mark(tmp_path: Path) -> Iterator[str]:
     """Return a word to start programs with; at last none of those may be there."""
     yield str(tmp_path)
     assert running(str(tmp_path)) == []
-
-
-def running(mark: str) -> list[str]:
-    """Return the programs that were started with a mark as their last word."""
-    found = []
-    for process in psutil.process_iter(['cmdline']):
-        words = process.info['cmdline']
-        if words and words[-1] == mark and psutil.pid_exists(process.pid):
-            found.append(' '.join(words))
-    return found
 
 
 @contextmanager
@@ -304,9 +295,7 @@ def test_nothing_outlives_a_grader_that_ends(
 def test_an_ordinary_user_has_a_jail_too(sandbox: Sandbox, tmp_path: Path) -> None:
     folder, log = tmp_path / 'folder', tmp_path / 'log'
     folder.mkdir()
-    # Root loses its rights in a namespace where it has another number.
-    ordinary = ['unshare', '--map-user=1000', '--map-group=1000'] if os.geteuid() == 0 else []
-    command = [*ordinary, *python(ORDINARY, sandbox.name, str(folder), str(log))]
+    command = as_ordinary_user(python(ORDINARY, sandbox.name, str(folder), str(log)))
     done = subprocess.run(command, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, '')
     user, rights, *rest = log.read_text().splitlines()

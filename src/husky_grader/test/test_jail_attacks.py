@@ -20,6 +20,7 @@ PROGRAM = Path(__file__).with_name('jail_attacks.py')
 SUCCEEDING = (
     *('reads_secrets', 'lists_folders_of_others', 'writes'),
     *('reads_environments', 'sees_processes', 'enters_the_root_of_others', 'signals_the_grader'),
+    'opens_files_of_who_watches',
     *('connects_by_tcp', 'connects_to_an_abstract_socket', 'has_rights'),
 )
 # Some do only as root, or on some computers.

@@ -9,7 +9,8 @@ import sys
 from playpen_testing.container import in_container
 import pytest
 
-FILES = [Path(__file__).with_name(f'test_jail{name}.py') for name in ('', '_attacks', '_graph')]
+SUBJECTS = ('', '_attacks', '_graph', '_watch')
+FILES = [Path(__file__).with_name(f'test_jail{subject}.py') for subject in SUBJECTS]
 FIND = 'from husky_grader.jail import find_sandbox; print(find_sandbox().name)'
 
 

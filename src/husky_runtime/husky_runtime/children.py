@@ -46,6 +46,7 @@ class ChildProcess:
     :param log: takes what it prints; None: what this process prints goes there too.
     :param answers: what it reads from its standard input.
     :param parent_death: the signal that it gets when its parent, the thread that starts it, ends.
+    :param inherited: numbers of open files that it gets besides, as they are here.
     """
 
     def __init__(
@@ -56,6 +57,7 @@ class ChildProcess:
         answers: str = '',
         *,
         parent_death: int = signal.SIGTERM,
+        inherited: Sequence[int] = (),
     ) -> None:
         """
         Start it.
@@ -72,6 +74,7 @@ class ChildProcess:
             start_new_session=True,
             text=True,
             preexec_fn=partial(die_with_parent, parent_death),
+            pass_fds=inherited,
         )
         self._end = _watched_end(self, self._child.pid)
         if self._child.stdin is not None:

@@ -10,7 +10,7 @@ waits for the end of this process removes them.
 
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import os
 import shutil
 import subprocess
@@ -60,7 +60,8 @@ class _Cell:
         words += ['--network', same, *_in_users(self.program, same), '--user', owner]
         words += [*_volumes(call.mounts), _IMAGE]
         # Who else runs with the same number counts too, where there is no namespace of users.
-        last = inside(call, user=None, counts_tasks=False)
+        # Nor does an open file get into it: what removes it ends with the grader.
+        last = inside(replace(call, lifeline=None), user=None, counts_tasks=False)
         return Entry([*words, *last], os.environ, _First(self.program, name))
 
     def beside(self, command: Sequence[str]) -> list[str]:

@@ -3,9 +3,10 @@
 """
 Run a command as a user that nobody else is, and end all processes of that user with it.
 
-A program, `python -I -S -W ignore guard.py USER COMMAND...`, that imports nothing of ours: it has
-to start quickly. It does what a process namespace does where there is none. The command takes the
-user's number by itself; the guard stays root, whom that user cannot signal.
+A program, `python -I -S -W ignore guard.py USER LIFELINE COMMAND...`, that imports nothing of
+ours: it has to start quickly. It does what a process namespace does where there is none. LIFELINE
+is a pipe that ends with the grader, for inside.py too. The command takes the user's number by
+itself; the guard stays root, whom that user cannot signal.
 """
 
 import _thread
@@ -31,10 +32,10 @@ def _start(command: list[str]) -> int:
     return child
 
 
-def _kill_without_reader(child: int) -> None:
-    output = select.poll()
-    output.register(1, 0)  # reports POLLERR, unasked, when nobody can read any more
-    output.poll()
+def _kill_without_grader(child: int, lifeline: int) -> None:
+    end = select.poll()
+    end.register(lifeline, 0)  # reports POLLHUP, unasked, when nobody can write any more
+    end.poll()
     os.kill(child, _SIGKILL)
 
 
@@ -58,20 +59,20 @@ def _end_all(user: int) -> None:
             os.wait()
 
 
-def main(user: int, command: list[str]) -> int:
-    """Run the command to its end, or until nobody reads its output; return its exit code."""
+def main(user: int, lifeline: int, command: list[str]) -> int:
+    """Run the command to its end, or to that of the grader; return its exit code."""
     # Not with the grader: then nobody would end the others.
     _LIBC.prctl(_PR_SET_PDEATHSIG, 0, 0, 0, 0)
     _LIBC.prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     for number in (_SIGINT, _SIGTERM):  # these are for the command
         _LIBC.signal(number, _SIG_IGN)
     child = _start(command)
-    _thread.start_new_thread(_kill_without_reader, (child,))
+    _thread.start_new_thread(_kill_without_grader, (child, lifeline))
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     _end_all(user)
     return code if code >= 0 else 128 - code
 
 
 if __name__ == '__main__':
-    exit_code = main(int(sys.argv[1]), sys.argv[2:])
+    exit_code = main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3:])
     os._exit(exit_code)  # without the time that Python takes to tidy up

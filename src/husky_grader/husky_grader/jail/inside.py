@@ -6,7 +6,11 @@ The last step into a jail: folders, limits, rights; then the command.
 A program, `python -I -S inside.py PLAN`, that imports nothing of ours: it has to start quickly,
 and what it runs with must not come from anybody else. It stays as the parent of the command, in
 most jails as the init of their process namespace, which ends with it. It ends when the command
-does, or when nobody reads its output any more: the grader has been killed.
+does, or when the grader does: then nobody can write any more to the pipe of which it has the
+reading end, its lifeline. The output would not tell. The command can open that once more, and
+would be a reader of its own; who is not root may open a pipe of the same user by /proc/self/fd.
+The lifeline is closed before the command starts, and /proc shows no open files of this process to
+it: see _drop_rights.
 """
 
 import _thread
@@ -20,6 +24,7 @@ import sys
 
 # Exit codes as those of env(1).
 _NO_JAIL, _NO_COMMAND = 125, 127
+_OUTPUT = 1
 
 _LIBC = ctypes.CDLL(None, use_errno=True)
 
@@ -125,7 +130,8 @@ def _drop_rights(user: int | None) -> None:
     _checked(_LIBC.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 'no_new_privs')
     header, none = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION, 0), (ctypes.c_uint32 * 6)()
     _checked(_LIBC.capset(header, none), 'capset')
-    # The command has the same user: it must not trace, and so stop, this process.
+    # The command has the same user: it must neither trace, and so stop, this process, nor open its
+    # files by /proc/1/fd.
     _checked(_LIBC.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0), 'dumpable')
 
 
@@ -200,16 +206,16 @@ def _why(error: OSError, program: str, environment: dict[str, str]) -> str:
     return os.strerror(errno.ENOENT)
 
 
-def _end_without_reader() -> None:
-    output = select.poll()
-    output.register(1, 0)  # reports POLLERR, unasked, when nobody can read any more
-    output.poll()
+def _end_with_grader(lifeline: int) -> None:
+    end = select.poll()
+    end.register(lifeline, 0)  # reports POLLHUP or POLLERR, unasked, when nobody has the other end
+    end.poll()
     os._exit(_NO_JAIL)
 
 
-def _await(command: int) -> int:
+def _await(command: int, lifeline: int) -> int:
     """Wait for the command's end and return its exit code."""
-    _thread.start_new_thread(_end_without_reader, ())
+    _thread.start_new_thread(_end_with_grader, (lifeline,))
     while True:
         ended, status = os.wait()  # an init gets the orphans of the others too
         if ended == command:
@@ -230,6 +236,7 @@ def main(
     needs_landlock: bool,
     limits: list[tuple[int, int]],
     user: int | None,
+    lifeline: int | None,
     folder: str,
     environment: dict[str, str],
     command: list[str],
@@ -242,10 +249,15 @@ def main(
     :param writable: and what it lets it write to.
     :param limits: numbers of setrlimit(2) and values.
     :param user: whose number to take; None: it stays.
+    :param lifeline: the number of the pipe that ends with the grader; None: it is the output.
     :returns: the exit code.
     """
     for number in (_SIGINT, _SIGTERM):  # these are for the command
         _LIBC.signal(number, _SIG_IGN)
+    if lifeline is None:
+        lifeline = _OUTPUT
+    else:
+        os.set_inheritable(lifeline, False)
     try:
         if mounts:
             if init := os.fork():  # the first process of the new process namespace
@@ -260,7 +272,7 @@ def main(
     except (OSError, ValueError) as error:
         print(f'the jail cannot be made: {error}', file=sys.stderr, flush=True)
         return _NO_JAIL
-    return _await(_start(command, environment))
+    return _await(_start(command, environment), lifeline)
 
 
 if __name__ == '__main__':

@@ -65,15 +65,18 @@ class _Bwrap(_Cell):
             else:
                 # By itself it makes the folders above so that only root can pass.
                 words += ['--dir', str(Path(target).parent), _BWRAP_KINDS[kind], source, target]
-        words += ['--remount-ro', '/', '--', *inside(call, user=self.user)]
-        return Entry([*joining(self.holder), *words], CLEAN, first_child)
+        last = inside(call, user=self.user)
+        words += ['--remount-ro', '/', '--', *last]
+        enter = [*joining(self.holder), *words]
+        return Entry(enter, CLEAN, first_child, takes_lifeline=True)
 
 
 class _Kernel(_Cell):
     def enter(self, call: Call) -> Entry:
         words = ['unshare', '--pid', '--ipc', '--mount', *_own_user(self.is_root)]
         last = inside(call, user=self.user, mounts=call.mounts, needs_landlock=True)
-        return Entry([*joining(self.holder), *words, '--', *last], CLEAN, first_child)
+        enter = [*joining(self.holder), *words, '--', *last]
+        return Entry(enter, CLEAN, first_child, takes_lifeline=True)
 
 
 def _own_user(is_root: bool) -> list[str]:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import replace
 import os
 from pathlib import Path
 import select
@@ -41,19 +42,25 @@ class JailedProcess:
 
         :raises OSError: if the log cannot be written.
         """
-        self._entry, self._usage = cell.enter(call), Usage(call.folder, call.limits)
+        self._usage = Usage(call.folder, call.limits)
         self.stopped = ''  # in words, which limit ended it
         with contextlib.ExitStack() as opened:
             self._log = opened.enter_context(Log(log, int(call.limits.log_mb * MB)))
             reader, writer = os.pipe()
+            # What select has seen may be gone: a program can open its output, and read it too.
+            os.set_blocking(reader, False)
             self._printed = opened.enter_context(os.fdopen(reader, 'rb', buffering=0))
-            with os.fdopen(writer, 'w') as output:
+            reader, held = os.pipe()
+            opened.callback(os.close, held)
+            with os.fdopen(writer, 'w') as output, os.fdopen(reader, 'rb') as lifeline:
+                self._entry = cell.enter(replace(call, lifeline=lifeline.fileno()))
                 self._child = ChildProcess(
                     self._entry.command,
                     self._entry.environment,
                     output,
                     answers,
                     parent_death=signal.SIGKILL,
+                    inherited=[lifeline.fileno()] if self._entry.takes_lifeline else [],
                 )
             self._opened = opened.pop_all()
         self._watch = threading.Thread(target=self._keep_watch, daemon=True)
@@ -144,8 +151,9 @@ class JailedProcess:
                 wait_sec = 0.0 if has_ended else PROCESSES_SEC
                 if is_open and select.select([self._printed], [], [], wait_sec)[0]:
                     text = self._printed.read(_CHUNK_BYTES)
-                    self._log.add(text)
-                    is_open = bool(text)
+                    if text is not None:  # else the program itself was faster
+                        self._log.add(text)
+                        is_open = bool(text)
                 elif has_ended:
                     break
                 elif not is_open:

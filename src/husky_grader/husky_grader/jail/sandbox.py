@@ -46,6 +46,8 @@ class Call:
     folder: Path  # where it starts
     mounts: Sequence[Mount]
     limits: Limits
+    # The number of a pipe's reading end: when nobody can write to it any more, all has to end.
+    lifeline: int | None = None
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,7 @@ class Entry:
     # Returns the process whose end ends all that was started; None until it is there. Where there
     # is no such function, there will be no such process.
     first: Callable[[ChildProcess], psutil.Process | None] | None = None
+    takes_lifeline: bool = False  # whether the command gets the lifeline of the call
 
 
 def first_child(child: ChildProcess) -> psutil.Process | None:
@@ -132,6 +135,7 @@ def inside(
         'needs_landlock': needs_landlock,
         'limits': call.limits.for_each_process(counts_tasks=counts_tasks),
         'user': user,
+        'lifeline': call.lifeline,
         'folder': str(call.folder),
         'environment': dict(call.environment),
         'command': list(call.command),

@@ -74,8 +74,9 @@ class _Cell:
         )
         last = inside(own, user=self.user, readable=[*readable, *_ALWAYS_READ])
         # From Python 3.12 on os.fork warns where there is a thread, into the command's output.
-        words = [str(PYTHON), '-I', '-S', '-W', 'ignore', str(_GUARD), str(self.user), *last]
-        return Entry(words, CLEAN, first_child)
+        words = [str(PYTHON), '-I', '-S', '-W', 'ignore', str(_GUARD)]
+        words += [str(self.user), str(call.lifeline), *last]
+        return Entry(words, CLEAN, first_child, takes_lifeline=True)
 
     def beside(self, command: Sequence[str]) -> list[str]:
         return list(command)
