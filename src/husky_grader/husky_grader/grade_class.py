@@ -76,7 +76,11 @@ def grade_files(options: argparse.Namespace) -> int:
     ]
     jobs = parse_shard(options.shard or '1/1').of(every)
     outcomes, unsealed = _done(
-        jobs, folder, options, lambda job, outcome: f'{job.name} {job.grade(outcome).score:.1f}'
+        jobs,
+        folder,
+        options,
+        lambda job, outcome: f'{job.name} {job.grade(outcome).score:.1f}',
+        at_a_time=options.jobs,
     )
     grades = [job.grade(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
     if options.json:
@@ -231,7 +235,11 @@ def _grade_labs(
     every = [LabJob(each, each.id, rubric, name, options.real_time_factor) for each in submissions]
     jobs = parse_shard(options.shard or '1/1').of(every)
     outcomes, unsealed = _done(
-        jobs, folder, options, lambda job, outcome: job.graded(outcome).said()
+        jobs,
+        folder,
+        options,
+        lambda job, outcome: job.graded(outcome).said(),
+        at_a_time=_at_a_time(sandbox, options),
     )
     graded = [job.graded(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
     if options.json:
@@ -255,16 +263,32 @@ def _grade_labs(
     return PASSED if all(each.is_full for each in graded) else NOT_PASSED
 
 
+def _at_a_time(sandbox: Sandbox | None, options: argparse.Namespace) -> int:
+    """Return how many submissions to grade at a time; 0: as many as there are cores."""
+    if sandbox is None or not sandbox.one_at_a_time:
+        jobs: int = options.jobs
+        return jobs
+    if options.jobs > 1:
+        _tell(
+            f'--jobs {options.jobs}: one is graded at a time, because the sandbox {sandbox.name} '
+            'lets programs reach those of other submissions'
+        )
+    return 1
+
+
 def _done(
     jobs: Sequence[AJob],
     folder: Path,
     options: argparse.Namespace,
     said: Callable[[AJob, Outcome], str],
+    *,
+    at_a_time: int,
 ) -> tuple[list[Outcome], str]:
     """
     Do jobs, and count them on the terminal; return their outcomes, and why one was not sealed.
 
     :param said: what the terminal tells of an outcome.
+    :param at_a_time: how many here; 0: as many as there are cores.
     """
     from husky_grader.batch.batch import Batch, How
 
@@ -272,7 +296,7 @@ def _done(
     batch = Batch(
         jobs,
         folder,
-        how=How(options.executor, options.jobs, tuple(map(Path, options.collect))),
+        how=How(options.executor, at_a_time, tuple(map(Path, options.collect))),
         done=lambda number, outcome: tally.add(
             said(jobs[number], outcome), is_new=not outcome.remembered
         ),

@@ -8,7 +8,7 @@ from pathlib import Path
 import shutil
 
 from husky_grader.graded import Graded, LAB_FILE
-from husky_grader.jail import Sandbox
+from husky_grader.jail import own_turn, Sandbox
 from husky_grader.lab.drive_step import FOR_STAFF
 from husky_grader.lab.lab import grade_lab, grade_path
 from husky_grader.report.folder import drives_in
@@ -60,14 +60,15 @@ def grade_submission(
                 done(step)
                 alive()
 
-            steps = grade_lab(
-                given.path,
-                rubric,
-                folder,
-                sandbox=sandbox,
-                real_time_factor=real_time_factor,
-                done=did,
-            )
+            with own_turn(sandbox):
+                steps = grade_lab(
+                    given.path,
+                    rubric,
+                    folder,
+                    sandbox=sandbox,
+                    real_time_factor=real_time_factor,
+                    done=did,
+                )
     except ValueError as error:  # it must not stop the others
         return replace(graded, refused=f'{submission.place}: cannot be graded: {error}')
     return replace(graded, steps=steps)

@@ -14,6 +14,7 @@ from husky_grader.jail.limits import Limits
 from husky_grader.jail.process import JailedProcess
 from husky_grader.jail.removal import remove
 from husky_grader.jail.sandbox import NoSandbox, Sandbox
+from husky_grader.jail.turn import own_turn
 
 __all__ = [
     'SANDBOXES',
@@ -23,5 +24,6 @@ __all__ = [
     'NoSandbox',
     'Sandbox',
     'find_sandbox',
+    'own_turn',
     'remove',
 ]

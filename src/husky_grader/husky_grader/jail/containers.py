@@ -87,6 +87,7 @@ class _First:
 @dataclass(frozen=True)
 class _Containers:
     name: str
+    one_at_a_time = False
 
     @contextmanager
     def open(self) -> Iterator[Cell]:

@@ -88,6 +88,7 @@ class _Namespaces:
     name: str
     programs: tuple[str, ...]
     cell: type[_Bwrap | _Kernel]
+    one_at_a_time = False
 
     @contextmanager
     def open(self) -> Iterator[Cell]:

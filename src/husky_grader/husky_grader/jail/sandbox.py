@@ -97,6 +97,10 @@ class Sandbox(Protocol):
     @property
     def name(self) -> str: ...
 
+    @property
+    def one_at_a_time(self) -> bool:
+        """Tell whether two submissions must not run at once: their programs can meet."""
+
     def open(self) -> AbstractContextManager[Cell]:
         """
         Open a network that is the jail's own.
@@ -148,6 +152,7 @@ class Nothing:
     """No sandbox: a DDS domain of its own, and no process that outlives the jail."""
 
     name = 'none'
+    one_at_a_time = False  # there they can do anything to each other, at any time
 
     @contextmanager
     def open(self) -> Iterator[Cell]:

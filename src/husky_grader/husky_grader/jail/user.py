@@ -98,6 +98,7 @@ class _Cell:
 
 class _User:
     name = 'user'
+    one_at_a_time = True  # a program may enter any DDS domain of the machine
 
     @contextmanager
     def open(self) -> Iterator[Cell]:
