@@ -33,6 +33,20 @@ OTHERS = (
 # the names alone.
 NOT_APART = {'user': {'sees_processes', 'connects_by_tcp', 'uses_services_of_the_system'}}
 
+# What outlives processes; see sysvipc(7).
+KEEPS = """
+import ctypes, sys
+libc = ctypes.CDLL(None)
+key, flags = int(sys.argv[1]), int(sys.argv[2])
+found = {
+    'shm': libc.shmget(key, 4096, flags),
+    'sem': libc.semget(key, 1, flags),
+    'msg': libc.msgget(key, flags),
+}
+print(*(name for name, number in found.items() if number >= 0))
+"""
+CREATE = 0o1666  # IPC_CREAT, for everybody
+
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
@@ -133,3 +147,17 @@ def test_nothing_is_written_beside_the_folder(sandbox: Sandbox, folder: Path) ->
     assert sorted(path.name for path in folder.rglob('*')) == ['here', 'home', 'own']
     assert not Path('/tmp/own').exists()
     assert not Path('/dev/shm/own').exists()
+
+
+@in_each_sandbox
+def test_a_jail_finds_nothing_that_another_has_left_in_the_kernel(
+    sandbox: Sandbox, tmp_path: Path
+) -> None:
+    said = []
+    for flags in (CREATE, 0):
+        (folder := tmp_path / str(flags)).mkdir()
+        with Jail(sandbox, folder) as jail:
+            command = [sys.executable, '-c', KEEPS, str(os.getpid()), str(flags)]
+            jail.run(command, log=tmp_path / 'log', within_sec=10.0)
+        said.append((tmp_path / 'log').read_text())
+    assert said == ['shm sem msg\n', '\n']

@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Run a command as a user that nobody else is, and end all processes of that user with it.
+Run a command as a user that nobody else is, and end with it all that this user has made.
 
 A program, `python -I -S -W ignore guard.py USER LIFELINE COMMAND...`, that imports nothing of
 ours: it has to start quickly. It does what a process namespace does where there is none. LIFELINE
@@ -10,6 +10,7 @@ itself; the guard stays root, whom that user cannot signal.
 """
 
 import _thread
+from collections.abc import Callable
 import contextlib
 import ctypes
 import os
@@ -20,7 +21,8 @@ _LIBC = ctypes.CDLL(None)
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # <linux/prctl.h>
 _SIGINT, _SIGKILL, _SIGTERM = 2, 9, 15  # <signal.h>; to import signal takes long
 _SIG_IGN = ctypes.c_void_p(1)
-_KILLER = 1 << 20  # from a jail's user to the one that ends its processes, which it cannot signal
+_UNSEEN = 1 << 20  # from a jail's user to the one that acts for it, which it cannot signal
+_IPC_RMID = 0  # <linux/ipc.h>
 
 
 def _start(command: list[str]) -> int:
@@ -46,14 +48,51 @@ def _end_all(user: int) -> None:
     The kernel does it in one go (kill(2) to -1), which no fork escapes: a signal to one after the
     other would never come to an end with programs that multiply.
     """
-    killer = os.fork()
-    if killer == 0:
-        os.setgroups([])
-        nobody = user + _KILLER
-        os.setresuid(nobody, user, nobody)
+
+    def kill() -> None:
         with contextlib.suppress(OSError):  # there are none
             os.kill(-1, _SIGKILL)
-        os._exit(0)
+
+    _act_as(user, kill)
+
+
+def _remove_ipc(user: int) -> None:
+    """
+    Remove what a user has left of System V's shared memory, semaphores and message queues.
+
+    See sysvipc(7). It has to be done as that user: root in a container may not.
+    """
+    removals = {
+        'shm': lambda number: _LIBC.shmctl(number, _IPC_RMID, None),
+        'sem': lambda number: _LIBC.semctl(number, 0, _IPC_RMID),
+        'msg': lambda number: _LIBC.msgctl(number, _IPC_RMID, None),
+    }
+
+    def remove() -> None:
+        for kind, removal in removals.items():
+            with (
+                contextlib.suppress(FileNotFoundError),  # a kernel without them
+                open(f'/proc/sysvipc/{kind}') as table,  # noqa: PTH123  # its import takes long
+            ):
+                names, *rows = [line.split() for line in table]
+                for row in rows:
+                    entry = dict(zip(names, row, strict=True))
+                    if str(user) in (entry['uid'], entry['cuid']):
+                        removal(int(row[1]))
+
+    _act_as(user, remove)
+
+
+def _act_as(user: int, act: Callable[[], None]) -> None:
+    """Do something as a user whose processes cannot signal who does it; wait for all children."""
+    if os.fork() == 0:
+        os.setgroups([])
+        unseen = user + _UNSEEN
+        os.setresuid(unseen, user, unseen)
+        try:
+            act()
+        finally:
+            os._exit(0)
     with contextlib.suppress(ChildProcessError):
         while True:
             os.wait()
@@ -70,6 +109,7 @@ def main(user: int, lifeline: int, command: list[str]) -> int:
     _thread.start_new_thread(_kill_without_grader, (child, lifeline))
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     _end_all(user)
+    _remove_ipc(user)
     return code if code >= 0 else 128 - code
 
 

@@ -7,7 +7,7 @@ Commands run as a user that nobody is, so that they can neither signal, trace no
 belongs to others. Landlock, where the kernel has it, narrows what they read and write to what
 other sandboxes show. The network and the list of processes are the machine's; nodes keep to the
 loopback interface and a DDS domain of their own. All commands of a jail are one user, so that the
-end of one ends the others too.
+end of one ends the others too, and removes what that user has in the kernel's System V IPC.
 """
 
 from collections.abc import Iterator, Sequence
