@@ -28,6 +28,22 @@ def _pids(output: str) -> list[int]:
     return [int(pid) for pid in re.findall(r'process started with pid \[(\d+)\]', output)]
 
 
+def test_a_command_is_told_with_its_folder(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    launched = run_launch(
+        python_launch_file(
+            "ExecuteProcess(cmd=['echo', 'a'], log_cmd=True, name='one'),"
+            "ExecuteProcess(cmd=['echo', 'b'], log_cmd=True, name='two', cwd='/'),"
+        )
+    )
+    told = sorted(line for line in launched.lines if 'process details' in line)
+    assert [line.partition('process details: ')[2] for line in told] == [
+        "cmd='echo a', cwd='None', custom_env?=True",  # as upstream, which says so of each
+        "cmd='echo b', cwd='/', custom_env?=True",
+    ]
+
+
 def test_a_process_is_reported_with_its_name_pid_and_end(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

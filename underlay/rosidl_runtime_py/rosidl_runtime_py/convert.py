@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import array
 from collections import OrderedDict
+from collections.abc import Iterable
 import sys
 from typing import Any
 
@@ -72,7 +73,7 @@ def message_to_csv(
                 return _abbreviated(value, field_type)
             shown = value if truncate_length is None else value[:truncate_length]
             parts = [text(item) for item in shown]
-            return ','.join(parts + ['...'] * (len(shown) < len(value)))
+            return _joined(parts + ['...'] * (len(shown) < len(value)))
         if isinstance(value, str) and no_str:
             return f'<string length: <{len(value)}>>'
         if isinstance(value, (bytes, str)):
@@ -81,10 +82,18 @@ def message_to_csv(
             return str(value)
         return message_to_csv(value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
 
-    return ','.join(
+    return _joined(
         text(getattr(msg, name), field_type)
         for name, field_type in get_message_slot_types(msg).items()
     )
+
+
+def _joined(parts: Iterable[str]) -> str:
+    """Join texts by commas; as upstream, none stands before the first that is not empty."""
+    joined = ''
+    for part in parts:
+        joined += f',{part}' if joined else part
+    return joined
 
 
 def message_to_ordereddict(

@@ -69,6 +69,9 @@ def test_long_values_are_cut_or_abbreviated() -> None:
 def test_csv_is_one_line_and_flow_style_has_arrays_in_one() -> None:
     msg = Header(stamp=Time(sec=1, nanosec=2), frame_id='map')
     assert message_to_csv(msg) == '1,2,map'
+    # As upstream: no comma before the first text that is not empty, and no other is left out.
+    assert message_to_csv(UInt8MultiArray(data=[1, 2])) == '0,1,2'
+    assert message_to_csv(JointState(name=['a'], position=[1.0])) == '0,0,,a,1.0,,'
     joints = JointState(header=msg, name=['a', 'b'])
     assert message_to_yaml(joints, flow_style=True) == (
         'header:\n  stamp:\n    sec: 1\n    nanosec: 2\n  frame_id: map\n'

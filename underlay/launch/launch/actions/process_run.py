@@ -112,7 +112,8 @@ class ProcessRun:
             return False
         if self._log_cmd:
             cwd = self._details['cwd']
-            self._logger.info(f"process details: cmd='{self._cmd}', cwd='{cwd}'")
+            # Upstream's words; there, too, each process has an environment that is made for it.
+            self._logger.info(f"process details: cmd='{self._cmd}', cwd='{cwd}', custom_env?=True")
         try:
             child = await self._start()
         except (OSError, ValueError) as error:
