@@ -19,6 +19,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Empty
 
 COMMANDS = '/husky_velocity_controller/cmd_vel'
 
@@ -80,6 +81,12 @@ class Run:
         while not holds():
             assert time.monotonic() < deadline, f'{what} did not come in 10 s'
             self._executor.spin_once(timeout_sec=0.05)
+
+    def reset(self) -> None:
+        """Call the service of the simulator."""
+        client = self._simulator.create_client(Empty, '/husky_sim/reset')
+        self.until(client.service_is_ready, 'the service reset')
+        self.until(client.call_async(Empty.Request()).done, 'an answer of reset')
 
     def spin(self, *, seconds: float) -> None:
         """Let so much simulated time pass."""
@@ -163,6 +170,17 @@ def test_two_nodes_of_one_name_are_two(run: Run) -> None:
     run.spin(seconds=0.5)
     (found,) = run.disturbances()
     assert found.nodes == ('/twin', '/twin')
+
+
+def test_who_still_disturbs_after_a_reset_is_named_again(run: Run) -> None:
+    run.publisher(Twist, COMMANDS, 'driver')
+    run.publisher(Twist, COMMANDS, 'stranger')
+    run.spin(seconds=0.3)
+    run.reset()
+    run.spin(seconds=0.3)
+    (found,) = run.disturbances()
+    assert (found.topic, found.nodes) == (COMMANDS, ('/driver', '/stranger'))
+    assert found.time_sec < 0.3
 
 
 def test_a_publisher_of_a_moment_is_noticed(run: Run) -> None:

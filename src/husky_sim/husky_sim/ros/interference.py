@@ -60,7 +60,7 @@ class InterferenceWatch:
 
     :param ours: topics that this node alone should publish.
     :param commands: for each robot, the topics that one node should publish.
-    :param on_found: called once for each topic and set of nodes.
+    :param on_found: called once for each topic and set of nodes, and again after a restart.
     """
 
     def __init__(
@@ -107,6 +107,11 @@ class InterferenceWatch:
         if at_the_end:
             for topic in [*self._unseen]:
                 self._end_search(topic)
+
+    def restart(self) -> None:
+        """Report also what was found before: another run begins, and it may disturb that too."""
+        self._found.clear()
+        self.check()
 
     def check_commands(self, topic: str, publishers: int) -> None:
         """Check a topic of commands when DDS reports so many publishers at once."""

@@ -224,6 +224,7 @@ class SimulatorNode(Node):
         self.simulation.reset()
         if self._record is not None:
             self._record.restart()
+        self._interference.restart()
         self._pace.begin_again()
         self._topics.forget_commands()
         if not self._run.lockstep:
