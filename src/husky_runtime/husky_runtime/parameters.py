@@ -47,8 +47,9 @@ def _range(setting: Setting) -> dict[str, Any]:
     """Return the part of a descriptor that says which numbers are allowed."""
     if not setting.has_range:
         return {}
+    low = 0.0 if setting.or_zero else setting.low
     if isinstance(setting.default, int):
-        limits = IntegerRange(from_value=int(setting.low), to_value=int(setting.high))
+        limits = IntegerRange(from_value=int(low), to_value=int(setting.high))
         return {'integer_range': [limits]}
-    limits = FloatingPointRange(from_value=setting.low, to_value=setting.high)
+    limits = FloatingPointRange(from_value=low, to_value=setting.high)
     return {'floating_point_range': [limits]}

@@ -30,6 +30,7 @@ class Setting:
     high: float
     choices: tuple[str, ...]
     changeable: bool  # while the node runs
+    or_zero: bool  # 0 is allowed as well, below the range
 
     @property
     def has_range(self) -> bool:
@@ -42,7 +43,8 @@ class Setting:
             return f'one of {", ".join(self.choices)}'
         if self.has_range:
             whole = 'whole ' if isinstance(self.default, int) else ''
-            return f'a {whole}number from {self.low:.10g} to {self.high:.10g}'
+            zero = '0 or ' if self.or_zero else ''
+            return f'{zero}a {whole}number from {self.low:.10g} to {self.high:.10g}'
         return _KINDS.get(type(self.default), 'numbers')
 
     def checked(self, given: Any, refuse: Refuse) -> Any:
@@ -57,7 +59,7 @@ class Setting:
             if not isinstance(given, Iterable) or not all(map(_is_number, given)):
                 raise refuse(self, given)
             return tuple(map(float, given))
-        if self.has_range and not (_is_number(given) and self.low <= given <= self.high):
+        if self.has_range and not (_is_number(given) and self._is_in_range(given)):
             raise refuse(self, given)
         if isinstance(self.default, float):
             if not _is_number(given):
@@ -66,6 +68,9 @@ class Setting:
         if type(given) is not type(self.default) or (self.choices and given not in self.choices):
             raise refuse(self, given)
         return given
+
+    def _is_in_range(self, given: float) -> bool:
+        return self.low <= given <= self.high or (self.or_zero and given == 0)
 
 
 Refuse = Callable[[Setting, Any], Exception]
@@ -80,10 +85,12 @@ def setting(
     *,
     choices: Iterable[str] = (),
     changeable: bool = False,
+    or_zero: bool = False,
 ) -> Any:
     """Declare a field of a dataclass that is also a ROS parameter; low < high is its range."""
     metadata = {'description': description, 'low': low, 'high': high, 'changeable': changeable}
-    return field(default=default, metadata={**metadata, 'choices': tuple(choices)})
+    metadata |= {'or_zero': or_zero, 'choices': tuple(choices)}
+    return field(default=default, metadata=metadata)
 
 
 def settings_of(kind: Any) -> list[Setting]:

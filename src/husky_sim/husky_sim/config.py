@@ -131,7 +131,12 @@ class RunConfig:
 
     world: str = setting('', 'MJCF file of the world; empty: the playpen.')
     real_time_factor: float = setting(
-        1.0, 'Simulated seconds a second; 0: as fast as possible.', 0.0, 1000.0, changeable=True
+        1.0,
+        'Simulated seconds a second, 0.001 or more; 0: as fast as possible.',
+        0.001,
+        1000.0,
+        changeable=True,
+        or_zero=True,
     )
     lockstep: bool = setting(
         False, 'Wait for a command after each odometry message, then advance one control period.'

@@ -11,6 +11,13 @@ import time
 from husky_course.record import read_record
 from playpen_testing.processes import find_line
 import pytest
+from rcl_interfaces.msg import SetParametersResult
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
 
 
 def run_process(*arguments: str, module: str = 'husky_sim.ros.node') -> 'subprocess.Popen[str]':
@@ -28,6 +35,52 @@ def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     assert process.returncode == 2
     assert said.count('\n') == 1
     assert said.startswith("husky_sim: world='nowhere.xml': no such file")
+
+
+@pytest.mark.parametrize('factor', ['1.0e-12', '1.0e-300', '0.0009'])
+def test_a_pace_too_slow_for_a_timer_gives_one_line(domain_id: int, factor: str) -> None:
+    del domain_id
+    process = run_process('-p', f'real_time_factor:={factor}')
+    _, said = process.communicate(timeout=20.0)
+    assert process.returncode == 2
+    allowed = '0 or a number from 0.001 to 1000 is allowed'
+    assert said == f'husky_sim: real_time_factor={float(factor)}: {allowed}\n'
+
+
+def test_a_refused_pace_is_answered_and_the_run_goes_on(domain_id: int) -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = Node('operator', context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    process = run_process()
+    try:
+        client = AsyncParameterClient(node, '/husky_sim')
+        assert client.wait_for_services(timeout_sec=20.0), 'no simulator'
+
+        def answer(factor: float) -> SetParametersResult:
+            future = client.set_parameters([Parameter('real_time_factor', value=factor)])
+            executor.spin_until_future_complete(future, timeout_sec=10.0)
+            assert future.done(), f'no answer to {factor}'
+            (result,) = future.result().results
+            return result
+
+        for factor in (1e-12, 5e-324, 0.0009):
+            refused = answer(factor)
+            assert not refused.successful
+            assert refused.reason.endswith(
+                f'{factor}: 0 or a number from 0.001 to 1000 is allowed'
+            )
+        for factor in (0.001, 0.0, 2.0):
+            assert answer(factor).successful
+    finally:
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=20.0)
+        executor.shutdown()
+        node.destroy_node()
+        context.try_shutdown()
+    assert 'Traceback' not in said
+    assert process.returncode == 0
 
 
 def test_without_mujoco_it_says_how_to_install_it() -> None:
