@@ -60,6 +60,19 @@ def test_the_imu_at_rest_feels_gravity_and_nothing_else(drive: Drive) -> None:
     assert imu.angular_velocity == pytest.approx((0.0, 0.0, 0.0), abs=1e-4)
 
 
+def test_the_imu_at_rest_feels_all_of_a_gravity_that_is_not_down(
+    tmp_path: Path, drive: Drive
+) -> None:
+    path = tmp_path / 'slope.xml'
+    text = (WORLDS / 'empty.xml').read_text(encoding='utf-8')
+    assert 'gravity="0 0 -9.8"' in text
+    path.write_text(text.replace('gravity="0 0 -9.8"', 'gravity="1 3 -9"'), encoding='utf-8')
+    simulation = simulate(str(path), yaw=math.pi / 2.0)
+    drive(simulation, 0.0, 0.0, seconds=2.0)
+    imu = simulation.robots[0].imu
+    assert imu.acceleration == pytest.approx((-3.0, 1.0, 9.0), abs=0.1)
+
+
 def test_the_imu_measures_acceleration_in_line_and_in_circles(drive: Drive) -> None:
     simulation = simulate()
     drive(simulation, 1.0, 0.0, seconds=0.2)

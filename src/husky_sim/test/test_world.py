@@ -152,16 +152,6 @@ def test_an_odd_world_is_driven_in_like_any_other(
     assert simulation.unreported_touches() == []
 
 
-def test_without_gravity_the_robot_floats_and_nothing_breaks(
-    write: Callable[[str], str], drive: Callable[..., None]
-) -> None:
-    world = write(mjcf(before='<option gravity="0 0 0"/>'))
-    simulation = Simulation(SimulationConfig(world=world))
-    drive(simulation, 0.5, 0.5, seconds=1.0)
-    assert 0.1 < simulation.robots[0].state.position[2] < 0.5
-    assert simulation.physics_warnings == 0
-
-
 @pytest.mark.parametrize(
     ('text', 'reason'),
     [
@@ -197,6 +187,17 @@ def test_without_gravity_the_robot_floats_and_nothing_breaks(
         (
             mjcf(before='<option><flag filterparent="disable"/></option>'),
             r'filterparent="disable"',
+        ),
+        (
+            mjcf(before='<option><flag gravity="disable"/></option>'),
+            r'gravity="disable": the robot needs it to drive; remove the flag, line 2$',
+        ),
+        *(
+            (
+                mjcf(before=f'<option gravity="{gravity}"/>'),
+                rf'gravity="{gravity}": .*use finite numbers, the last below 0, line 2$',
+            )
+            for gravity in ('0 0 nan', 'nan 0 -9.8', '0 0 -inf', '0 0 9', '0 0 0', '3 0 0')
         ),
         (mjcf(before='<option actuatorgroupdisable="0"/>'), r'the motors .* group 0; .*, line 2$'),
         (mjcf(before='<compiler settotalmass="100"/>'), r'would weigh something else; .*line 2$'),

@@ -98,7 +98,7 @@ class Husky:
         self._model = model
         self._data = data
         self._tyres = [_shapes_of_tyre(model, f'{name}/{wheel}') for wheel in WHEELS]
-        self._gravity_m_s2 = -float(model.opt.gravity[2])
+        self._gravity: Vector = tuple(model.opt.gravity.tolist())
         # The joints and the actuators of one robot lie side by side, so that slices do.
         self._wheel_angles = _block(data.qpos, self._angles)
         self._wheel_speeds = _block(data.qvel, self._speeds)
@@ -193,12 +193,13 @@ class Husky:
         It is the mean over the time from one world velocity to the next: an IMU, too, filters the
         vibration of contacts out of samples 20 ms apart.
         """
+        gravity = self._gravity
         return into_body(
             tuple(self._orientation.tolist()),  # type: ignore[arg-type]
             (
-                (after[0] - before[0]) / period_sec,
-                (after[1] - before[1]) / period_sec,
-                (after[2] - before[2]) / period_sec + self._gravity_m_s2,
+                (after[0] - before[0]) / period_sec - gravity[0],
+                (after[1] - before[1]) / period_sec - gravity[1],
+                (after[2] - before[2]) / period_sec - gravity[2],
             ),
         )
 

@@ -76,11 +76,20 @@ def check_settings(path: str, spec: mujoco.MjSpec) -> None:
     :raises WorldError: if the world switches off what it needs, or changes its weight.
     """
     # Without filterparent the wheels would rub against the body that bears them.
-    for flag in ('contact', 'constraint', 'actuation', 'filterparent'):
+    for flag in ('contact', 'constraint', 'actuation', 'filterparent', 'gravity'):
         if spec.option.disableflags & getattr(mujoco.mjtDisableBit, f'mjDSBL_{flag.upper()}'):
             raise refused(
                 path, f'{flag}="disable": the robot needs it to drive; remove the flag', word=flag
             )
+    gravity = spec.option.gravity.tolist()
+    if not (all(map(math.isfinite, gravity)) and gravity[2] < 0.0):
+        given = ' '.join(f'{each:g}' for each in gravity)
+        raise refused(
+            path,
+            f'gravity="{given}": the robot needs its weight to drive; use finite numbers, the '
+            'last below 0',
+            word='gravity',
+        )
     if spec.option.disableactuator & 1:
         name = 'actuatorgroupdisable'
         raise refused(
