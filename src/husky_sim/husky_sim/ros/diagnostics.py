@@ -20,22 +20,33 @@ class PaceWatch:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        self._wall_sec = time.monotonic()
-        self._time_sec = simulation.time_sec
         self._overruns = 0
+        self.restart()
+        self._is_judged = True
+
+    def restart(self) -> None:
+        """
+        Measure from now on, after a reset, a pause or a change of pace.
+
+        What the next call measures is no full interval, and is not judged.
+        """
+        self._wall_sec = time.monotonic()
+        self._time_sec = self._simulation.time_sec
+        self._is_judged = False
 
     def status(self, pacer: Pacer, asked: float, *, waits: bool) -> DiagnosticStatus:
         """
-        Return the status of the time since the last call.
+        Return the status of the time since the last call, or restart.
 
         :param asked: the real-time factor, 0 for as fast as possible.
         :param waits: whether a pause or a driver, and not the machine, delays time.
         """
         now_sec, time_sec = time.monotonic(), self._simulation.time_sec
-        passed_sec = max(time_sec - self._time_sec, 0.0)
-        factor = passed_sec / max(now_sec - self._wall_sec, 1e-9)
-        overruns = pacer.overruns - self._overruns
+        factor = (time_sec - self._time_sec) / max(now_sec - self._wall_sec, 1e-9)
+        late = factor < _ENOUGH * asked or pacer.overruns > self._overruns
+        too_slow = self._is_judged and not waits and asked > 0.0 and late
         self._wall_sec, self._time_sec, self._overruns = now_sec, time_sec, pacer.overruns
+        self._is_judged = True
         warnings = self._simulation.physics_warnings
         level, message = DiagnosticStatus.OK, f'{factor:.2f} x real time'
         if warnings:
@@ -43,7 +54,7 @@ class PaceWatch:
             message = (
                 f'{message}; the physics warned {warnings} times: the run is not to be trusted'
             )
-        elif not waits and asked > 0.0 and (factor < _ENOUGH * asked or overruns > 0):
+        elif too_slow:
             level = DiagnosticStatus.WARN
             message = f'{message} of {asked:g} asked for: this machine is too slow or too busy'
         values = {

@@ -120,6 +120,7 @@ class SimulatorNode(Node):
         self.destroy_timer(self._timer)
         self._pace.change(factor)
         self._timer = self._new_timer()
+        self._watch.restart()
         self.get_logger().info(str(self._pace))
 
     def _new_timer(self) -> Timer:
@@ -218,6 +219,7 @@ class SimulatorNode(Node):
         """Stop time, or continue."""
         self.paused = paused
         self._pace.pacer.restart()
+        self._watch.restart()
 
     def reset(self) -> None:
         """Put everything back as it was at the start."""
@@ -226,6 +228,7 @@ class SimulatorNode(Node):
             self._record.restart()
         self._interference.restart()
         self._pace.begin_again()
+        self._watch.restart()
         self._topics.forget_commands()
         if not self._run.lockstep:
             self._topics.publish()
