@@ -7,6 +7,7 @@ import time
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
+from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.robot.battery import Battery, LOW, VERY_LOW
 from husky_sim.ros.pacing import Pacer
 from husky_sim.simulation import SimulatedRobot, Simulation
@@ -42,8 +43,11 @@ class PaceWatch:
         :param waits: whether a pause or a driver, and not the machine, delays time.
         """
         now_sec, time_sec = time.monotonic(), self._simulation.time_sec
-        factor = (time_sec - self._time_sec) / max(now_sec - self._wall_sec, 1e-9)
-        late = factor < _ENOUGH * asked or pacer.overruns > self._overruns
+        passed_sec, wall_sec = time_sec - self._time_sec, max(now_sec - self._wall_sec, 1e-9)
+        factor = passed_sec / wall_sec
+        # Time passes by whole control periods: one may be due just after the interval.
+        lacks = passed_sec + CONTROL_PERIOD_SEC < _ENOUGH * asked * wall_sec
+        late = lacks or pacer.overruns > self._overruns
         too_slow = self._is_judged and not waits and asked > 0.0 and late
         self._wall_sec, self._time_sec, self._overruns = now_sec, time_sec, pacer.overruns
         self._is_judged = True
