@@ -12,12 +12,18 @@ import urllib.request
 from ament_index_python.packages import get_package_prefix
 from husky_runtime.supervise import END_WITHIN_SEC
 from playpen_testing.listener import Listener
-from playpen_testing.page_client import stalled_tab
+from playpen_testing.page_client import PageClient, stalled_tab
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
 from rosgraph_msgs.msg import Clock
+
+WORLDS = Path(__file__).resolve().parent.parent / 'worlds'
+CRATE = """\
+  <body name="crate" pos="0.4 4 0.3"><geom type="box" size="0.2 0.2 0.3"/></body>
+</worldbody>"""
+"""0.6 m to the left of a robot that has driven 1 m from (1, 3), to the north."""
 
 VIEW = ('ros2', 'run', 'husky_view', 'view', '--ros-args', '-p')
 
@@ -143,6 +149,31 @@ def test_a_view_without_a_simulator_says_what_it_waits_for(processes: Processes)
     view.wait_for_text('husky_sim does not answer yet: is the simulator running, with RMW_')
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     view.wait_for_text('look at http://localhost:')
+
+
+@pytest.mark.timeout(90)
+def test_a_course_is_checked_in_the_world_and_from_the_start_shown(
+    processes: Processes, tmp_path: Path
+) -> None:
+    world = (WORLDS / 'empty.xml').read_text().replace('</worldbody>', CRATE)
+    (tmp_path / 'my world.xml').write_text(world)
+    (tmp_path / 'ahead.yaml').write_text('waypoints: [[0, 0], [1.5, 0]]\n')
+    processes.start(
+        *('ros2', 'run', 'husky_sim', 'husky_sim', '--ros-args', '-p', 'world:=my world.xml'),
+        *('-p', "robots:=['alpha 0 0 0', 'beta 1 3 1.5708']"),
+        cwd=tmp_path,
+    )
+    view = processes.start(
+        *(*VIEW, 'viewer_port:=18980', '-p', f'waypoints_folder:={tmp_path}'), cwd=tmp_path
+    )
+    view.wait_for_text('look at http://localhost:')
+    with PageClient(view.output.split('look at ')[1].split()[0]) as tab:
+        tab.set('Robot', 'beta')
+        tab.set('Open', 'ahead')
+        tab.set('Save and drive it', True)
+        view.wait_for_text('done: 2 of 2 waypoints', timeout_sec=60.0)
+    (warning,) = [line for line in view.lines if ' m from ' in line]
+    assert 'the robot passes 0.06 m from crate near (' in warning
 
 
 @pytest.mark.timeout(60)

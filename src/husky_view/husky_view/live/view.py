@@ -3,11 +3,13 @@
 """The page of one running simulation."""
 
 from contextlib import ExitStack
+import json
 import math
 import os
 from pathlib import Path
 import time
 
+from husky_course.frames import Pose
 from husky_runtime.children import ChildProcess
 from husky_sim.errors import SimulatorError
 from husky_sim.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
@@ -55,13 +57,20 @@ class DriverProcess:
         """Tell whether the last one still drives."""
         return self._process is not None and self._process.exit_code is None
 
-    def start(self, file: Path, namespace: str) -> None:
-        """Begin to drive; one that still drives is ended first."""
+    def start(self, file: Path, namespace: str, *, world: str, start: Pose) -> None:
+        """
+        Begin to drive; one that still drives is ended first.
+
+        :param world: the MJCF file whose obstacles the course is checked against.
+        :param start: where the robot starts in that world.
+        """
         self.end()
+        path = json.dumps(str(Path(world).absolute()), ensure_ascii=False)  # values are YAML
         self._process = ChildProcess(
             [
                 *('ros2', 'run', 'husky_driver', DRIVER, '--waypoints', str(file)),
                 *('--ros-args', '-p', 'use_sim_time:=true', '-r', f'__ns:=/{namespace}'),
+                *('-p', f'world:={path}', '-p', f'start:={list(start)}'),
             ],
             os.environ,
         )
@@ -278,12 +287,15 @@ class LiveView:
 
     def _on_drive_file(self, file: Path) -> None:
         """Drive a saved file from the start."""
-        robot = self._world.robots[self._driven].name
-        parts = [self._node.get_namespace().strip('/'), robot if len(self._links) > 1 else '']
+        robot, world = self._world.robots[self._driven], self._world.path
+        name = robot.name if len(self._links) > 1 else ''
+        parts = [self._node.get_namespace().strip('/'), name]
         namespace = '/'.join(part for part in parts if part)
         driving = (DRIVER, f'/{namespace}') in self._node.get_node_names_and_namespaces()
         if driving and not self._driver.is_running:
             self._on_refused('Not driven', f'{DRIVER} drives this robot already: end it first')
             return
         self._driver.end()
-        self._control.reset(then=lambda: self._driver.start(file, namespace))
+        self._control.reset(
+            then=lambda: self._driver.start(file, namespace, world=world, start=robot.pose)
+        )
