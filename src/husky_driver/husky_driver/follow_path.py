@@ -89,8 +89,7 @@ def _check(route: Route, settings: Settings, warn: Callable[[str], object]) -> N
     """
     with SignalsHeldBack():
         from husky_driver.route_check import near_passes
-    x, y, yaw = settings.start
-    near = near_passes(route, world=settings.world, start=(x, y, yaw))
+    near = near_passes(route, world=settings.world, start=settings.start_pose)
     for place in near:
         warn(f'{route.course.file}: {place}')
     if near and settings.check == 'refuse':

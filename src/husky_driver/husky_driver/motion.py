@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import math
 from typing import NamedTuple
 
-from husky_course.frames import to_odom, wrapped
+from husky_course.frames import Pose, to_odom, wrapped
 
 GRAVITY_M_S2 = 9.81
 STANDING_M_S = 0.01
@@ -78,9 +78,12 @@ def yaw_of(x: float, y: float, z: float, w: float) -> float:
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
-def relative_odometry(odometry: Odometry, origin: Odometry) -> Odometry:
-    """Return odometry of another frame as if it had begun at zero."""
-    start = (origin.x_m, origin.y_m, origin.yaw_rad)
+def relative_odometry(odometry: Odometry, start: Pose) -> Odometry:
+    """
+    Return odometry of the frame world in the frame odom.
+
+    :param start: where the robot starts in the frame world.
+    """
     x, y = to_odom(start, odometry.x_m, odometry.y_m)
-    yaw = wrapped(odometry.yaw_rad - origin.yaw_rad)
+    yaw = wrapped(odometry.yaw_rad - start[2])
     return odometry._replace(x_m=x, y_m=y, yaw_rad=yaw)

@@ -82,7 +82,6 @@ class FollowPath(Node):
         self._exit_code: int | None = None  # to leave with once the robot stands
         self._stop_deadline_sec = 0.0
         self._hint = ''
-        self._origin: Odometry | None = None
         self._paused = False
         scan = self.settings.topics.scan
         self._obstacles = ObstacleStop(scan) if self.settings.scan else None
@@ -237,9 +236,7 @@ class FollowPath(Node):
         """Return ground truth in the frame odom, which begins where the robot starts."""
         if self.settings.odometry != 'ground_truth':
             return odometry
-        if self._origin is None:
-            self._origin = odometry
-        return relative_odometry(odometry, self._origin)
+        return relative_odometry(odometry, self.settings.start_pose)
 
     def _publish(self, speed_m_s: float, yaw_rate_rad_s: float) -> None:
         self._commands.publish(speed_m_s, yaw_rate_rad_s, self._last_stamp)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from husky_course.frames import Pose
 from husky_runtime.settings import Setting, setting, settings_of
 
 
@@ -81,7 +82,8 @@ class Settings:
     )
     world: str = setting('', 'MJCF file with the obstacles to check against; empty: the playpen')
     start: tuple[float, ...] = setting(
-        (0.0, 0.0, 0.0), 'where the robot starts in that world: x m, y m, yaw rad'
+        (0.0, 0.0, 0.0),
+        'where the robot starts in that world, for check and ground_truth: x m, y m, yaw rad',
     )
     slip: bool = setting(True, 'count with the slip that odometry cannot see')
     imu: bool = setting(
@@ -104,6 +106,12 @@ class Settings:
     @property
     def odometry_topic(self) -> str:
         return self.topics.odometry[self.odometry]
+
+    @property
+    def start_pose(self) -> Pose:
+        """Where the robot starts in the frame world, in which the ground truth is."""
+        x, y, yaw = self.start
+        return x, y, yaw
 
     @property
     def topics(self) -> Interface:
