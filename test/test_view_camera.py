@@ -88,7 +88,7 @@ class Scene:
 def scene(browser: Browser) -> Iterator[Scene]:
     server = PageServer('127.0.0.1', 18780, title='cameras')
     server.gui.add_html('<b class="husky-page" data-number="time">0</b>')
-    cameras = Cameras(server, center=CENTER, extent_m=EXTENT_M, seen_from_above=SEEN)
+    cameras = Cameras(server, server.tabs, center=CENTER, extent_m=EXTENT_M, seen_from_above=SEEN)
     page = open_page(browser, server.address)
     wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
     yield Scene(server, cameras, page)

@@ -15,6 +15,7 @@ import viser
 from husky_view.gate.admission import Admission
 from husky_view.gate.gate import Gate
 from husky_view.picture.page import add_page_script
+from husky_view.picture.tabs import Tabs
 
 CLOSE_SEC = 0.5
 MOST_ACTIONS, ACTIONS_SEC = 1000, 0.02
@@ -41,6 +42,15 @@ class PageServer(viser.ViserServer):
         self.gui.configure_theme(control_width='medium', show_logo=False, show_share_button=False)
         self.scene.set_up_direction('+z')
         add_page_script(self)
+        self.tabs = Tabs(self)
+
+    def clear(self) -> None:
+        """Take everything off the page, and forget what was shown there."""
+        self.gui.reset()
+        self.scene.reset()
+        for client in self.get_clients().values():
+            client.scene.reset()  # what only one tab shows
+        self.tabs.clear()
 
     @property
     def address(self) -> str:

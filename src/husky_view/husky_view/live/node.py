@@ -103,10 +103,7 @@ class ViewNode(Node):
                 view.close()
             is_stopped = view.is_stopped
             if world is not None:
-                self._server.gui.reset()
-                self._server.scene.reset()
-                for client in self._server.get_clients().values():
-                    client.scene.reset()  # what only one tab shows
+                self._server.clear()
 
     def _wait_for_world(self, interrupted: Future[None]) -> World | None:
         name = self._query.name

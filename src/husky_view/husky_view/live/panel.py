@@ -25,7 +25,7 @@ from husky_view.picture.page import (
     STOP,
 )
 from husky_view.picture.palette import Rgb
-from husky_view.server import ActionQueue
+from husky_view.server import ActionQueue, PageServer
 
 PAUSE, RESUME, STEP, RESET = 'Pause', 'Resume', 'Step', 'Reset'
 FACTORS = {'½×': 0.5, '1×': 1.0, '2×': 2.0, '5×': 5.0, 'max': 0.0}
@@ -42,7 +42,7 @@ class Panel:
 
     def __init__(
         self,
-        server: viser.ViserServer,
+        server: PageServer,
         actions: ActionQueue,
         simulator: SimulatorControl,
         *,
@@ -81,7 +81,7 @@ class Panel:
 
     def _add_drive_buttons(self, gui: viser.GuiApi) -> None:
         teleop = self.teleop
-        self._server.on_client_disconnect(lambda client: teleop.release_tab(client.client_id))
+        self._server.tabs.on_gone(teleop.release_tab)
         with gui.add_folder('Drive: arrow keys, or hold'):
             for direction in Direction:
                 button = gui.add_button(direction.sign)

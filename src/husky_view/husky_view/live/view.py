@@ -18,7 +18,6 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import Float64MultiArray
-import viser
 
 from husky_view.editor.editor import Editor
 from husky_view.live.camera_pane import CameraPane
@@ -27,7 +26,7 @@ from husky_view.live.links import RobotLink
 from husky_view.live.panel import Panel
 from husky_view.live.simulator import SimulatorControl, SimulatorQuery
 from husky_view.picture.picture import Picture
-from husky_view.server import ActionQueue
+from husky_view.server import ActionQueue, PageServer
 
 FIGURES_HZ = 5.0
 DRIVER = 'follow_path'
@@ -94,7 +93,7 @@ class LiveView:
     def __init__(
         self,
         node: Node,
-        server: viser.ViserServer,
+        server: PageServer,
         query: SimulatorQuery,
         world: World,
         folder: Path,
@@ -116,7 +115,7 @@ class LiveView:
         self._actions = ActionQueue()
         self._driver = DriverProcess()
         self._closing = ExitStack()
-        self._picture = Picture(server, world)
+        self._picture = Picture(server, server.tabs, world)
         self._control = SimulatorControl(node, query.name, self._on_refused, self._closing)
         many = len(world.robots) > 1
         namespaces = [f'{robot.name}/' if many else '' for robot in world.robots]

@@ -13,6 +13,7 @@ import viser
 
 from husky_view.picture.geometry import Bounds
 from husky_view.picture.page import FOLLOW, PRESETS, TOP
+from husky_view.picture.tabs import Tabs
 
 BACK_M, UP_M = 3.8, 2.4
 """Offset of a following camera from the robot, in the beginning."""
@@ -125,6 +126,7 @@ class Cameras:
     def __init__(
         self,
         server: viser.ViserServer,
+        tabs: Tabs,
         *,
         center: Array,
         extent_m: float,
@@ -138,16 +140,10 @@ class Cameras:
         server.initial_camera.position = center + extent_m * np.array([-0.85, -0.75, 0.75])
         server.initial_camera.look_at = center
         server.initial_camera.fov = math.radians(50.0)
+        tabs.on_camera(self._on_camera)
+        tabs.on_gone(lambda tab: self._following.pop(tab, None))
 
-        @server.on_client_connect
-        async def _(client: viser.ClientHandle) -> None:
-            client.camera.on_update(self._on_camera)
-
-        @server.on_client_disconnect
-        async def _(client: viser.ClientHandle) -> None:
-            self._following.pop(client.client_id, None)
-
-    async def _on_camera(self, camera: viser.CameraHandle) -> None:
+    def _on_camera(self, camera: viser.CameraHandle) -> None:
         following = self._following.get(camera.client.client_id)
         if following is not None:
             following.report(camera.position - camera.look_at)

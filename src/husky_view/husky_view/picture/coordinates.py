@@ -14,6 +14,7 @@ import numpy as np
 import viser
 
 from husky_view.picture.geometry import Bounds, to_odom, to_world
+from husky_view.picture.tabs import Tabs
 
 AXIS_M = 1.0
 X_COLOR, Y_COLOR = (220, 60, 60), (60, 190, 60)  # as in RViz
@@ -56,15 +57,12 @@ class TopGrids:
     :param seen: what such a tab sees.
     """
 
-    def __init__(self, server: viser.ViserServer, seen: Bounds, height_m: float) -> None:
+    def __init__(self, tabs: Tabs, seen: Bounds, height_m: float) -> None:
         self._seen = seen
         self._height_m = height_m
         self._grids: dict[int, _Grid] = {}  # by client
         self._made = 0
-
-        @server.on_client_disconnect
-        async def _(client: viser.ClientHandle) -> None:
-            self._grids.pop(client.client_id, None)
+        tabs.on_gone(lambda tab: self._grids.pop(tab, None))
 
     def show(self, client: viser.ClientHandle, start: RobotStart) -> None:
         """Show the grid of a robot in a tab, in place of another one's."""

@@ -32,6 +32,7 @@ from husky_view.picture.marks import (
 from husky_view.picture.page import SHADOWS, TOP
 from husky_view.picture.scene import ABOVE_GROUND_M, PlaypenScene
 from husky_view.picture.shadows import ContactShadows, ObstacleShadows
+from husky_view.picture.tabs import Tabs
 
 _X, _ODOM_X, _YAW = TRACK.index('x'), TRACK.index('odom_x'), TRACK.index('yaw')
 _SPEED = TRACK.index('speed_m_s')
@@ -208,7 +209,7 @@ def first_of_run(time_sec: Array, *, after_sec: float) -> int | None:
 class Picture:
     """All that is drawn of a run."""
 
-    def __init__(self, server: viser.ViserServer, world: World) -> None:
+    def __init__(self, server: viser.ViserServer, tabs: Tabs, world: World) -> None:
         self.scene = PlaypenScene(server, world)
         self.robots = [
             RobotMarks(server, start, self.scene.ground_m, is_named=len(world.robots) > 1)
@@ -221,11 +222,12 @@ class Picture:
         seen = bounds(world.obstacles, at_least_m=SEEN_M)
         self._cameras = Cameras(
             server,
+            tabs,
             center=np.array(world.model.stat.center),
             extent_m=float(world.model.stat.extent),
             seen_from_above=seen,
         )
-        self._grids = TopGrids(server, seen, self.scene.ground_m + ABOVE_GROUND_M)
+        self._grids = TopGrids(tabs, seen, self.scene.ground_m + ABOVE_GROUND_M)
         self.history = History()
         self._time_sec = 0.0
         self._run = ''

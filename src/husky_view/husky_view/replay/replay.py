@@ -16,7 +16,6 @@ from husky_runtime.web_address import AddressError
 from husky_sim.errors import SimulatorError
 from husky_sim.world import load_world
 import numpy as np
-import viser
 
 from husky_view.editor.course import CourseRefused, path_of
 from husky_view.picture.geometry import to_world
@@ -33,7 +32,7 @@ PANEL_HZ = 10.0
 class Replay:
     """A run on the page."""
 
-    def __init__(self, server: viser.ViserServer, run: Record) -> None:
+    def __init__(self, server: PageServer, run: Record) -> None:
         """
         Put the run's world on the page.
 
@@ -43,7 +42,7 @@ class Replay:
         self._server = server
         self._run = run
         world = load_world(run.world, run.robots)
-        self._picture = Picture(server, world)
+        self._picture = Picture(server, server.tabs, world)
         self._scenes = RunScenes(run, world)
         self._playback = Playback(run.duration_sec)
         self._actions = ActionQueue()

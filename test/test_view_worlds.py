@@ -1,0 +1,56 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""A page that shows one world after the other."""
+
+import gc
+from pathlib import Path
+
+from husky_course.robot import RobotStart
+from husky_sim.world import default_worlds, load_world
+from husky_view.live.panel import Panel
+from husky_view.live.simulator import SimulatorQuery
+from husky_view.live.view import LiveView
+from husky_view.picture.camera import Cameras
+from husky_view.picture.coordinates import TopGrids
+from husky_view.picture.picture import Picture
+from husky_view.server import close_server, PageServer
+from playpen_testing.page_client import PageClient
+from playpen_testing.waiting import wait_until
+import pytest
+import rclpy
+
+SHOWN = (LiveView, Panel, Picture, Cameras, TopGrids)
+
+
+def callbacks(server: PageServer) -> list[int]:
+    """Count what viser calls when a tab comes, goes, or moves its camera."""
+    (client,) = server.get_clients().values()
+    kept = (
+        server._client_connect_cb,
+        server._client_disconnect_cb,
+        client.camera._state.camera_cb,
+    )
+    return [len(each) for each in kept]
+
+
+@pytest.mark.timeout(60)
+def test_nothing_stays_of_the_worlds_that_were_shown(domain_id: int, tmp_path: Path) -> None:
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = rclpy.create_node('view', context=context)
+    server = PageServer('127.0.0.1', 18880, title='worlds')
+    query = SimulatorQuery(node, 'husky_sim')
+    world = load_world(str(default_worlds() / 'empty.xml'), [RobotStart()])
+    with PageClient(server.address):
+        wait_until(lambda: len(server.get_clients()) == 1, timeout_sec=20.0, what='a tab')
+        before = callbacks(server)
+        for _ in range(3):
+            LiveView(node, server, query, world, tmp_path, is_stopped=False).close()
+            server.clear()
+            assert callbacks(server) == before
+    gc.collect()
+    left = [type(each).__name__ for each in gc.get_objects() if isinstance(each, SHOWN)]
+    close_server(server)
+    node.destroy_node()
+    context.shutdown()
+    assert left == []
