@@ -144,6 +144,16 @@ def test_a_parameter_that_cannot_be_is_refused_in_one_line(
 
 
 @pytest.mark.timeout(60)
+def test_a_node_that_is_no_simulator_is_refused_in_one_line(processes: Processes) -> None:
+    processes.start('ros2', 'run', 'demo_nodes_py', 'talker')
+    view = processes.start(*VIEW, 'simulator:=talker')
+    assert view.wait() == 2
+    (said,) = [line for line in view.lines if line.startswith('view: ')]
+    assert "simulator='talker': this node is no simulator" in said
+    assert 'Traceback' not in view.output
+
+
+@pytest.mark.timeout(60)
 def test_a_view_without_a_simulator_says_what_it_waits_for(processes: Processes) -> None:
     view = processes.start(*VIEW, 'viewer_port:=18480')
     view.wait_for_text('husky_sim does not answer yet: is the simulator running, with RMW_')

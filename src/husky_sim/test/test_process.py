@@ -83,6 +83,27 @@ def test_a_refused_pace_is_answered_and_the_run_goes_on(domain_id: int) -> None:
     assert process.returncode == 0
 
 
+@pytest.mark.parametrize('given', ['robots:=alpha 0 0 0', 'robots:=5', 'robots:=[1, 2]', 'x:=[]'])
+def test_a_parameter_of_another_type_gives_one_line(domain_id: int, given: str) -> None:
+    del domain_id
+    process = run_process('-p', given)
+    _, said = process.communicate(timeout=20.0)
+    assert process.returncode == 2
+    assert said.count('\n') == 1
+    assert said.startswith(f'husky_sim: {given.partition(":")[0]}=')
+
+
+def test_an_empty_list_of_robots_is_one_robot(domain_id: int) -> None:
+    del domain_id
+    process = run_process('-p', 'robots:=[]')
+    assert process.stderr is not None
+    try:
+        find_line(process.stderr, '34 obstacles, husky; 1 x real time')
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20.0)
+
+
 def test_without_mujoco_it_says_how_to_install_it() -> None:
     program = "import sys; sys.modules['mujoco'] = None; sys.argv = ['/a/husky_sim']\n"
     program += 'from husky_sim.programs import main; sys.exit(main())'

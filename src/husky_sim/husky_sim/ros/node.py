@@ -15,7 +15,6 @@ from rcl_interfaces.msg import SetParametersResult
 import rclpy
 from rclpy.clock import Clock as RosClock
 from rclpy.clock import ClockType
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
@@ -28,7 +27,13 @@ from husky_sim.ros.diagnostics import battery_statuses, PaceWatch
 from husky_sim.ros.diagnostics import PERIOD_SEC as DIAGNOSTICS_PERIOD_SEC
 from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pace import FreePace, Lockstep, Pace, Periods
-from husky_sim.ros.parameters import FACTOR, read_factor, read_run, read_simulation
+from husky_sim.ros.parameters import (
+    FACTOR,
+    read_factor,
+    read_run,
+    read_simulation,
+    SettingsNode,
+)
 from husky_sim.ros.simulation_services import add_simulation_services, ControlServices
 from husky_sim.ros.simulation_topics import SimulationTopics
 from husky_sim.scene_topic import SceneTopic
@@ -47,7 +52,7 @@ class Trial:
     on_period: Callable[[], object]  # called after each control period
 
 
-class SimulatorNode(Node):
+class SimulatorNode(SettingsNode):
     """Simulates the robots of a world and publishes their topics."""
 
     def __init__(self, trial: Trial | None = None, **arguments: Any) -> None:

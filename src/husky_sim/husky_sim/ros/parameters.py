@@ -8,8 +8,9 @@ from typing import Any
 from husky_course.robot import RobotStart
 from husky_runtime.parameters import declare_settings
 from husky_runtime.settings import names_of, refuse_unknown, Setting, settings_of
-from rcl_interfaces.msg import ParameterDescriptor, ParameterType
+from rcl_interfaces.msg import ParameterDescriptor, ParameterType, ParameterValue
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from husky_sim.config import (
     BodyConfig,
@@ -37,6 +38,22 @@ _NAMES = (
     *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig),
     *names_of(GroundConfig, BodyConfig, PowerConfig),
 )
+
+
+class SettingsNode(Node):
+    """A node that may be given an empty list: rclpy, which sees no type in it, does not start."""
+
+    def declare_parameters(
+        self, namespace: str, parameters: list[Any], ignore_override: bool = False
+    ) -> list[Parameter]:
+        """Declare as `Node` does, but what was given and has no type as what may have any."""
+        if ignore_override:
+            untyped = ParameterDescriptor(dynamic_typing=True)
+            parameters = [
+                (entry[0], None, untyped) if entry[1:2] == (None,) else entry
+                for entry in parameters
+            ]
+        return list(super().declare_parameters(namespace, parameters, ignore_override))
 
 
 def read_run(node: Node) -> RunConfig:
@@ -91,16 +108,27 @@ def read_factor(given: Any) -> float:
 
 
 def _read_robots(node: Node) -> tuple[RobotStart, ...]:
-    descriptor = ParameterDescriptor(
-        description=_ROBOTS, read_only=True, type=ParameterType.PARAMETER_STRING_ARRAY
-    )
     if node.has_parameter('robots'):  # from the command line, without a description
         node.undeclare_parameter('robots')
-    lines = node.declare_parameter('robots', [''], descriptor).value
+    # Typed dynamically: rclpy would refuse another type in its own words.
+    given = node.declare_parameter('robots', [''], ParameterDescriptor(dynamic_typing=True)).value
+    lines = [] if given is None else given  # an empty list comes without a type
+    if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
+        raise SettingError(
+            f"robots={given!r}: a list of 'NAME X Y YAW' is allowed, as in "
+            "robots:=\"['alpha 0 0 0', 'beta -3 -1 0.8']\""
+        )
     try:
-        return tuple(RobotStart.parse(line) for line in lines if line.strip())
+        robots = tuple(RobotStart.parse(line) for line in lines if line.strip())
     except ValueError as error:
         raise SettingError(f'robots: {error}') from None
+    kind = ParameterType.PARAMETER_STRING_ARRAY
+    node.set_descriptor(
+        'robots',
+        ParameterDescriptor(description=_ROBOTS, read_only=True, type=kind),
+        ParameterValue(type=kind, string_array_value=['']),
+    )
+    return robots
 
 
 def _refuse(setting: Setting, given: Any) -> SettingError:

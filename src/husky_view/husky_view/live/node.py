@@ -87,7 +87,7 @@ class ViewNode(Node):
         """
         Show whatever the simulator runs, until interrupted.
 
-        :raises SimulatorError: if the first world cannot be loaded.
+        :raises SimulatorError: if the first world cannot be loaded, or is no simulator's.
         """
         world = self._wait_for_world(interrupted)
         is_stopped = False
@@ -115,7 +115,11 @@ class ViewNode(Node):
 
         def on_ask() -> None:
             nonlocal hint_due_sec
-            answer = self._query.poll()
+            try:
+                answer = self._query.poll()
+            except SimulatorError as error:
+                answered.set_exception(error)
+                return
             if answer is not None and not answered.done():
                 answered.set_result(answer)
             elif time.monotonic() > hint_due_sec:

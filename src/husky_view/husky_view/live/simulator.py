@@ -10,6 +10,7 @@ import time
 from typing import Any
 
 from husky_course.robot import RobotStart
+from husky_sim.errors import SimulatorError
 from husky_sim.world import default_worlds
 from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
@@ -35,7 +36,11 @@ class SimulatorQuery:
         self._due_sec = 0.0
 
     def poll(self) -> tuple[str, tuple[RobotStart, ...]] | None:
-        """Return the world's file and the robots if an answer has come; else ask where due."""
+        """
+        Return the world's file and the robots if an answer has come; else ask where due.
+
+        :raises SimulatorError: if what answers is no simulator.
+        """
         now = time.monotonic()
         if self._request is None or now > self._due_sec:
             self._due_sec = now + ANSWER_SEC
@@ -45,11 +50,22 @@ class SimulatorQuery:
                 self._request = None
         elif self._request.done():
             answer, self._request = self._request.result(), None
-            return _world_and_robots(answer)
+            try:
+                return _world_and_robots(answer)
+            except ValueError:
+                raise SimulatorError(
+                    f'simulator={self.name!r}: this node is no simulator; give the name of one, '
+                    'as of husky_sim'
+                ) from None
         return None
 
 
 def _world_and_robots(answer: GetParameters.Response) -> tuple[str, tuple[RobotStart, ...]]:
+    """
+    Read what a simulator answers.
+
+    :raises ValueError: if it is none: it lacks one of the parameters, or names no robots in it.
+    """
     world, x, y, yaw, robots = answer.values
     starts = tuple(RobotStart.parse(line) for line in robots.string_array_value if line.strip())
     one = RobotStart(x=_number(x), y=_number(y), yaw=_number(yaw))

@@ -241,10 +241,10 @@ class LiveView:
         self._camera.look()
 
     def _look_for_another_world(self) -> None:
-        answer = self._query.poll()
-        if answer is None or self.next_world.done():
-            return
         try:
+            answer = self._query.poll()
+            if answer is None or self.next_world.done():
+                return
             world = load_world(*answer)
         except SimulatorError as error:
             self._on_refused('Not shown', str(error))
