@@ -3,6 +3,7 @@
 """The view as a process: its address, its end, and that it cannot hold up the physics."""
 
 from pathlib import Path
+from shutil import copy
 import signal
 import socket
 import time
@@ -11,6 +12,7 @@ import urllib.request
 
 from ament_index_python.packages import get_package_prefix
 from husky_runtime.supervise import END_WITHIN_SEC
+from husky_sim.world import default_worlds
 from playpen_testing.listener import Listener
 from playpen_testing.page_client import PageClient, stalled_tab
 from playpen_testing.processes import Processes
@@ -184,6 +186,17 @@ def test_a_course_is_checked_in_the_world_and_from_the_start_shown(
         view.wait_for_text('done: 2 of 2 waypoints', timeout_sec=60.0)
     (warning,) = [line for line in view.lines if ' m from ' in line]
     assert 'the robot passes 0.06 m from crate near (' in warning
+
+
+@pytest.mark.timeout(60)
+def test_a_world_that_was_named_in_another_folder_is_shown(
+    processes: Processes, tmp_path: Path
+) -> None:
+    copy(default_worlds() / 'empty.xml', tmp_path / 'my_world.xml')
+    world = ('--ros-args', '-p', 'world:=my_world.xml')
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim', *world, cwd=tmp_path)
+    view = processes.start(*VIEW, 'viewer_port:=18780')
+    view.wait_for_text('look at http://localhost:')
 
 
 @pytest.mark.timeout(60)

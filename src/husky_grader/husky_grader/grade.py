@@ -15,7 +15,14 @@ from husky_course.printable import printable
 from husky_course.record import read_record, read_run, Run
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, why
+from husky_runtime.command_line import (
+    absolute_path,
+    BAD_INPUT,
+    discard_output,
+    given_name,
+    Parser,
+    why,
+)
 
 from husky_grader.file_grading import Grade, grade_file
 from husky_grader.grade_class import (
@@ -121,7 +128,13 @@ def _parser() -> Parser:
         '--wall-time', metavar='SEC', type=float, help='how long the run took on the clock'
     )
     parser.add_argument('--json', action='store_true', help='print the result as JSON')
-    parser.add_argument('--world', metavar='FILE', default='', help='MJCF world (the playpen)')
+    parser.add_argument(
+        '--world',
+        metavar='FILE',
+        type=absolute_path,  # the record names it
+        default='',
+        help='MJCF world (the playpen)',
+    )
     parser.add_argument(
         '--jobs', metavar='N', type=int, default=0, help='how many at a time (as many as cores)'
     )

@@ -4,6 +4,7 @@
 
 import json
 from pathlib import Path
+from shutil import copy
 import subprocess
 import sys
 from typing import Any
@@ -16,6 +17,7 @@ from husky_grader.grade import main as grade
 from husky_grader.report.folder import alone_in
 from husky_grader.run.in_process import drive_route
 from husky_grader.scoring.report import judge
+from husky_sim.world import default_worlds
 import pytest
 
 THROUGH = 'speed: 0.6\nwaypoints:\n  - [0, 0]\n  - [4.5, 0]\n'
@@ -304,6 +306,16 @@ def test_a_graded_run_can_be_replayed(courses: Path, tmp_path: Path) -> None:
     kept = tmp_path / 'waypoints.yaml'  # and what was kept can be graded into its own folder
     assert grade([str(kept), '--report', str(tmp_path)]) == 0
     assert kept.read_bytes() == course.read_bytes()
+
+
+def test_a_record_names_the_world_as_it_is_from_every_folder(
+    courses: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world = Path(copy(default_worlds() / 'empty.xml', tmp_path / 'my_world.xml'))
+    course, report = courses.absolute() / 'straight.yaml', tmp_path / 'report'
+    monkeypatch.chdir(tmp_path)
+    assert grade([str(course), '--world', world.name, '--report', str(report)]) == 0
+    assert read_record(report).world == str(world)
 
 
 @pytest.mark.parametrize(('name', 'magic'), [('a.png', b'\x89PNG'), ('a.svg', b'<?xml')])

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 import errno
 import os
+from pathlib import Path
 import sys
 from typing import NoReturn
 
@@ -44,6 +45,18 @@ def given_name(text: str) -> str:
     if not text:
         raise argparse.ArgumentTypeError('the name is empty')
     return text
+
+
+def absolute_path(given: str) -> str:
+    """
+    Return the path of a file as it is from every folder; nothing stays nothing.
+
+    A leading `~` is the home: behind `:=` and `=` no shell puts it in.
+    """
+    if not given:
+        return ''
+    home_put_in = os.path.expanduser(given)  # noqa: PTH111  # the other raises where there is none
+    return str(Path(home_put_in).absolute())
 
 
 def run_printing(prog: str, work: Callable[[], int]) -> int:

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator as a process: its exit status and its output."""
 
+import os
 from pathlib import Path
+from shutil import copy
 import signal
 import subprocess
 import sys
@@ -20,11 +22,18 @@ from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
 
 
-def run_process(*arguments: str, module: str = 'husky_sim.ros.node') -> 'subprocess.Popen[str]':
+def run_process(
+    *arguments: str,
+    module: str = 'husky_sim.ros.node',
+    cwd: Path | None = None,
+    env: dict[str, str] | None = None,
+) -> 'subprocess.Popen[str]':
     return subprocess.Popen(
         [sys.executable, '-m', module, '--ros-args', *arguments],
         stderr=subprocess.PIPE,
         text=True,
+        cwd=cwd,
+        env=env,
     )
 
 
@@ -34,7 +43,7 @@ def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     _, said = process.communicate(timeout=20.0)
     assert process.returncode == 2
     assert said.count('\n') == 1
-    assert said.startswith("husky_sim: world='nowhere.xml': no such file")
+    assert said.startswith(f"husky_sim: world='{Path.cwd()}/nowhere.xml': no such file")
 
 
 @pytest.mark.parametrize('factor', ['1.0e-12', '1.0e-300', '0.0009'])
@@ -91,6 +100,29 @@ def test_a_parameter_of_another_type_gives_one_line(domain_id: int, given: str) 
     assert process.returncode == 2
     assert said.count('\n') == 1
     assert said.startswith(f'husky_sim: {given.partition(":")[0]}=')
+
+
+def test_a_world_and_a_record_are_named_by_absolute_paths(
+    domain_id: int, tmp_path: Path, worlds: Path
+) -> None:
+    del domain_id
+    home, here = tmp_path / 'home', tmp_path / 'here'
+    for folder in (home, here):
+        folder.mkdir()
+    world = Path(copy(worlds / 'empty.xml', here / 'my_world.xml'))
+    process = run_process(
+        *('-p', 'world:=my_world.xml', '-p', 'record:=~/run.record'),
+        cwd=here,
+        env={**os.environ, 'HOME': str(home), 'ROS_LOG_DIR': str(tmp_path / 'log')},
+    )
+    assert process.stderr is not None
+    try:
+        find_line(process.stderr, f'{world}: 0 obstacles')
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20.0)
+    assert read_record(home / 'run.record').world == str(world)
+    assert list(here.iterdir()) == [world], 'no folder is called ~'
 
 
 def test_an_empty_list_of_robots_is_one_robot(domain_id: int) -> None:

@@ -58,7 +58,7 @@ class SettingsNode(Node):
 
 def read_run(node: Node) -> RunConfig:
     """
-    Declare and read how time passes and what is kept.
+    Declare and read how time passes and what is kept; files by their absolute paths.
 
     :raises SettingError: if a value is not allowed, or a parameter of the node does not exist.
     """
@@ -66,7 +66,7 @@ def read_run(node: Node) -> RunConfig:
         refuse_unknown(node.get_parameters_by_prefix(''), _NAMES)
     except ValueError as error:
         raise SettingError(str(error)) from None
-    config = declare_settings(node, RunConfig, _refuse)
+    config = declare_settings(node, RunConfig, _refuse, files=('world', 'record'))
     if config.world:
         return config
     return replace(config, world=str(default_worlds() / 'playpen.xml'))
