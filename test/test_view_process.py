@@ -200,6 +200,30 @@ def test_a_world_that_was_named_in_another_folder_is_shown(
 
 
 @pytest.mark.timeout(60)
+def test_a_next_world_that_cannot_be_loaded_is_told_of_once(
+    processes: Processes, nodes: SpunNodes, tmp_path: Path
+) -> None:
+    first = processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    view = processes.start(*VIEW, 'viewer_port:=18880')
+    view.wait_for_text('look at http://localhost:')
+    first.close()
+    world, moved = tmp_path / 'my_world.xml', tmp_path / 'moved.xml'
+    copy(default_worlds() / 'empty.xml', world)
+    view.signal(signal.SIGSTOP)
+    try:
+        second = ('ros2', 'run', 'husky_sim', 'husky_sim', '--ros-args', '-p', f'world:={world}')
+        processes.start(*second).wait_for_text('0 obstacles')
+        world.rename(moved)
+    finally:
+        view.signal(signal.SIGCONT)
+    view.wait_for_text(f"Not shown: world='{world}': no such file")
+    wall_sec_of(nodes.start(Listener, {'/clock': Clock}), 3.0)
+    assert view.output.count('Not shown') == 1
+    moved.rename(world)
+    view.wait_for_text(f'another simulation runs now: {world}')
+
+
+@pytest.mark.timeout(60)
 def test_a_view_that_hangs_does_not_hold_up_the_physics(
     processes: Processes, nodes: SpunNodes
 ) -> None:

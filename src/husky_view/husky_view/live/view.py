@@ -110,6 +110,7 @@ class LiveView:
         self._factor = RealTimeFactor()
         self._scene: Scene | None = None  # the newest
         self._invalid, self._invalid_sec = '', -math.inf
+        self._unshown = ''  # why the next world is not shown, as last told
         self._driven = 0  # place of the robot that is driven
         self._figures_due_sec = 0.0
         self._actions = ActionQueue()
@@ -247,7 +248,9 @@ class LiveView:
                 return
             world = load_world(*answer)
         except SimulatorError as error:
-            self._on_refused('Not shown', str(error))
+            if str(error) != self._unshown:  # it is asked again and again
+                self._unshown = str(error)
+                self._on_refused('Not shown', self._unshown)
             return
         if world_key(world) != self._monitor.world:
             self._node.get_logger().info(f'another simulation runs now: {world.path}')
