@@ -13,6 +13,7 @@ import urllib.request
 from ament_index_python.packages import get_package_prefix
 from husky_runtime.supervise import END_WITHIN_SEC
 from husky_sim.world import default_worlds
+from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
 from playpen_testing.page_client import PageClient, stalled_tab
 from playpen_testing.processes import Processes
@@ -221,6 +222,29 @@ def test_a_next_world_that_cannot_be_loaded_is_told_of_once(
     assert view.output.count('Not shown') == 1
     moved.rename(world)
     view.wait_for_text(f'another simulation runs now: {world}')
+
+
+@pytest.mark.timeout(60)
+def test_a_robot_that_may_be_fast_is_drawn(processes: Processes, nodes: SpunNodes) -> None:
+    world = default_worlds() / 'empty.xml'
+    settings = (
+        f'world:={world}',
+        'speed_limit_m_s:=10.0',
+        'command_timeout_sec:=60.0',
+        'real_time_factor:=0.0',
+    )
+    given = (word for setting in settings for word in ('-p', setting))
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim', '--ros-args', *given)
+    view = processes.start(*VIEW, 'viewer_port:=18980')
+    view.wait_for_text('look at http://localhost:')
+    listener = nodes.start(Listener, {'ground_truth/odom': Odometry})
+    listener.command(10.0)
+    wait_until(
+        lambda: listener.latest('ground_truth/odom').pose.pose.position.x > 500.0,
+        timeout_sec=20.0,
+        what='a robot that has driven 500 m',
+    )
+    assert 'Not drawn' not in view.output
 
 
 @pytest.mark.timeout(60)

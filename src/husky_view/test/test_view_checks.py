@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from husky_course.robot import RobotStart
+from husky_runtime.settings import settings_of
 from husky_sim.scene_topic import Scene, TRACK, world_key
 from husky_sim.world import default_worlds, load_world, World
 from husky_view.live.checks import (
@@ -18,6 +19,8 @@ from husky_view.live.checks import (
 )
 import numpy as np
 import pytest
+
+from husky_sim.config import DriveConfig
 
 
 @pytest.fixture(scope='module')
@@ -37,6 +40,14 @@ def test_a_drive_and_a_reset_are_drawn(world: World) -> None:
     for frame in range(100):
         assert check.error_in(scene_of(world, frame * 0.033, 1.0 + frame * 0.033)) == ''
     assert check.error_in(scene_of(world, 0.0, 0.02)) == '', 'a reset'
+
+
+def test_a_robot_at_the_greatest_limit_of_speed_is_drawn(world: World) -> None:
+    (limit,) = (each for each in settings_of(DriveConfig) if each.name == 'speed_limit_m_s')
+    check = SceneCheck(world)
+    for frame in range(20):  # as fast as possible: 0.4 s of simulated time from one to the next
+        time_sec = 1.0 + frame * 0.4
+        assert check.error_in(scene_of(world, limit.high * time_sec, time_sec)) == ''
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,13 @@ from enum import auto, Enum
 import math
 
 from husky_course.frames import Array
+from husky_runtime.settings import settings_of
 from husky_sim.scene_topic import Scene, TRACK
 from husky_sim.world import World
 import mujoco
 import numpy as np
+
+from husky_sim.config import DriveConfig
 
 SILENCE_SEC = 1.5
 """A simulator that was silent for so long is gone; it publishes at 30 Hz, paused or not."""
@@ -20,7 +23,10 @@ DISCOVERY_SEC = 3.0
 
 FARTHEST_M = 1e6
 LENGTH_ERROR = 0.1  # of a quaternion
-JUMP_M, JUMP_M_S = 0.25, 2.0  # further than this, and this times the time between, is a jump
+_SPEED_LIMIT = next(each for each in settings_of(DriveConfig) if each.name == 'speed_limit_m_s')
+JUMP_M, JUMP_M_S = 0.25, 2.0 * _SPEED_LIMIT.high
+"""Further than this, and this times the time between, is a jump."""
+
 WINDOW_SEC = 1.0
 
 _PLACES = [TRACK.index(name) for name in ('x', 'y', 'odom_x', 'odom_y')]
