@@ -4,9 +4,11 @@
 
 import gc
 from pathlib import Path
+import weakref
 
 from husky_course.robot import RobotStart
-from husky_sim.world import default_worlds, load_world
+from husky_sim.world import default_worlds, load_world, World
+from husky_view.live.node import ViewNode
 from husky_view.live.panel import Panel
 from husky_view.live.simulator import SimulatorQuery
 from husky_view.live.view import LiveView
@@ -18,6 +20,7 @@ from playpen_testing.page_client import PageClient
 from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
+from rclpy.task import Future
 
 SHOWN = (LiveView, Panel, Picture, Cameras, TopGrids)
 
@@ -54,3 +57,17 @@ def test_nothing_stays_of_the_worlds_that_were_shown(domain_id: int, tmp_path: P
     node.destroy_node()
     context.shutdown()
     assert left == []
+
+
+def test_a_world_that_was_waited_for_is_not_kept(domain_id: int) -> None:
+    rclpy.init(args=['--ros-args', '-p', 'viewer_port:=18980'], domain_id=domain_id)
+    node = ViewNode()
+    interrupted: Future[None] = Future()
+    loaded: Future[World] = Future()
+    loaded.set_result(load_world(str(default_worlds() / 'empty.xml'), [RobotStart()]))
+    kept = weakref.ref(node._result_of(loaded, interrupted))
+    del loaded
+    gc.collect()
+    node.destroy_node()
+    rclpy.shutdown()
+    assert kept() is None, 'the interrupt that may come holds it'

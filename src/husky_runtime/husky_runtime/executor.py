@@ -40,13 +40,13 @@ def future_of_signal() -> 'Future[None]':
     return interrupted
 
 
-def spin(node: Node, *, until: 'Future[Any]') -> None:
-    """Spin a node until a future is done."""
+def spin(node: Node, *, until: 'Future[Any]', or_until: 'Future[Any] | None' = None) -> None:
+    """Spin a node until a future is done, or another."""
     executor = make_executor()
     executor.add_node(node)
     # Always with a timeout, and one event at a time: rclpy 7.1.6's EventsExecutor handles signals
     # only between two spins, and ignores the timeout of a longer one while a timer is always due.
-    while not until.done():
+    while not (until.done() or (or_until and or_until.done())):
         executor.spin_once(timeout_sec=SIGNAL_LATENCY_SEC)
     executor.remove_node(node)  # before it is destroyed: the executor may hold its events
     executor.shutdown()

@@ -140,9 +140,8 @@ class ViewNode(Node):
 
     def _result_of(self, future: Future[Any], interrupted: Future[None]) -> Any:
         """Spin until a future is done and return its result; None if interrupted before."""
-        interrupted.add_done_callback(lambda _: future.done() or future.set_result(None))
-        spin(self, until=future)
-        return future.result()
+        spin(self, until=future, or_until=interrupted)
+        return future.result() if future.done() else None
 
     def destroy_node(self) -> None:
         """Close the page; may be called twice."""
