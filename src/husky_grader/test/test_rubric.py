@@ -133,6 +133,10 @@ def test_a_mistake_in_a_step_is_told_with_what_is_allowed(step: str, expected: s
         ('std_msgs/msg/Bool', 'data, equals: 1', 'type boolean; equals must be true or false'),
         ('std_msgs/msg/Int32', 'data, equals: true', 'type int32; equals must be a number'),
         ('std_msgs/msg/Int32', 'data, equals: 0.5', 'type int32; equals must be a whole number'),
+        ('std_msgs/msg/UInt8', 'data, equals: 256', 'type uint8; equals must be from 0 to 255'),
+        ('std_msgs/msg/Int8', 'data, equals: -129', 'type int8; equals must be from -128 to 127'),
+        ('std_msgs/msg/UInt8', 'data, least: 255.5', 'type uint8; least must be 255 or less'),
+        ('std_msgs/msg/UInt64', 'data, most: -1', 'type uint64; most must be 0 or more'),
         ('std_msgs/msg/Float64', "data, equals: '5'", 'type double; equals must be a number'),
         (
             'sensor_msgs/msg/JointState',
@@ -180,6 +184,7 @@ def test_a_message_is_no_field_that_can_be_checked(asked: str) -> None:
     [
         ('std_msgs/msg/Float32', 'data, equals: 5'),
         ('std_msgs/msg/Int32', 'data, equals: 5.0, least: 1'),
+        ('std_msgs/msg/UInt8', 'data, equals: 255, least: -1, most: 1000'),
         ('std_msgs/msg/Bool', "data, equals: true, form: 'True'"),
         ('std_msgs/msg/String', "data, equals: '5'"),
         ('sensor_msgs/msg/LaserScan', 'ranges, least: 0.1, most: 30'),

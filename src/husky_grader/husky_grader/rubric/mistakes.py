@@ -24,7 +24,8 @@ from husky_grader.rubric.steps import (
 
 A_TOKEN = '12345678'
 _ENTRY = re.compile(r'(sequence<)?([\w/]+).*')  # the type of what is in sequence<string<9>, 3>
-_NUMBER = re.compile(r'u?int\d+|float|double')
+_INTEGER = re.compile(r'(u?)int(\d+)')
+_NUMBER = re.compile(rf'{_INTEGER.pattern}|float|double')
 _A_NUMBER = (int, float), 'a number'
 _A_TEXT = (str,), 'a text in quotes'
 _EQUAL = {'boolean': ((bool,), 'true or false'), 'string': _A_TEXT, 'wstring': _A_TEXT}
@@ -112,5 +113,18 @@ def _unfit(check: FieldCheck, entry: str) -> Iterator[str]:
     given = check.equals
     if isinstance(given, (bool, int, float, str)) and type(given) not in fitting:
         yield f'equals must be {words}'
-    elif 'int' in entry and isinstance(given, float) and not given.is_integer():
-        yield 'equals must be a whole number'
+    elif integer := _INTEGER.fullmatch(entry):
+        lowest, highest = _range(*integer.groups())
+        if isinstance(given, float) and not given.is_integer():
+            yield 'equals must be a whole number'
+        elif isinstance(given, (int, float)) and not lowest <= given <= highest:
+            yield f'equals must be from {lowest} to {highest}'
+        if check.least is not None and check.least > highest:
+            yield f'least must be {highest} or less'
+        if check.most is not None and check.most < lowest:
+            yield f'most must be {lowest} or more'
+
+
+def _range(unsigned: str, bits: str) -> tuple[int, int]:
+    values = 2 ** int(bits)
+    return (0, values - 1) if unsigned else (-values // 2, values // 2 - 1)
