@@ -214,6 +214,10 @@ def test_files_that_cannot_be_read_are_refused(bag: Path, tmp_path: Path) -> Non
     (tmp_path / 'latin.yaml').write_bytes(b'\xe4')
     with pytest.raises(BagError, match='is no text in UTF-8'):
         bag_rewrite([StorageOptions(str(bag))], str(tmp_path / 'latin.yaml'))
+    for text in ('[' * 5000, 'a: 2001-99-99'):
+        (tmp_path / 'odd.yaml').write_text(text)
+        with pytest.raises(BagError, match=r"odd\.yaml' is no YAML: m"):  # maximum, month
+            bag_rewrite([StorageOptions(str(bag))], str(tmp_path / 'odd.yaml'))
     with pytest.raises(BagError, match='none'):
         rewrite(tmp_path, '- {uri: new, all_topics: true}', tmp_path / 'none')
     assert not (tmp_path / 'new').exists()

@@ -17,8 +17,9 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 from ros2cli.errors import UsageError
+from rosbag2_py import yaml_files
+from rosbag2_py.errors import BagError
 from rtps_graph import names
-import yaml
 
 DEFAULT_DEPTH = 1000
 """How many messages are kept where nothing says otherwise."""
@@ -56,14 +57,9 @@ def read(path: Path | None) -> dict[str, QoSProfile]:
     if path is None:
         return {}
     try:
-        content = yaml.safe_load(path.read_text(encoding='utf-8'))
-    except OSError as error:
-        raise UsageError(f"{_OPTION} '{path}' cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{_OPTION} '{path}' is no text in UTF-8") from None
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        reason = ' '.join(str(error).split())
-        raise UsageError(f"{_OPTION} '{path}' is no YAML: {reason}") from None
+        content = yaml_files.read(path)
+    except BagError as error:
+        raise UsageError(f'{_OPTION} {error}') from None
     if not isinstance(content, dict):
         raise UsageError(f"{_OPTION} '{path}' names no topic: write /topic: {{depth: 10}}")
     profiles = {}

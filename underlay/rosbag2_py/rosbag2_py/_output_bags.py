@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 import difflib
 from pathlib import Path
 
-import yaml
-
+from rosbag2_py import yaml_files
 from rosbag2_py._fields import Field
 from rosbag2_py._options import StorageOptions
 from rosbag2_py.errors import BagError
@@ -46,14 +45,7 @@ def read_output_bags(path: Path) -> list[OutputBag]:
 
     :raises BagError: there is none, or something in it is not understood.
     """
-    try:
-        content = yaml.safe_load(path.read_text(encoding='utf-8'))
-    except OSError as error:
-        raise BagError(f"'{path}' cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise BagError(f"'{path}' is no text in UTF-8") from None
-    except yaml.YAMLError as error:
-        raise BagError(f"'{path}' is no YAML: {' '.join(str(error).split())}") from None
+    content = yaml_files.read(path)
     bags = content.get(_KEY) if isinstance(content, dict) else None
     if not isinstance(bags, list) or not bags:
         raise BagError(
