@@ -20,6 +20,7 @@ NOT_OURS = (
     *(['demo_nodes_py', 'robot_state_', 'rqt_graph', 'tf2_', 'turtlesim'] if SOURCED else []),
 )
 NUMBER = re.compile(r'\d+(?:\.\d+)?')
+ARCHITECTURE = (ROOT / 'docs' / 'architecture.md').read_text()
 
 
 @pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
@@ -72,3 +73,24 @@ def test_a_drive_prints_what_the_readme_shows(processes: Processes, tmp_path: Pa
         [float(n) for line in lines for n in NUMBER.findall(line)] for lines in (shown, printed)
     ]
     assert values[1] == pytest.approx(values[0], rel=0.05, abs=0.01)
+
+
+def test_the_architecture_names_every_module_and_dependency() -> None:
+    named = set(re.findall(r'`([\w.-]+)', ARCHITECTURE))
+    named |= {word for name in named for word in name.split('.')}
+    parts = {
+        part.stem
+        for package in ROOT.glob('src/*/package.xml')
+        for part in (package.parent / package.parent.name).iterdir()
+        if (part / '__init__.py').is_file() or (part.suffix == '.py' and part.stem != '__init__')
+    }
+    assert len(parts) > 80
+    assert parts - named == set()
+    asked: set[str] = set()
+    for file in ROOT.glob('requirements/*.in'):
+        asked |= set(re.findall(r'^[a-zA-Z][\w-]*', file.read_text(), re.M))
+    for setup in ROOT.glob('src/*/setup.py'):
+        for wanted in re.findall(r'install_requires=\[([^]]*)', setup.read_text()):
+            asked |= set(re.findall(r"'([\w-]+)'", wanted))
+    assert len(asked) > 40
+    assert {name for name in asked - named if not re.fullmatch(r'ros-\w+-msgs', name)} == set()
