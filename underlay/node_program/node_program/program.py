@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import gc
+import os
 import signal
 import sys
 import threading
@@ -18,6 +19,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 BAD_INPUT = 2
+BROKEN_PIPE = 128 + signal.SIGPIPE
 _LATENCY_SEC = 0.1  # the longest time until a signal is handled
 
 AnyNode = TypeVar('AnyNode', bound=Node)
@@ -65,6 +67,10 @@ def run_node(
     gc.freeze()  # no collection, nor the last one, looks at what is there now
     try:
         return use(node, stop)
+    except BrokenPipeError:
+        # Who has read its output (`head`) is gone; Python must not flush into the pipe.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
     finally:
         node.destroy_node()
         rclpy.try_shutdown()

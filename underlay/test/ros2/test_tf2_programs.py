@@ -98,13 +98,19 @@ def test_tf2_echo_prints_what_is_published_in_each_way(
     assert re.match(waiting + 'frame does not exist\n', answer.stderr)
 
 
-def test_tf2_echo_has_more_digits_and_another_rate(processes: Any) -> None:
+def test_tf2_echo_has_more_digits_another_rate_and_an_end(processes: Any) -> None:
     publish(processes, '--x', '0.123456', '--frame-id', 'odom', '--child-frame-id', 'base')
     begin = time.monotonic()
     answer = run('tf2_echo', 'odom', 'base', '-r', '20', '-p', '5', '-l', '10')
     assert time.monotonic() - begin < 5.0
     assert answer.stdout.count('- Translation: [0.12346, 0.00000, 0.00000]\n') == 10
     assert ' 1.00000 0.00000 0.00000 0.12346\n' in answer.stdout
+    # It ends with who reads it, without a word.
+    piped = 'set -o pipefail; ros2 run tf2_ros tf2_echo odom base 20 | grep -m 1 Matrix'
+    answer = subprocess.run(['bash', '-c', piped], capture_output=True, text=True, timeout=30.0)
+    assert answer.stdout == '- Matrix:\n'
+    assert [line for line in answer.stderr.splitlines() if '[INFO]' not in line] == []
+    assert answer.returncode == 128 + signal.SIGPIPE
 
 
 def test_tf2_echo_says_what_is_wrong_once_frames_part(processes: Any, domain: int) -> None:

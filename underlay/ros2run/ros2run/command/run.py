@@ -61,6 +61,8 @@ def _run(path: str, words: list[str], prefix: list[str]) -> int:
         raise CommandError(f"'{path}' cannot be run: {why}")
     try:
         return run_executable(path=path, argv=words, prefix=prefix)
+    except BrokenPipeError:  # how it ended can be told to nobody
+        raise
     except OSError as error:
         program = (prefix or [path])[0]
         reason = error.strerror or str(error)
