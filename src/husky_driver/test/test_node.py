@@ -341,7 +341,7 @@ def test_a_namespace_and_remaps_apply(
         ),
         (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
         (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be of numbers'),
-        (['--waypoints', 'no.yaml'], 'no.yaml: no such file'),
+        (['--ros-args', '-p', 'waypoints:=~/no.yaml'], f'{Path.home()}/no.yaml: no such file'),
         ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
     ],
 )

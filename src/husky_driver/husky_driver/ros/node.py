@@ -71,7 +71,7 @@ class FollowPath(Node):
         arguments.setdefault('automatically_declare_parameters_from_overrides', True)
         super().__init__('follow_path', **arguments)
         refuse_unknown(self.get_parameters_by_prefix(''), names_of(Settings))
-        self.settings = declare_settings(self, Settings, refuse)
+        self.settings = declare_settings(self, Settings, refuse, files=('waypoints', 'world'))
         self.finished: Future[int] = Future()
         self._drive = choose_drive(self.settings, self.get_logger().warning)
         self._display = DriveDisplay(self, self._drive)
