@@ -4,6 +4,7 @@ import json
 import math
 import os
 from pathlib import Path
+import re
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -18,7 +19,7 @@ import jsonschema
 import pytest
 import yaml
 
-# For ten thousand: GENERATED_FILES=10000 ./lab test src/husky_driver/test/test_waypoints.py
+# For ten thousand: GENERATED_FILES=10000 ./lab test src/husky_course/test/test_waypoints.py
 GENERATED_FILES = int(os.environ.get('GENERATED_FILES', '200'))
 
 
@@ -43,9 +44,16 @@ def test_a_complete_file_becomes_the_course_it_describes() -> None:
     assert course.stops == (first, second, third, first)
 
 
-def test_every_course_of_the_lab_is_valid(courses: Path) -> None:
-    loaded = [load_course(path) for path in sorted(courses.glob('*.yaml'))]
-    assert {'central_barrier', 'straight'} <= {course.name for course in loaded}
+def test_every_course_is_valid_and_as_long_as_it_says(courses: Path) -> None:
+    loaded = {path: load_course(path) for path in courses.glob('*.yaml')}
+    assert {'central_barrier', 'straight'} <= {course.name for course in loaded.values()}
+    told = {path: re.search(r'about (\d+) m', path.read_text()) for path in loaded}
+    assert {path.stem: int(found[1]) for path, found in told.items() if found} == {
+        path.stem: round(plan_route(loaded[path]).length_m)
+        for path, found in told.items()
+        if found
+    }
+    assert len(loaded) - list(told.values()).count(None) == 5
 
 
 def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
