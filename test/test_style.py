@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-FOLDERS = ['src', 'underlay', 'test', 'benchmark']
+FOLDERS = ['src', 'underlay', 'test', 'benchmark', 'docs', 'conftest.py']
 
 
 MOST_BYTES = 400_000  # the largest picture of docs has 330 000
