@@ -13,6 +13,7 @@ import os
 from pathlib import Path
 import sys
 from tempfile import TemporaryDirectory
+from typing import Literal
 
 os.environ['PLAYPEN_PICTURES'] = 'docs'  # smooth edges; read when the browser's module is imported
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
@@ -48,11 +49,12 @@ def replay(folder: Path) -> Iterator[Page]:
 
 def go_near(page: Page) -> None:
     """Move the camera so that the course fills what the panel leaves free."""
-    for button_name, by_x, by_y in (('right', -190, 60), ('left', 0, 30)):
+    drags: list[tuple[Literal['left', 'right'], int, int]] = [('right', -190, 60), ('left', 0, 30)]
+    for held, by_x, by_y in drags:
         page.mouse.move(500, 300)
-        page.mouse.down(button=button_name)
+        page.mouse.down(button=held)
         page.mouse.move(500 + by_x, 300 + by_y, steps=4)
-        page.mouse.up(button=button_name)
+        page.mouse.up(button=held)
     for _ in range(5):
         page.mouse.wheel(0.0, -240.0)
     page.mouse.move(830, 400)  # over the panel, no coordinates are shown
