@@ -177,7 +177,9 @@ def test_a_course_is_checked_in_the_world_and_from_the_start_shown(
         cwd=tmp_path,
     )
     view = processes.start(
-        *(*VIEW, 'viewer_port:=18980', '-p', f'waypoints_folder:={tmp_path}'), cwd=tmp_path
+        *(*VIEW, 'viewer_port:=18980', '-p', 'waypoints_folder:=~'),
+        environment={'HOME': str(tmp_path)},
+        cwd=tmp_path,
     )
     view.wait_for_text('look at http://localhost:')
     with PageClient(view.output.split('look at ')[1].split()[0]) as tab:

@@ -15,6 +15,7 @@ from threading import Timer
 import time
 from typing import Any
 
+from husky_runtime.command_line import absolute_path
 from husky_runtime.executor import future_of_signal, spin
 from husky_runtime.web_address import AddressError
 from husky_sim.errors import SimulatorError
@@ -69,7 +70,7 @@ class ViewNode(Node):
         }
         self._looked_at = False
         self._query = SimulatorQuery(self, settings['simulator'])
-        self._folder = Path(settings['waypoints_folder'] or waypoint_folder())
+        self._folder = Path(absolute_path(settings['waypoints_folder']) or waypoint_folder())
         self._server = PageServer(
             settings['viewer_host'],
             settings['viewer_port'],
