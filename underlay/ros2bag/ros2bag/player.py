@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 import time
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from ros2cli import discovery, interfaces
 from ros2cli.errors import CommandError
@@ -21,6 +22,7 @@ from rtps_graph.graph import Role
 from ros2bag.qos_overrides import DEFAULT_DEPTH
 
 _MATCH_TIMEOUT_SEC = 2.0
+_ONE_WAIT = Duration(seconds=0.05)  # in which an interrupt is not heard
 
 
 def play(
@@ -132,3 +134,14 @@ def wait_for_subscriptions(node: CommandNode, publishers: list[Any]) -> None:
         lambda: all(p.get_subscription_count() >= wanted[p.topic_name] for p in publishers),
         _MATCH_TIMEOUT_SEC,
     )
+
+
+def wait_for_acknowledgements(
+    node: CommandNode, publishers: Collection[Any], timeout_sec: float | None
+) -> None:
+    """Wait until all that was published reliably has arrived, or the time is over.
+
+    A subscription of a process that is stopped acknowledges nothing.
+    """
+    reliable = [p for p in publishers if p.qos_profile.reliability == ReliabilityPolicy.RELIABLE]
+    node.spin_until(lambda: all(p.wait_for_all_acked(_ONE_WAIT) for p in reliable), timeout_sec)

@@ -47,6 +47,12 @@ def listener(node: Node) -> None:
     node.create_subscription(String, 'chatter', lambda msg: print(f'heard {msg.data}'), 1000)
 
 
+def listener_that_stops(node: Node) -> None:
+    node.create_subscription(
+        String, 'chatter', lambda _: os.kill(os.getpid(), signal.SIGSTOP), 1000
+    )
+
+
 def latched(node: Node) -> None:
     node.create_publisher(String, 'latched', LATCHED).publish(String(data='once'))
 

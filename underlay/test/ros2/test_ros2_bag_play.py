@@ -15,8 +15,13 @@ from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
+import rclpy
+from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
+from ros2bag import player
+from ros2cli.node.direct import command_node
 from rosbag2_py import TopicMetadata
 from std_msgs.msg import String
 
@@ -106,6 +111,26 @@ def test_a_bad_file_of_qualities_is_refused(
     answer = ros2('bag', 'play', str(bag), '--qos-profile-overrides-path', 'qos.yaml')
     assert (answer.status, answer.err.count('\n')) == (2, 1)
     assert "depth: 'many' must be a whole number" in answer.err
+
+
+def test_play_ends_although_a_listener_has_stopped(
+    write_bag: Callable[..., Path], processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('listener_that_stops', 'listener')
+    assert ros2('bag', 'play', str(write_bag({'/chatter': STRING}))).status == 0
+
+
+def test_an_interrupt_ends_the_wait_for_a_listener(domain: int) -> None:
+    class Unheard:
+        qos_profile = QoSProfile(depth=1)
+
+        def wait_for_all_acked(self, timeout: Duration) -> bool:
+            assert timeout.nanoseconds < 1e9
+            rclpy.shutdown()  # what rclpy does for SIGINT
+            return False
+
+    with pytest.raises(KeyboardInterrupt), command_node() as node:
+        player.wait_for_acknowledgements(node, [Unheard()], None)
 
 
 @pytest.fixture

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 
-from rclpy.qos import ReliabilityPolicy
 from ros2cli import arguments
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node
@@ -21,6 +20,7 @@ from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
 
 _DEFAULT_CLOCK_HZ = 40.0
+_DEFAULT_ACKNOWLEDGED_MS = 1000
 
 
 class PlayVerb(VerbExtension):
@@ -62,6 +62,14 @@ class PlayVerb(VerbExtension):
             help='Start the playback player this many seconds into the bag file.',
         )
         _add_end(parser)
+        parser.add_argument(
+            '--wait-for-all-acked',
+            type=arguments.nonnegative_int,
+            default=_DEFAULT_ACKNOWLEDGED_MS,
+            metavar='MILLISECONDS',
+            help='At the end, wait so long at most until all that was published reliably has '
+            'arrived; 0 for as long as it takes (default: %(default)s).',
+        )
         without_effect.add_numbers(parser, '--read-ahead-queue-size')
         without_effect.add_flags(parser, '--disable-keyboard-controls', '--disable-loan-message')
         qos_overrides.add_argument(parser)
@@ -81,9 +89,8 @@ class PlayVerb(VerbExtension):
                 player.play(node, args, bag, publishers, clock)
                 if not args.loop:
                     break
-            for publisher in publishers.values():
-                if publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE:
-                    publisher.wait_for_all_acked()
+            timeout_sec = args.wait_for_all_acked / 1000.0 or None
+            player.wait_for_acknowledgements(node, publishers.values(), timeout_sec)
 
 
 def _add_choice(parser: argparse.ArgumentParser) -> None:
