@@ -28,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--truncate-length',
         '-l',
         type=arguments.nonnegative_int,
-        default=_TRUNCATE_LENGTH,
-        help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
+        help='The length to truncate arrays, bytes, and string to '
+        f'(default: {_TRUNCATE_LENGTH} in a message)',
     )
     arguments.add_flags(
         parser,
@@ -49,7 +49,9 @@ def show(value: Any, args: argparse.Namespace, info: dict[str, Any] | None = Non
     if not hasattr(value, 'get_fields_and_field_types'):
         if info is not None:
             print(f'---Got new message, message info:---\n{info}\n---Message data:---')
-        print(_plain(value, _length(args)), end='\n' if args.csv else '\n---\n')
+        # As upstream, in full: a script that asks for a field goes on with what it holds.
+        length = None if args.full_length else args.truncate_length
+        print(_plain(value, length), end='\n' if args.csv else '\n---\n')
     elif args.csv:
         told = [] if info is None else map(str, info.values())
         print(','.join([*told, message_to_csv(value, **_options(args))]))
@@ -68,7 +70,9 @@ def _options(args: argparse.Namespace) -> dict[str, Any]:
 
 
 def _length(args: argparse.Namespace) -> int | None:
-    return None if args.full_length else args.truncate_length
+    if args.full_length:
+        return None
+    return _TRUNCATE_LENGTH if args.truncate_length is None else args.truncate_length
 
 
 def _plain(value: Any, length: int | None) -> Any:

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import argparse
+from array import array
 from collections.abc import Callable
 import re
 import signal
@@ -14,6 +16,8 @@ from playpen_testing.processes import find_line
 import pytest
 import rclpy
 from ros2cli.node.direct import command_node
+from ros2topic import printing
+from std_msgs.msg import String
 
 
 @pytest.fixture(scope='module')
@@ -51,6 +55,22 @@ def test_echo_shows_a_field_or_a_line(ros2: Callable[..., Any]) -> None:
     assert field.lines == ['x: 1.5', 'y: 0.0', 'z: 0.0', '---']
     line = ros2('topic', 'echo', '--once', '--csv', '/stamped')
     assert line.out.endswith(',,1.5,0.0,0.0,0.0,0.0,0.0\n')
+
+
+def test_a_field_is_cut_only_where_a_length_is_given(capsys: pytest.CaptureFixture[str]) -> None:
+    parser = argparse.ArgumentParser()
+    printing.add_arguments(parser)
+
+    def shown(value: Any, *words: str) -> str:
+        printing.show(value, parser.parse_args(words))
+        return capsys.readouterr().out
+
+    text, numbers = 'a' * 200, array('h', range(200))
+    assert shown(text) == shown(text, '-f', '-l', '3') == f'{text}\n---\n'
+    assert shown(numbers) == f'{numbers}\n---\n'
+    assert shown(text, '-l', '3') == 'aaa...\n---\n'
+    assert shown(String(data=text)) == f'data: {text[:128]}...\n---\n'
+    assert shown(String(data=text), '-f') == f'data: {text}\n---\n'
 
 
 @pytest.mark.usefixtures('world')
