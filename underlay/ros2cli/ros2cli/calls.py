@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+import math
+import sys
 import time
 from typing import Any
 
 import rclpy
 from rclpy.node import Node
+from rclpy.task import Future
 
 from ros2cli.discovery import SOON_SEC, why_unanswered
 from ros2cli.errors import CommandError, ServiceTimeout
@@ -18,19 +21,27 @@ _TIMEOUT_SEC = 5.0
 _POLL_SEC = 0.02
 
 
-def call(node: Any, service_class: Any, name: str, request: Any) -> Any:
+def call(
+    node: Any, service_class: Any, name: str, request: Any, *, may_take_long: bool = False
+) -> Any:
     """Call a service and return its response.
 
     :param node: what calls: a node of rclpy, or one of ros2cli, which has such a node.
+    :param may_take_long: await the answer for as long as the service is there; after 5 s a hint
+        on stderr says so.
     :raises CommandError: the service or its answer took longer than 5 s, or the call failed.
     """
-    (answer,) = call_all(node, service_class, {name: request}).values()
+    (answer,) = call_all(
+        node, service_class, {name: request}, may_take_long=may_take_long
+    ).values()
     if isinstance(answer, Exception):
         raise answer
     return answer
 
 
-def call_all(node: Any, service_class: Any, requests: Mapping[str, Any]) -> dict[str, Any]:
+def call_all(
+    node: Any, service_class: Any, requests: Mapping[str, Any], *, may_take_long: bool = False
+) -> dict[str, Any]:
     """Call services side by side; return for each name its response, or what `call` raises."""
     node = getattr(node, 'node', node)
     clients = {name: node.create_client(service_class, name) for name in requests}
@@ -49,10 +60,26 @@ def call_all(node: Any, service_class: Any, requests: Mapping[str, Any]) -> dict
         awaited = [futures[name] for name in waiting if name not in in_vain]
         left_sec = _TIMEOUT_SEC - SOON_SEC
         _spin_until(node, lambda: all(future.done() for future in awaited), left_sec)
+        if may_take_long:
+            late = [name for name in waiting if name not in in_vain and not futures[name].done()]
+            _await_late(node, {name: (clients[name], futures[name]) for name in late})
         return {name: _outcome(name, futures.get(name), in_vain.get(name)) for name in requests}
     finally:
         for client in clients.values():
             node.destroy_client(client)
+
+
+def _await_late(node: Node, calls: Mapping[str, tuple[Any, Future]]) -> None:
+    """Wait until each service, by its name, has answered or is gone."""
+    for name in calls:
+        print(f'hint: {_late(name)}; Ctrl-C ends the waiting', file=sys.stderr)
+    _spin_until(
+        node,
+        lambda: all(
+            future.done() or not client.service_is_ready() for client, future in calls.values()
+        ),
+        math.inf,
+    )
 
 
 def _spin_until(node: Node, done: Callable[[], bool], timeout_sec: float) -> None:
@@ -71,10 +98,11 @@ def _outcome(name: str, future: Any, in_vain: str | None) -> Any:
     if future is None:
         return ServiceTimeout(f"Wait for service timed out: '{name}' does not answer")
     if not future.done():
-        return CommandError(
-            in_vain
-            or f"'{name}' gave no answer within {_TIMEOUT_SEC:g} s; its node is busy or stopped"
-        )
+        return CommandError(in_vain or _late(name))
     if future.exception() is not None:
         return CommandError(f"Exception while calling service '{name}': {future.exception()}")
     return future.result()
+
+
+def _late(name: str) -> str:
+    return f"'{name}' gave no answer within {_TIMEOUT_SEC:g} s; its node is busy or stopped"

@@ -65,7 +65,7 @@ def test_a_container_is_known_by_its_services() -> None:
 def test_a_component_is_requested_as_it_is_described(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[Any] = []
 
-    def answer(node: Any, service: Any, name: str, request: Any) -> Any:
+    def answer(node: Any, service: Any, name: str, request: Any, **_: bool) -> Any:
         asked.extend((name, request))
         good = request.plugin_name == 'demo::Talker'
         return SimpleNamespace(

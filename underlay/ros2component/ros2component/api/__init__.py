@@ -160,9 +160,8 @@ def load_component_into_container(
         plugin_name=plugin_name,
         **{name: value for name, value in given.items() if value is not None},
     )
-    response = calls.call(
-        node, LoadNode, f'{remote_container_node_name}/_container/load_node', request
-    )
+    name = f'{remote_container_node_name}/_container/load_node'
+    response = calls.call(node, LoadNode, name, request, may_take_long=True)
     if not response.success:
         raise CommandError(f'Failed to load component: {response.error_message.capitalize()}')
     return response.unique_id, response.full_node_name
@@ -180,7 +179,8 @@ def unload_component_from_container(
 
     name = f'{remote_container_node_name}/_container/unload_node'
     for uid in component_uids:
-        response = calls.call(node, UnloadNode, name, UnloadNode.Request(unique_id=uid))
+        request = UnloadNode.Request(unique_id=uid)
+        response = calls.call(node, UnloadNode, name, request, may_take_long=True)
         yield uid, not response.success, response.error_message
 
 

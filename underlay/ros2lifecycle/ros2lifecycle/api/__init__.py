@@ -55,9 +55,9 @@ def call_get_transition_graph(
 def call_change_states(
     *, node: Any, transitions: Mapping[str, Transition]
 ) -> dict[str, bool | Exception]:
-    """Request a transition of each node; return whether it was made."""
+    """Request a transition of each node, which may take long; return whether it was made."""
     requests = {name: ChangeState.Request(transition=each) for name, each in transitions.items()}
-    return _ask(node, ChangeState, 'change_state', requests, 'success')
+    return _ask(node, ChangeState, 'change_state', requests, 'success', may_take_long=True)
 
 
 def _transitions(node: Any, states: Mapping[str, State | None], service: str) -> dict[str, Any]:
@@ -70,11 +70,16 @@ def _transitions(node: Any, states: Mapping[str, State | None], service: str) ->
 
 
 def _ask(
-    node: Any, service_class: Any, service: str, requests: Mapping[str, Any], attribute: str
+    node: Any,
+    service_class: Any,
+    service: str,
+    requests: Mapping[str, Any],
+    attribute: str,
+    **options: bool,
 ) -> dict[str, Any]:
     """Call a service of each node; return one attribute of each response."""
     named = {f'{name}/{service}': request for name, request in requests.items()}
-    answers = calls.call_all(node, service_class, named).values()
+    answers = calls.call_all(node, service_class, named, **options).values()
     return {
         name: answer if isinstance(answer, Exception) else getattr(answer, attribute)
         for name, answer in zip(requests, answers, strict=True)

@@ -1,0 +1,56 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""How long a command awaits the answer of a service."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from rclpy.task import Future
+from ros2cli import calls
+from ros2cli.errors import CommandError
+
+
+class SlowNode:
+    """A node that is its own executor and client; the answer comes with the third spin."""
+
+    def __init__(self) -> None:
+        self.executor = self
+        self.future = Future()
+        self.spins = 0
+
+    def add_node(self, _: Any) -> bool:
+        return False
+
+    def spin_once(self, timeout_sec: float) -> None:
+        self.spins += 1
+        if self.spins == 3:
+            self.future.set_result('configured')
+
+    def create_client(self, *_: Any) -> Any:
+        return self
+
+    def destroy_client(self, _: Any) -> None:
+        pass
+
+    def service_is_ready(self) -> bool:
+        return True
+
+    def call_async(self, _: Any) -> Future:
+        return self.future
+
+
+def test_an_answer_that_may_take_long_is_awaited(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(calls, '_TIMEOUT_SEC', 0.0)
+    monkeypatch.setattr(calls, 'SOON_SEC', 0.0)
+    monkeypatch.setattr(calls, 'why_unanswered', lambda _: {})
+    late = "'/motor/change_state' gave no answer within 0 s; its node is busy or stopped"
+    with pytest.raises(CommandError, match=late):
+        calls.call(SlowNode(), None, '/motor/change_state', None)
+    assert capsys.readouterr().err == ''
+    answer = calls.call(SlowNode(), None, '/motor/change_state', None, may_take_long=True)
+    assert answer == 'configured'
+    assert capsys.readouterr().err == f'hint: {late}; Ctrl-C ends the waiting\n'
