@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+import contextlib
 import os
 from pathlib import Path
 
@@ -11,6 +13,7 @@ from pathlib import Path
 _PORT_BASE, _DOMAIN_GAIN, _PARTICIPANT_GAIN, _UNICAST_OFFSET = 7400, 250, 2, 10
 MAX_PARTICIPANTS = 120
 MULTICAST_ADDRESS = '239.255.0.1'
+_ADDRESS, _USER, _INODE = 1, 7, 9  # the columns of /proc/net/udp, see proc(5)
 
 
 def multicast_port(domain_id: int) -> int:
@@ -37,16 +40,40 @@ def bound_udp_ports(*, own: bool = False) -> set[int] | None:
 
     None where the kernel does not say.
     """
-    ports: set[int] = set()
-    found = False
+    sockets = _udp_sockets()
+    if sockets is None:
+        return None
+    return {_port(each) for each in sockets if not own or int(each[_USER]) == os.getuid()}
+
+
+def stopped_ports(ports: Collection[int]) -> set[int]:
+    """Tell which UDP ports belong to a process that is stopped, by Ctrl-Z or a debugger.
+
+    The processes of other users are not looked at.
+    """
+    sockets = {
+        f'socket:[{each[_INODE]}]': _port(each)
+        for each in _udp_sockets() or ()
+        if _port(each) in ports
+    }
+    stopped: set[str] = set()
+    for process in Path('/proc').glob('[0-9]*'):
+        with contextlib.suppress(OSError):  # it has ended, or is another user's
+            state = (process / 'stat').read_text(errors='replace').rpartition(')')[2].split()[0]
+            if state in 'Tt':
+                stopped.update(map(os.readlink, (process / 'fd').iterdir()))
+    return {port for name, port in sockets.items() if name in stopped}
+
+
+def _udp_sockets() -> list[list[str]] | None:
+    """Return the columns of what proc(5) tells of each UDP socket; None where it tells nothing."""
+    sockets: list[list[str]] | None = None
     for table in ('/proc/net/udp', '/proc/net/udp6'):
-        try:
+        with contextlib.suppress(OSError):
             lines = Path(table).read_text(encoding='ascii').splitlines()[1:]
-        except OSError:
-            continue
-        found = True
-        for columns in map(str.split, lines):
-            # local address:port is the second column, the user id the eighth (proc(5)).
-            if not own or int(columns[7]) == os.getuid():
-                ports.add(int(columns[1].rpartition(':')[2], 16))
-    return ports if found else None
+            sockets = [*(sockets or ()), *map(str.split, lines)]
+    return sockets
+
+
+def _port(columns: list[str]) -> int:
+    return int(columns[_ADDRESS].rpartition(':')[2], 16)

@@ -21,6 +21,7 @@ from rtps_graph import announcements, host, wire
 from rtps_graph.participant import Participant, Samples
 
 _RETRY_SEC = 0.03
+_LOOK_SEC = 0.5  # so long a participant may be silent before its process is looked at
 # The readers of the built-in writers; every other writer is that of the graph topic.
 _READERS = {
     wire.PUBLICATIONS_WRITER: wire.PUBLICATIONS_READER,
@@ -41,6 +42,7 @@ class Observer:
         self.domain_id = domain_id
         self.participants: dict[bytes, Participant] = {}
         self.unanswered: set[int] = set()  # ports of this host's participants that kept silent
+        self._stopped: set[int] = set()  # those of them whose process is stopped
         self._subnet = subnet
         self._static_peers = static_peers
         self._addresses = _own_addresses(remote=subnet or bool(static_peers))
@@ -66,27 +68,34 @@ class Observer:
         self._socket.close()
 
     def observe(self, *, timeout_sec: float, settle_sec: float = 0.3) -> bool:
-        """Read until everything is known; False where `timeout_sec` passed before that.
+        """Read until everything is known; False where something that is there is not.
+
+        That is so where `timeout_sec` passed before, or where a process is stopped.
 
         :param settle_sec: how long nothing new may come before other hosts count as complete.
         """
         start = self._news_sec = time.monotonic()
-        retry = 0.0
+        retry, look = 0.0, start + _LOOK_SEC
         while (now := time.monotonic()) < start + timeout_sec:
             if now >= retry:
                 expected = self._count()
                 self._ask_again(expected)
                 retry = now + _RETRY_SEC
+            if self.unanswered and now >= look:
+                self._stopped = host.stopped_ports(self.unanswered)
+                look = now + _LOOK_SEC
             counted = expected is not None and not self._subnet and not self._static_peers
             if self._is_complete(expected) and (counted or now - self._news_sec >= settle_sec):
-                return True
+                return not self.unanswered
             self._receive(retry - time.monotonic())
         return False
 
     def _is_complete(self, expected: set[int] | None) -> bool:
         answered = {p.discovery_port for p in self.participants.values()}
         self.unanswered = (expected or set()) - answered
-        return not self.unanswered and all(p.complete for p in self.participants.values())
+        if not self.unanswered <= self._stopped:
+            return False
+        return all(p.complete for p in self.participants.values())
 
     def _count(self) -> set[int] | None:
         """Return the discovery ports of this host's participants; None if it cannot be known.

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import os
 from pathlib import Path
 import signal
 import socket
@@ -181,11 +182,17 @@ def test_services_are_listed(ros2: Callable[..., Any]) -> None:
 
 
 def test_a_stopped_process_is_named_and_the_others_are_shown(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, domain: int, ros2: Callable[..., Any]
 ) -> None:
     processes.node('plain', 'awake')
     asleep = processes.node('plain', 'asleep')
     asleep.send_signal(signal.SIGSTOP)
+    os.waitid(os.P_PID, asleep.pid, os.WSTOPPED)
+    start = time.monotonic()
+    with Observer(domain_id=domain) as observer:
+        assert not observer.observe(timeout_sec=20.0), 'one of them cannot answer'
+        assert len(observer.unanswered) == 1
+    assert time.monotonic() - start < 10.0, 'it waits for one that is stopped'
     answer = ros2('node', 'list')
     assert answer.lines == ['/awake']
     assert 'hint: ' in answer.err
