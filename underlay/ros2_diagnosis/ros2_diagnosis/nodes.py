@@ -13,6 +13,7 @@ from rtps_graph.graph import Graph, Node, Role
 from ros2_diagnosis.finding import Finding
 
 _CLOCK = '/clock'
+_COMMAND = 'a `ros2` command'
 # Topics of which one robot has one publisher: two would contradict each other.
 _SINGLE_PUBLISHER_ENDS = (
     'odometry/filtered',
@@ -68,21 +69,26 @@ def _competing_publishers(graph: Graph) -> Iterator[tuple[str, list[Node]]]:
 
 def shown_name(node: Node) -> str:
     is_command = node.full_name.startswith(f'/{names.COMMAND_NODE}')
-    return 'a `ros2` command' if is_command else node.full_name
+    return _COMMAND if is_command else node.full_name
 
 
 def check_clock(graph: Graph) -> Iterator[Finding]:
     """Find nodes that use simulation time while nothing publishes the clock."""
-    waiting = sorted(
-        {graph.node_of(e).full_name for e in graph.with_role(Role.SUBSCRIPTION, _CLOCK)}
-    )
+    subscribers = map(graph.node_of, graph.with_role(Role.SUBSCRIPTION, _CLOCK))
+    waiting = sorted({shown_name(node) for node in subscribers})
     if waiting and not graph.with_role(Role.PUBLISHER, _CLOCK):
         yield Finding(
             ', '.join(waiting),
             f'use_sim_time is true, but nobody publishes {_CLOCK}, so that its time stands still '
             'at 0 and its timers never fire',
-            f'start the simulator, or run `ros2 param set {waiting[0]} use_sim_time false`',
+            f'start the simulator, or {_without_clock(waiting[0])}',
         )
+
+
+def _without_clock(name: str) -> str:
+    if name == _COMMAND:
+        return 'leave out --use-sim-time'
+    return f'run `ros2 param set {name} use_sim_time false`'
 
 
 def check_vendors(graph: Graph, service: str | None = None) -> Iterator[Finding]:

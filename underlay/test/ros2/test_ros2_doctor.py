@@ -16,7 +16,9 @@ from husky_runtime.domains import OwnDomain
 from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
+from ros2_diagnosis import nodes
 from ros2doctor import api
+from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
 
 
 def _line(answer: Any, check: str) -> str:
@@ -76,6 +78,15 @@ def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any
     line = _line(ros2('wtf'), 'clock')
     assert '/waits: use_sim_time is true, but nobody publishes /clock' in line
     assert '`ros2 param set /waits use_sim_time false`' in line
+
+
+def test_a_command_that_waits_for_the_clock_is_told_its_option() -> None:
+    qos = Qos(True, False, None, None, False, None)
+    clock = Endpoint(b'1', Role.SUBSCRIPTION, '/clock', 'rosgraph_msgs/msg/Clock', '', qos)
+    command = Node('_ros2cli_7', '/', [clock])
+    (finding,) = nodes.check_clock(Graph([command], [clock]))
+    assert str(finding).startswith('a `ros2` command: use_sim_time is true, but')
+    assert str(finding).endswith('start the simulator, or leave out --use-sim-time')
 
 
 def test_two_nodes_of_one_name(processes: Any, ros2: Callable[..., Any]) -> None:
