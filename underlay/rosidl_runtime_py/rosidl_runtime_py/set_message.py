@@ -21,6 +21,7 @@ from rosidl_runtime_py.numpy_values import is_numpy
 
 _HEADER = (('std_msgs', 'msg'), 'Header')
 _TIME = (('builtin_interfaces', 'msg'), 'Time')
+_TRUTHS = {'true': True, 'yes': True, 'on': True, 'false': False, 'no': False, 'off': False}
 _FLOAT32_END = 3.402823466e38
 """Where the check that rosidl generates ends: below the largest float32, by rounding."""
 
@@ -158,6 +159,8 @@ def _string(value: Any, kind: Any, path: str) -> str:
 
 def _scalar(value: Any, typename: str, path: str) -> Any:
     if typename == 'boolean':
+        if isinstance(value, str):  # in quotes, so that YAML has not read it
+            value = _TRUTHS.get(value.lower(), value)
         if isinstance(value, bool) or is_numpy(value, 'bool_') or value in (0, 1):
             return bool(value)
         raise TypeError(f"{path}: '{value}' is refused, expected true or false")

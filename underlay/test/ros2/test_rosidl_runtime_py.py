@@ -33,7 +33,7 @@ from rosidl_runtime_py.utilities import (
     get_service,
 )
 from sensor_msgs.msg import Imu, JointState
-from std_msgs.msg import Header, String, UInt8MultiArray
+from std_msgs.msg import Bool, Header, String, UInt8MultiArray
 import yaml
 
 
@@ -99,6 +99,13 @@ def test_arrays_of_messages_bytes_and_numbers_are_filled() -> None:
     polygon = Polygon()
     set_message_fields(polygon, {'points': [{'x': 1}]})
     assert polygon.points[0].x == 1.0
+
+
+def test_a_truth_may_stand_in_quotes() -> None:
+    for text, truth in (('true', True), ('True', True), ('off', False), ('FALSE', False)):
+        msg = Bool(data=not truth)
+        set_message_fields(msg, {'data': text})
+        assert msg.data is truth
 
 
 def test_auto_and_now_give_functions_that_set_the_time() -> None:
