@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 import copy
+import sys
 from typing import Any
 
 from rclpy.duration import Duration
@@ -27,6 +28,10 @@ _POLICIES = {
     'durability': (DurabilityPolicy, 'Quality of service durability'),
     'liveliness': (LivelinessPolicy, 'Quality of service liveliness'),
 }
+_NOT_BEFORE = (
+    'but brings nothing that was published before; --qos-reliability reliable '
+    '--qos-durability transient_local does'
+)
 
 
 def add_qos_arguments(
@@ -116,15 +121,32 @@ def profile(args: argparse.Namespace) -> QoSProfile:
 
 
 def profile_for(args: argparse.Namespace, publishers: Sequence[Endpoint]) -> QoSProfile:
-    """Build a subscription's profile that fits what is published, unless options ask otherwise."""
+    """Build a subscription's profile that fits what is published, unless options ask otherwise.
+
+    Where publishers differ a hint on stderr says what is chosen.
+    """
     chosen = profile(args)
     if not publishers or any(value is not None for value in _overrides(args).values()):
         return chosen
-    reliable = all(endpoint.qos.reliable for endpoint in publishers)
-    chosen.reliability = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
-    latched = all(endpoint.qos.transient_local for endpoint in publishers)
-    chosen.durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+    reliable = [endpoint.qos.reliable for endpoint in publishers]
+    latched = [endpoint.qos.transient_local for endpoint in publishers]
+    chosen.reliability = (
+        ReliabilityPolicy.RELIABLE if all(reliable) else ReliabilityPolicy.BEST_EFFORT
+    )
+    chosen.durability = (
+        DurabilityPolicy.TRANSIENT_LOCAL if all(latched) else DurabilityPolicy.VOLATILE
+    )
+    _hint_where_mixed(reliable, 'RELIABLE', 'BEST_EFFORT, which fits all')
+    _hint_where_mixed(latched, 'TRANSIENT_LOCAL', f'VOLATILE, which fits all {_NOT_BEFORE}')
     return chosen
+
+
+def _hint_where_mixed(offered: Sequence[bool], policy: str, chosen: str) -> None:
+    if any(offered) and not all(offered):
+        print(
+            f'hint: not all publishers are {policy}, so that echo asks for {chosen}',
+            file=sys.stderr,
+        )
 
 
 def _overrides(args: argparse.Namespace) -> dict[str, Any]:

@@ -15,8 +15,10 @@ from typing import Any
 from playpen_testing.processes import find_line
 import pytest
 import rclpy
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from ros2cli.node.direct import command_node
-from ros2topic import printing
+from ros2topic import printing, qos
+from rtps_graph.graph import Endpoint, Qos, Role
 from std_msgs.msg import String
 
 
@@ -71,6 +73,33 @@ def test_a_field_is_cut_only_where_a_length_is_given(capsys: pytest.CaptureFixtu
     assert shown(text, '-l', '3') == 'aaa...\n---\n'
     assert shown(String(data=text)) == f'data: {text[:128]}...\n---\n'
     assert shown(String(data=text), '-f') == f'data: {text}\n---\n'
+
+
+def test_echo_says_where_publishers_offer_different_things(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    parser = argparse.ArgumentParser()
+    qos.add_qos_arguments(parser, 'subscribe', 'sensor_data')
+
+    def offers(*, reliable: bool, transient_local: bool) -> Endpoint:
+        offered = Qos(reliable, transient_local, None, None, False, None)
+        return Endpoint(b'1', Role.PUBLISHER, '/tf_static', 'tf2_msgs/msg/TFMessage', '', offered)
+
+    latched = offers(reliable=True, transient_local=True)
+    unlike = offers(reliable=False, transient_local=False)
+    for publishers in ([latched, latched], [unlike, unlike]):
+        qos.profile_for(parser.parse_args([]), publishers)
+    qos.profile_for(parser.parse_args(['--qos-depth', '9']), [latched, unlike])
+    assert capsys.readouterr().err == ''
+    chosen = qos.profile_for(parser.parse_args([]), [latched, unlike])
+    assert chosen.reliability == ReliabilityPolicy.BEST_EFFORT
+    assert chosen.durability == DurabilityPolicy.VOLATILE
+    assert capsys.readouterr().err.splitlines() == [
+        'hint: not all publishers are RELIABLE, so that echo asks for BEST_EFFORT, which fits all',
+        'hint: not all publishers are TRANSIENT_LOCAL, so that echo asks for VOLATILE, which fits '
+        'all but brings nothing that was published before; --qos-reliability reliable '
+        '--qos-durability transient_local does',
+    ]
 
 
 @pytest.mark.usefixtures('world')
