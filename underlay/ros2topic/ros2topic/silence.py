@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 import sys
+import threading
 
 from ros2_diagnosis import connections, nodes
 from ros2_diagnosis.finding import Finding
@@ -14,6 +16,7 @@ from ros2cli.node.direct import CommandNode
 from rtps_graph.graph import Graph, Role
 
 _SILENCE_SEC = 2.0
+_FAREWELL_SEC = 1.0  # so long an interrupt lets a reading end and say that it is over
 
 
 def hint_when_silent(
@@ -31,8 +34,28 @@ def hint_when_silent(
     if count := dropped():
         print(f'hint: {topic}: the filter let none of {count} messages pass', file=sys.stderr)
         return
-    for finding in why_silent(discovery.read_graph(quiet=True), topic):
+    graph = _graph_read_meanwhile(node)
+    for finding in () if arrived() else why_silent(graph, topic):
         print(f'hint: {finding}', file=sys.stderr)
+
+
+def _graph_read_meanwhile(node: CommandNode) -> Graph:
+    """Read the graph, while the node takes what comes: a rate of another topic would be wrong."""
+    reading: Future[Graph] = Future()
+
+    def read() -> None:
+        try:
+            reading.set_result(discovery.read_graph(quiet=True))
+        except Exception as error:
+            reading.set_exception(error)
+
+    thread = threading.Thread(target=read, daemon=True)
+    thread.start()
+    try:
+        node.spin_until(reading.done)
+    finally:
+        thread.join(_FAREWELL_SEC)
+    return reading.result()
 
 
 def hint_when_not_received(topic: str) -> None:

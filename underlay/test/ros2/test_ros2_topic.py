@@ -9,16 +9,19 @@ from array import array
 from collections.abc import Callable
 import re
 import signal
+import threading
 import time
 from typing import Any
 
 from playpen_testing.processes import find_line
+from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from ros2cli import discovery
 from ros2cli.node.direct import command_node
-from ros2topic import printing, qos
-from rtps_graph.graph import Endpoint, Qos, Role
+from ros2topic import printing, qos, silence
+from rtps_graph.graph import Endpoint, Graph, Qos, Role
 from std_msgs.msg import String
 
 
@@ -162,6 +165,30 @@ def test_hz_tells_of_a_filter_that_lets_nothing_pass(world: Any) -> None:
     process = world.ros2('topic', 'hz', '/chatter', '--filter', "m.data == ''")
     hint = find_line(process.stdout, '^hint: (.*)')[1]
     assert re.fullmatch(r'/chatter: the filter let none of \d+ messages pass', hint)
+
+
+def test_a_topic_is_listened_to_while_the_hint_is_looked_for(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    listening = threading.Event()
+
+    class Silent:
+        def spin_until(self, done: Callable[[], bool], timeout_sec: float | None = None) -> bool:
+            if timeout_sec is None:
+                listening.set()
+                wait_until(done, timeout_sec=5.0, what='the graph')
+            return False
+
+    def read_graph(*, quiet: bool) -> Graph:
+        assert listening.wait(5.0), 'what comes meanwhile is missed'
+        return Graph([], [])
+
+    monkeypatch.setattr(discovery, 'read_graph', read_graph)
+    node: Any = Silent()
+    silence.hint_when_silent(node, '/silence', listening.is_set)
+    assert capsys.readouterr().err == ''  # something has come after all
+    silence.hint_when_silent(node, '/silence', lambda: False)
+    assert capsys.readouterr().err.startswith('hint: /silence: nobody publishes it; ')
 
 
 def test_bw_and_delay_measure_too(world: Any) -> None:
