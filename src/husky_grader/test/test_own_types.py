@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rubrics with types of their own, and steps with a Husky beside: built, run and judged."""
 
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 import errno
 import fcntl
@@ -18,7 +19,7 @@ from husky_grader.jail import find_sandbox
 from husky_grader.lab.lab import grade_lab
 from husky_grader.rubric.own_types import build_types
 from husky_grader.rubric.rubric_file import load_rubric
-from husky_grader.rubric.steps import BuildStep, Rubric
+from husky_grader.rubric.steps import BuildStep, PublisherStep, Rubric
 from playpen_testing.which_ros import SOURCED
 import pytest
 
@@ -64,74 +65,109 @@ def main():
 """
 
 
-@pytest.fixture(autouse=True)
-def surroundings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Build types anew, and let programs find each other quickly."""
+# Each a program of the package odometer.
+PROGRAMS = {
+    'odometer': ODOMETER,
+    'forgets': ODOMETER.replace('+= math', '= math'),
+    'guesses': ODOMETER.replace('distance_m=self.distance', 'distance_m=1.3'),
+}
+
+
+@pytest.fixture(scope='module')
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Build types anew, once for all that only use them, and let programs find each other."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv('XDG_CACHE_HOME', str(tmp_path_factory.mktemp('cache')))
+        patched.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        profiles = ROOT / 'config' / 'fastdds.xml'
+        patched.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
+        build_types.cache_clear()
+        yield
+        build_types.cache_clear()
+
+
+@pytest.fixture
+def own_cache(cache: None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    """Build types anew for a test alone."""
     monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
     build_types.cache_clear()
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
+    yield
+    build_types.cache_clear()
 
 
-def rubric_of_distance() -> Rubric:
+def rubric_of_distance(executables: Iterable[str]) -> Rubric:
+    """Return a rubric that asks of each executable what the lab asks of the first."""
     rubric = load_rubric(RUBRIC)
-    kept = [
-        step for step in rubric.steps if isinstance(step, BuildStep) or step.name == 'distance'
+    (build,) = (step for step in rubric.steps if isinstance(step, BuildStep))
+    (distance,) = (step for step in rubric.steps if step.name == 'distance')
+    assert isinstance(distance, PublisherStep)
+    steps = [
+        replace(distance, name=name, executable=name, needs_one_of=()) for name in executables
     ]
-    return replace(rubric, steps=tuple(replace(step, needs_one_of=()) for step in kept))
+    return replace(rubric, steps=(replace(build, needs_one_of=()), *steps))
 
 
-def grade_of_distance(folder: Path, program: str = ODOMETER) -> StepGrade:
-    """Let a student write the program beside the interfaces in src; return its grade."""
+def grades_of_distance(
+    folder: Path, executables: Sequence[str] = ('odometer',)
+) -> dict[str, StepGrade]:
+    """Let a student write programs beside what is in src; return their grades by name."""
     source = folder / 'workspace' / 'src'
     source.mkdir(parents=True, exist_ok=True)
     create = ['ros2', 'pkg', 'create', 'odometer', '--build-type', 'ament_python']
     create += ['--node-name', 'odometer']
     subprocess.run(create, cwd=source, check=True, stdout=subprocess.DEVNULL)
-    (source / 'odometer' / 'odometer' / 'odometer.py').write_text(program)
+    setup = source / 'odometer' / 'setup.py'
+    script = "'odometer = odometer.odometer:main'"
+    assert script in setup.read_text()
+    scripts = [f"'{name} = odometer.{name}:main'" for name in executables]
+    setup.write_text(setup.read_text().replace(script, ', '.join(scripts)))
+    for name in executables:
+        (source / 'odometer' / 'odometer' / f'{name}.py').write_text(PROGRAMS[name])
     sandbox = find_sandbox('auto')
-    grades = grade_lab(
-        folder / 'workspace', rubric_of_distance(), folder / 'report', sandbox=sandbox
-    )
-    return grades[-1]
+    rubric = rubric_of_distance(executables)
+    grades = grade_lab(folder / 'workspace', rubric, folder / 'report', sandbox=sandbox)
+    return {grade.name: grade for grade in grades}
 
 
 def own_interfaces(folder: Path) -> Path:
     return Path(shutil.copytree(INTERFACES, folder / 'workspace' / 'src' / INTERFACES.name))
 
 
-@pytest.mark.timeout(90)
-def test_a_distance_is_judged_after_the_husky_has_driven(tmp_path: Path) -> None:
-    own_interfaces(tmp_path)
-    grade = grade_of_distance(tmp_path)
+@pytest.fixture(scope='module')
+def grades(cache: None, module_path: Path) -> dict[str, StepGrade]:
+    """Grade all programs, in one workspace with the interfaces of the lab."""
+    own_interfaces(module_path)
+    return grades_of_distance(module_path, list(PROGRAMS))
+
+
+@pytest.mark.timeout(180)
+def test_a_distance_is_judged_after_the_husky_has_driven(grades: dict[str, StepGrade]) -> None:
+    grade = grades['odometer']
     assert grade.is_full, grade.why
     assert grade.why.endswith('Hz on /distance, odometer_interfaces/msg/Distance')
 
 
-@pytest.mark.timeout(90)
-def test_a_distance_that_does_not_grow_is_seen(tmp_path: Path) -> None:
-    own_interfaces(tmp_path)
-    grade = grade_of_distance(tmp_path, ODOMETER.replace('+= math', '= math'))
+@pytest.mark.timeout(180)
+def test_a_distance_that_does_not_grow_is_seen(grades: dict[str, StepGrade]) -> None:
+    grade = grades['forgets']
     assert grade.why.startswith('distance_m is ')
     assert 'the lab asks for 1.2 or more' in grade.why
     assert grade.points == grade.most / 2
 
 
-@pytest.mark.timeout(90)
-def test_a_distance_that_needs_no_husky_is_worth_nothing(tmp_path: Path) -> None:
-    own_interfaces(tmp_path)
-    grade = grade_of_distance(
-        tmp_path, ODOMETER.replace('distance_m=self.distance', 'distance_m=1.3')
-    )
+@pytest.mark.timeout(180)
+def test_a_distance_that_needs_no_husky_is_worth_nothing(grades: dict[str, StepGrade]) -> None:
+    grade = grades['guesses']
     assert grade.points == 0
     assert grade.why == 'what it publishes is the same before the Husky has driven'
 
 
 @pytest.mark.timeout(90)
+@pytest.mark.usefixtures('cache')
 def test_another_definition_of_the_message_is_told_by_its_fields(tmp_path: Path) -> None:
     message = own_interfaces(tmp_path) / 'msg' / 'Distance.msg'
     message.write_text('builtin_interfaces/Time stamp\nfloat32 distance_m\nuint32 resets\n')
-    grade = grade_of_distance(tmp_path)
+    grade = grades_of_distance(tmp_path)['odometer']
     assert grade.points == 0
     assert grade.why == (
         'its odometer_interfaces/msg/Distance has other fields; the lab asks for stamp '
@@ -140,13 +176,15 @@ def test_another_definition_of_the_message_is_told_by_its_fields(tmp_path: Path)
 
 
 @pytest.mark.timeout(90)
+@pytest.mark.usefixtures('cache')
 def test_the_types_of_the_grader_are_no_types_of_the_students(tmp_path: Path) -> None:
-    grade = grade_of_distance(tmp_path)
+    grade = grades_of_distance(tmp_path)['odometer']
     assert grade.points == 0
     assert "ModuleNotFoundError: No module named 'odometer_interfaces'" in grade.why
 
 
-def test_types_are_built_once_and_anew_when_they_change(tmp_path: Path) -> None:
+@pytest.mark.usefixtures('own_cache')
+def test_types_are_built_once_and_anew_when_need_be(tmp_path: Path) -> None:
     package = Path(shutil.copytree(INTERFACES, tmp_path / 'other' / INTERFACES.name))
     first = build_types((package,))
     build_types.cache_clear()
@@ -154,22 +192,21 @@ def test_types_are_built_once_and_anew_when_they_change(tmp_path: Path) -> None:
     since = built.stat().st_mtime_ns
     assert build_types((package,)) == first
     assert built.stat().st_mtime_ns == since
+    # A build that was killed is done again, ...
+    kept = next((tmp_path / 'cache' / 'husky_playpen_lab' / 'interfaces').glob('*/variables.json'))
+    kept.unlink()
+    shutil.rmtree(kept.parent / 'install')
+    build_types.cache_clear()
+    assert build_types((package,)) == first
+    assert (kept.parent / 'install' / 'share' / 'odometer_interfaces' / 'package.xml').is_file()
+    # ... and one of what has changed since.
     with (package / 'msg' / 'Distance.msg').open('a') as stream:
         stream.write('bool moving\n')
     build_types.cache_clear()
     assert build_types((package,)) != first
 
 
-def test_a_build_that_was_killed_is_done_again(tmp_path: Path) -> None:
-    first = build_types((INTERFACES,))
-    kept = next((tmp_path / 'cache' / 'husky_playpen_lab' / 'interfaces').glob('*/variables.json'))
-    kept.unlink()
-    shutil.rmtree(kept.parent / 'install')
-    build_types.cache_clear()
-    assert build_types((INTERFACES,)) == first
-    assert (kept.parent / 'install' / 'share' / 'odometer_interfaces' / 'package.xml').is_file()
-
-
+@pytest.mark.usefixtures('own_cache')
 def test_a_wrong_definition_is_a_mistake_of_the_rubric(tmp_path: Path) -> None:
     package = Path(shutil.copytree(INTERFACES, tmp_path / INTERFACES.name))
     (package / 'msg' / 'Distance.msg').write_text('flaot64 distance_m\n')
@@ -189,6 +226,7 @@ def test_a_wrong_definition_is_a_mistake_of_the_rubric(tmp_path: Path) -> None:
         load_rubric(file)
 
 
+@pytest.mark.usefixtures('own_cache')
 def test_a_cache_that_cannot_be_written_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -198,6 +236,7 @@ def test_a_cache_that_cannot_be_written_is_told(
         build_types((INTERFACES,))
 
 
+@pytest.mark.usefixtures('cache')
 def test_what_a_rubric_is_read_from_holds_its_interfaces() -> None:
     rubric = load_rubric(RUBRIC)
     assert rubric.files[0] == RUBRIC
@@ -207,12 +246,14 @@ def test_what_a_rubric_is_read_from_holds_its_interfaces() -> None:
     assert 'docs/rubrics/odometer_interfaces/msg/Distance.msg' in packed.files
 
 
+@pytest.mark.usefixtures('own_cache')
 def test_a_machine_without_colcon_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('PATH', str(tmp_path))
     with pytest.raises(ValueError, match='colcon, which builds them, is not installed here'):
         build_types((INTERFACES,))
 
 
+@pytest.mark.usefixtures('own_cache')
 def test_a_cache_that_cannot_be_locked_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
