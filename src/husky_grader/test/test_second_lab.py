@@ -10,7 +10,7 @@ from husky_grader.graded import StepGrade
 from husky_grader.jail import find_sandbox
 from husky_grader.lab.lab import grade_lab
 from husky_grader.rubric.rubric_file import load_rubric
-from husky_grader.rubric.steps import PublisherStep, Rubric, ServiceStep
+from husky_grader.rubric.steps import BuildStep, PublisherStep, ServiceStep, Step
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -56,66 +56,96 @@ def main():
 """
 
 
-def graded(folder: Path, program: str, rubric: Rubric = RUBRIC) -> dict[str, StepGrade]:
-    """Let a student create the package and write the program; return the grades by step."""
-    source = folder / 'workspace' / 'src'
+# Each a program of the package force_sensor; its steps have its name behind theirs.
+PROGRAMS = {
+    'force_sensor': FORCE_SENSOR,
+    'unset': FORCE_SENSOR.replace('1.0 / rate', '0.1').replace(
+        "self.declare_parameter('load_n', 0.0).value", '0.0'
+    ),
+    'other_type': FORCE_SENSOR.replace('create_service(Trigger', 'create_service(SetBool'),
+}
+
+
+def steps_of(program: str) -> list[Step]:
+    """Return the steps in which the rubric runs the program, for this one in its place."""
+    steps: list[Step] = []
+    for step in RUBRIC.steps:
+        if isinstance(step, (PublisherStep, ServiceStep)):
+            changed = replace(
+                step,
+                name=f'{step.name} {program}',
+                executable=program,
+                needs=tuple(f'{name} {program}' for name in step.needs),
+            )
+            hurried = program == 'other_type'  # it will never do what is asked
+            steps.append(replace(changed, within_sec=4.0) if hurried else changed)
+    return steps
+
+
+@pytest.fixture(scope='module')
+def graded(module_path: Path) -> dict[str, StepGrade]:
+    """Let a student create the package and write the programs; return the grades by step."""
+    source = module_path / 'workspace' / 'src'
     source.mkdir(parents=True)
     create = ['ros2', 'pkg', 'create', 'force_sensor', '--build-type', 'ament_python']
-    create += [
-        '--node-name',
-        'force_sensor',
-        '--license',
-        'Apache-2.0',
-        '--description',
-        'Weighs.',
-    ]
-    create += ['--dependencies', 'rclpy', 'geometry_msgs', 'std_srvs']
+    create += ['--node-name', 'force_sensor', '--license', 'Apache-2.0']
+    create += ['--description', 'Weighs.', '--dependencies', 'rclpy', 'geometry_msgs', 'std_srvs']
     subprocess.run(create, cwd=source, check=True, stdout=subprocess.DEVNULL)
-    (source / 'force_sensor' / 'force_sensor' / 'force_sensor.py').write_text(program)
-    grades = grade_lab(
-        folder / 'workspace', rubric, folder / 'report', sandbox=find_sandbox('auto')
-    )
+    package = source / 'force_sensor'
+    script = "'force_sensor = force_sensor.force_sensor:main'"
+    setup = (package / 'setup.py').read_text()
+    assert script in setup
+    scripts = [f"'{name} = force_sensor.{name}:main'" for name in PROGRAMS]
+    (package / 'setup.py').write_text(setup.replace(script, ', '.join(scripts)))
+    for name, program in PROGRAMS.items():
+        (package / 'force_sensor' / f'{name}.py').write_text(program)
+    given, build, *_ = RUBRIC.steps
+    assert isinstance(build, BuildStep)
+    tried = [step for name in PROGRAMS for step in steps_of(name)]
+    needed = tuple(f'{name} unset' for name in build.needs_one_of)  # of which one has points
+    rubric = replace(RUBRIC, steps=(given, replace(build, needs_one_of=needed), *tried))
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        profiles = ROOT / 'config' / 'fastdds.xml'
+        patched.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
+        report, sandbox = module_path / 'report', find_sandbox('auto')
+        grades = grade_lab(module_path / 'workspace', rubric, report, sandbox=sandbox)
     return {grade.name: grade for grade in grades}
 
 
-@pytest.fixture(autouse=True)
-def graph(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let programs find each other quickly."""
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(ROOT / 'config' / 'fastdds.xml'))
+def points_of(graded: dict[str, StepGrade], program: str) -> dict[str, float]:
+    """Return the points that the steps would have if it were the only program."""
+    points = {name: graded[name].points for name in ('package force_sensor', 'build')}
+    names = [step.name for step in steps_of(program)]
+    return {**points, **{name.split()[0]: graded[name].points for name in names}}
 
 
-@pytest.mark.timeout(60)
-def test_a_right_force_sensor_gets_every_point(tmp_path: Path) -> None:
-    grades = graded(tmp_path, FORCE_SENSOR)
-    assert [grade for grade in grades.values() if not grade.is_full] == []
-    assert sum(grade.points for grade in grades.values()) == 100.0
+@pytest.mark.timeout(120)
+def test_a_right_force_sensor_gets_every_point(graded: dict[str, StepGrade]) -> None:
+    points = points_of(graded, 'force_sensor')
+    assert points == {step.name: step.points for step in RUBRIC.steps}, graded
+    assert sum(points.values()) == 100.0
 
 
-@pytest.mark.timeout(60)
-def test_one_that_takes_no_parameters_gets_its_service_only(tmp_path: Path) -> None:
-    program = FORCE_SENSOR.replace('1.0 / rate', '0.1').replace(
-        "self.declare_parameter('load_n', 0.0).value", '0.0'
-    )
-    grades = graded(tmp_path, program)
-    points = {name: grade.points for name, grade in grades.items()}
-    assert points == {'package force_sensor': 10, 'build': 10, 'wrench': 0, 'tare': 20, 'tared': 0}
-    assert grades['wrench'].why == (
+@pytest.mark.timeout(120)
+def test_one_that_takes_no_parameters_gets_its_service_only(graded: dict[str, StepGrade]) -> None:
+    assert points_of(graded, 'unset') == {
+        'package force_sensor': 10,
+        'build': 10,
+        'wrench': 0,
+        'tare': 20,
+        'tared': 0,
+    }
+    assert graded['wrench unset'].why == (
         'wrench.force.z is 0.0; the lab asks for 7.49 or more and 7.51 or less; '
         'about 10 messages a second; the lab asks for 20'
     )
-    assert grades['tared'].why.startswith('counts only with points for wrench; ')
+    assert graded['tared unset'].why.startswith('counts only with points for wrench unset; ')
 
 
-@pytest.mark.timeout(60)
-def test_one_with_another_type_of_service_is_told_the_right(tmp_path: Path) -> None:
-    program = FORCE_SENSOR.replace('create_service(Trigger', 'create_service(SetBool')
-    hurried = [
-        replace(step, within_sec=4.0) if isinstance(step, (PublisherStep, ServiceStep)) else step
-        for step in RUBRIC.steps
-    ]
-    grades = graded(tmp_path, program, replace(RUBRIC, steps=tuple(hurried)))
-    points = {name: grade.points for name, grade in grades.items()}
+@pytest.mark.timeout(120)
+def test_one_with_another_type_of_service_is_told_the_right(graded: dict[str, StepGrade]) -> None:
+    points = points_of(graded, 'other_type')
     assert points == {'package force_sensor': 10, 'build': 10, 'wrench': 40, 'tare': 0, 'tared': 0}
     wrong = 'it offers /tare as std_srvs/srv/SetBool; the lab asks for std_srvs/srv/Trigger'
-    assert grades['tare'].why == grades['tared'].why == wrong
+    assert graded['tare other_type'].why == graded['tared other_type'].why == wrong
