@@ -223,14 +223,14 @@ LIVE = {
         'from nav_msgs.msg import Odometry\n'
         f'publisher = node.create_publisher(Twist, {TOPIC}, 10)\n'
         "node.create_subscription(Odometry, 'odometry/filterd', lambda _: None, 10)\n"
-        'drive(publisher, Twist(), 5)',
+        'drive(publisher, Twist(), 2)',
         'it listens to /odometry/filterd, which nobody publishes; did you mean '
         '/odometry/filtered?',
     ),
     'never spins': (
         f'publisher = node.create_publisher(Twist, {TOPIC}, 10)\n'
         'node.create_timer(0.1, lambda: publisher.publish(Twist()))\n'
-        'time.sleep(30)',
+        'time.sleep(4)',
         'it has a publisher on /husky_velocity_controller/cmd_vel, and never sent a command',
     ),
     'prints only': ("print('driving')", 'it never moved: no command but zero arrived'),
@@ -268,7 +268,7 @@ def test_a_node_that_does_it_wrong_on_the_graph_is_told_how(name: str, tmp_path:
 @pytest.mark.usefixtures('graph')
 def test_a_node_that_drives_to_the_end_and_stops_passes(tmp_path: Path) -> None:
     course = tmp_path / 'course.yaml'
-    course.write_text('speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n')
+    course.write_text('speed: 0.5\nwaypoints: [[0, 0], [-0.5, 0.25], [-1, 0]]\n')
     driver = f'{sys.executable} -m husky_driver.follow_path --waypoints {course}'
     arguments = ['--controller', driver, '--waypoints', str(course)]
     arguments += ['--report', str(tmp_path / 'report'), '--real-time-factor', '4']
