@@ -13,6 +13,7 @@ import pytest
 
 RUBRIC = config_folder() / 'rubrics' / 'path.yaml'
 STEP = '{kind: path, points: 100, passes: [{x: 1, y: 0}, {x: 0, y: 0}], within: 0.2}'
+THERE_AND_BACK = f'title: There and back\nsteps:\n  - {STEP}\n'
 
 
 @pytest.fixture(autouse=True)
@@ -82,7 +83,7 @@ def test_nothing_of_an_older_submission_is_shown(tmp_path: Path) -> None:
     ],
 )
 def test_points_count_in_their_order(tmp_path: Path, course: str, points: float) -> None:
-    (tmp_path / 'rubric.yaml').write_text(f'title: There and back\nsteps:\n  - {STEP}\n')
+    (tmp_path / 'rubric.yaml').write_text(THERE_AND_BACK)
     (tmp_path / 'handed_in.yaml').write_text(course)
     report = tmp_path / 'report'
     command = ['--lab', str(tmp_path / 'handed_in.yaml'), '--report', str(report)]
@@ -111,18 +112,23 @@ def test_no_copy_takes_the_place_of_what_was_handed_in(
 
 
 def test_a_report_among_what_was_handed_in_is_none_of_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path,
+    tmp_path_factory: pytest.TempPathFactory,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    shutil.copyfile(default_course(), tmp_path / 'ann.yaml')
-    shutil.copyfile(default_course(), tmp_path / 'bob.yaml')
+    rubric = tmp_path_factory.mktemp('rubric') / 'rubric.yaml'
+    rubric.write_text(THERE_AND_BACK)
+    for name in ('ann', 'bob'):
+        (tmp_path / f'{name}.yaml').write_text('waypoints: [[0, 0], [1, 0], [0, 0]]')
     monkeypatch.chdir(tmp_path)
     for _ in range(2):
-        assert grade(['--lab', '.', '--rubric', str(RUBRIC)]) == 0
+        assert grade(['--lab', '.', '--rubric', str(rubric)]) == 0
     entries = json.loads((tmp_path / 'report' / 'grades.json').read_text())['submissions']
     assert [each['id'] for each in entries] == ['ann', 'bob']
     (tmp_path / 'cem').mkdir()
     (tmp_path / 'dan').symlink_to('dan')
     capsys.readouterr()
-    assert grade(['--lab', '.', '--rubric', str(RUBRIC), '--report', '.']) == 2
+    assert grade(['--lab', '.', '--rubric', str(rubric), '--report', '.']) == 2
     told = '--report .: there the report on cem would lie in what was handed in; name another'
     assert capsys.readouterr().err == f'{told} folder\n'
