@@ -123,7 +123,7 @@ def test_a_drive_amid_which_the_computer_stood_still_is_driven_again(
     tmp_path: Path, courses: Path, stops_once: str
 ) -> None:
     (tmp_path / 'driver.py').write_text(stops_once + FOLLOWS)
-    course = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5]]\n'
+    course = 'speed: 0.5\nwaypoints: [[0, 0], [-0.5, 0.2]]\n'
     (tmp_path / 'course.yaml').write_text(course)
     options = ['--controller', f'{sys.executable} driver.py', '--waypoints', 'course.yaml']
     environment = {
