@@ -129,7 +129,7 @@ def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
 def test_a_class_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> None:
     files = [tmp_path / f'student_{number}.yaml' for number in range(4)]
     for number, file in enumerate(files):
-        file.write_text(SHORT.replace('-1', f'-{number + 1}'))
+        file.write_text(SHORT.replace('-1', f'-{1 + number / 4}'))
     command = [sys.executable, '-m', 'husky_grader.grade', *map(str, files), '--jobs', '1']
     command += ['--report', str(tmp_path / 'report')]
     environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
