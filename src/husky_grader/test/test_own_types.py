@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rubrics with types of their own, and steps with a Husky beside: built, run and judged."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 import errno
 import fcntl
@@ -107,25 +107,30 @@ def rubric_of_distance(executables: Iterable[str]) -> Rubric:
     return replace(rubric, steps=(replace(build, needs_one_of=()), *steps))
 
 
-def grades_of_distance(
-    folder: Path, executables: Sequence[str] = ('odometer',)
-) -> dict[str, StepGrade]:
-    """Let a student write programs beside what is in src; return their grades by name."""
-    source = folder / 'workspace' / 'src'
-    source.mkdir(parents=True, exist_ok=True)
+@pytest.fixture(scope='module')
+def package(module_path: Path) -> Path:
+    """Create the package as a student does, and write all programs."""
     create = ['ros2', 'pkg', 'create', 'odometer', '--build-type', 'ament_python']
     create += ['--node-name', 'odometer']
-    subprocess.run(create, cwd=source, check=True, stdout=subprocess.DEVNULL)
-    setup = source / 'odometer' / 'setup.py'
+    subprocess.run(create, cwd=module_path, check=True, stdout=subprocess.DEVNULL)
+    setup = module_path / 'odometer' / 'setup.py'
     script = "'odometer = odometer.odometer:main'"
     assert script in setup.read_text()
-    scripts = [f"'{name} = odometer.{name}:main'" for name in executables]
+    scripts = [f"'{name} = odometer.{name}:main'" for name in PROGRAMS]
     setup.write_text(setup.read_text().replace(script, ', '.join(scripts)))
-    for name in executables:
-        (source / 'odometer' / 'odometer' / f'{name}.py').write_text(PROGRAMS[name])
-    sandbox = find_sandbox('auto')
-    rubric = rubric_of_distance(executables)
-    grades = grade_lab(folder / 'workspace', rubric, folder / 'report', sandbox=sandbox)
+    for name, program in PROGRAMS.items():
+        (setup.parent / 'odometer' / f'{name}.py').write_text(program)
+    return setup.parent
+
+
+def grades_of_distance(
+    folder: Path, package: Path, executables: Iterable[str] = ('odometer',)
+) -> dict[str, StepGrade]:
+    """Grade programs of the package, beside what is in src; return their grades by name."""
+    workspace = folder / 'workspace'
+    shutil.copytree(package, workspace / 'src' / 'odometer')
+    rubric, sandbox = rubric_of_distance(executables), find_sandbox('auto')
+    grades = grade_lab(workspace, rubric, folder / 'report', sandbox=sandbox)
     return {grade.name: grade for grade in grades}
 
 
@@ -134,10 +139,10 @@ def own_interfaces(folder: Path) -> Path:
 
 
 @pytest.fixture(scope='module')
-def grades(cache: None, module_path: Path) -> dict[str, StepGrade]:
+def grades(cache: None, module_path: Path, package: Path) -> dict[str, StepGrade]:
     """Grade all programs, in one workspace with the interfaces of the lab."""
     own_interfaces(module_path)
-    return grades_of_distance(module_path, list(PROGRAMS))
+    return grades_of_distance(module_path, package, PROGRAMS)
 
 
 @pytest.mark.timeout(180)
@@ -164,10 +169,12 @@ def test_a_distance_that_needs_no_husky_is_worth_nothing(grades: dict[str, StepG
 
 @pytest.mark.timeout(90)
 @pytest.mark.usefixtures('cache')
-def test_another_definition_of_the_message_is_told_by_its_fields(tmp_path: Path) -> None:
+def test_another_definition_of_the_message_is_told_by_its_fields(
+    tmp_path: Path, package: Path
+) -> None:
     message = own_interfaces(tmp_path) / 'msg' / 'Distance.msg'
     message.write_text('builtin_interfaces/Time stamp\nfloat32 distance_m\nuint32 resets\n')
-    grade = grades_of_distance(tmp_path)['odometer']
+    grade = grades_of_distance(tmp_path, package)['odometer']
     assert grade.points == 0
     assert grade.why == (
         'its odometer_interfaces/msg/Distance has other fields; the lab asks for stamp '
@@ -177,8 +184,10 @@ def test_another_definition_of_the_message_is_told_by_its_fields(tmp_path: Path)
 
 @pytest.mark.timeout(90)
 @pytest.mark.usefixtures('cache')
-def test_the_types_of_the_grader_are_no_types_of_the_students(tmp_path: Path) -> None:
-    grade = grades_of_distance(tmp_path)['odometer']
+def test_the_types_of_the_grader_are_no_types_of_the_students(
+    tmp_path: Path, package: Path
+) -> None:
+    grade = grades_of_distance(tmp_path, package)['odometer']
     assert grade.points == 0
     assert "ModuleNotFoundError: No module named 'odometer_interfaces'" in grade.why
 
