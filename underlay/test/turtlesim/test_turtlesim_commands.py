@@ -144,6 +144,7 @@ def test_a_goal_is_sent_with_feedback(ros2: Ros2, turtlesim: Process) -> None:
     assert 'Goal finished with status: SUCCEEDED' in told
 
 
+@pytest.mark.usefixtures('default_parameters')
 def test_parameters_are_set_dumped_and_loaded(
     ros2: Ros2, turtlesim: Process, tmp_path: Path
 ) -> None:

@@ -11,6 +11,7 @@ import time
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from playpen_testing.forks import run_forked
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
 import psutil
@@ -31,12 +32,25 @@ def place(pose: Any) -> tuple[float, float, float]:
     return pose.x, pose.y, pose.theta
 
 
-def test_the_first_turtle_stands_in_the_middle(student: TurtleClient, turtlesim: Process) -> None:
-    assert place(student.pose()) == pytest.approx((MIDDLE, MIDDLE, 0.0))
-    assert [line.partition(']: ')[2] for line in turtlesim.lines[:2]] == [
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_it_begins_with_a_turtle_and_ends_by_a_signal(
+    own_turtlesim: Process, number: signal.Signals
+) -> None:
+    with TurtleClient() as student:
+        assert place(student.pose()) == pytest.approx((MIDDLE, MIDDLE, 0.0))
+    logged = [line for line in own_turtlesim.lines if '[turtlesim]: ' in line]
+    assert [line.partition(']: ')[2] for line in logged[:2]] == [
         'Starting turtlesim with node name /turtlesim',
         'Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]',
     ]
+    children = psutil.Process(own_turtlesim.pid).children(recursive=True)
+    node = next(child for child in children if '-m' in child.cmdline())
+    start = time.monotonic()
+    node.send_signal(number)
+    assert own_turtlesim.wait() == 0  # `ros2 run` ends as its node does
+    assert time.monotonic() - start < 2.0
+    assert not node.is_running()
+    assert 'Traceback' not in own_turtlesim.output
 
 
 def test_poses_and_colours_come_every_16_ms(student: TurtleClient) -> None:
@@ -80,6 +94,7 @@ def test_a_wall_holds_the_turtle_and_warns(student: TurtleClient, turtlesim: Pro
     assert any('[WARN]' in line and ', y=5.544445])' in line for line in turtlesim.lines)
 
 
+@pytest.mark.usefixtures('default_parameters')
 def test_holonomic_turtles_go_sideways_and_others_do_not(student: TurtleClient) -> None:
     student.pose()
     student.command('turtle1', x=0.5, y=1.0)
@@ -104,9 +119,8 @@ def test_spawned_turtles_have_names_and_topics(student: TurtleClient, turtlesim:
     assert student.pose('turtle2').x == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize(
-    ('fields', 'said'),
-    [
+def test_a_turtle_that_cannot_be_is_refused(student: TurtleClient, turtlesim: Process) -> None:
+    refused: tuple[tuple[dict[str, Any], str], ...] = (
         ({'name': 'turtle1'}, 'A turtle named [turtle1] already exists'),
         ({'name': 'a b'}, 'A turtle cannot be named [a b]: Invalid topic name'),
         ({'name': '1st'}, 'A turtle cannot be named [1st]: Invalid topic name'),
@@ -114,14 +128,11 @@ def test_spawned_turtles_have_names_and_topics(student: TurtleClient, turtlesim:
         ({'name': 't' * 230}, 'A turtle cannot be named [ttt'),
         ({'x': math.nan}, 'A turtle cannot be put at x=nan'),
         ({'theta': math.inf}, 'theta=inf: it needs finite numbers'),
-    ],
-)
-def test_a_turtle_that_cannot_be_is_refused(
-    student: TurtleClient, turtlesim: Process, fields: dict[str, Any], said: str
-) -> None:
-    assert student.call(Spawn, 'spawn', **fields).name == ''
-    turtlesim.wait_for_text(said)
-    assert student.call(Spawn, 'spawn', x=1.0).name == 'turtle2'  # it goes on
+    )
+    for number, (fields, said) in enumerate(refused, 2):
+        assert student.call(Spawn, 'spawn', **fields).name == '', fields
+        turtlesim.wait_for_text(said)
+        assert student.call(Spawn, 'spawn', x=1.0).name == f'turtle{number}', fields  # it goes on
 
 
 def test_a_killed_turtle_is_gone_with_its_topics(
@@ -265,12 +276,13 @@ def test_killing_and_resetting_under_way_harms_nothing(
     assert not any('Traceback' in line for line in turtlesim.lines)
 
 
-@pytest.mark.parametrize('velocity', [math.nan, math.inf, -1e31])
 def test_a_command_that_is_no_velocity_is_refused(
-    student: TurtleClient, turtlesim: Process, velocity: float
+    student: TurtleClient, turtlesim: Process
 ) -> None:
-    student.command('turtle1', x=velocity)
-    turtlesim.wait_for_text('A command is refused: its velocities must be numbers up to 1e+30')
+    said = 'A command is refused: its velocities must be numbers up to 1e+30, not x='
+    for velocity in (math.nan, math.inf, -1e31):
+        student.command('turtle1', x=velocity)
+        turtlesim.wait_for_text(f'{said}{velocity}')
     student.command('turtle1', x=-1e30, turn=1e30)
     student.wait_for_pose(lambda pose: math.isfinite(pose.x) and pose.linear_velocity > 1e29, 'it')
 
@@ -281,6 +293,7 @@ def set_parameter(student: TurtleClient, name: str, value: object) -> Any:
     return answer.results[0]
 
 
+@pytest.mark.usefixtures('default_parameters')
 def test_parameters_say_what_they_are_and_refuse_the_rest(student: TurtleClient) -> None:
     names = ['background_r', 'background_g', 'background_b', 'holonomic']
     answer = student.call(DescribeParameters, 'turtlesim/describe_parameters', names=names)
@@ -295,42 +308,36 @@ def test_parameters_say_what_they_are_and_refuse_the_rest(student: TurtleClient)
         assert not set_parameter(student, name, value).successful
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_within_two_seconds(turtlesim: Process, number: signal.Signals) -> None:
-    children = psutil.Process(turtlesim.pid).children(recursive=True)
-    node = next(child for child in children if '-m' in child.cmdline())
-    start = time.monotonic()
-    node.send_signal(number)
-    assert turtlesim.wait() == 0  # `ros2 run` ends as its node does
-    assert time.monotonic() - start < 2.0
-    assert not node.is_running()
-    assert 'Traceback' not in turtlesim.output
+@pytest.mark.usefixtures('own_domain')
+def test_bad_arguments_are_refused_in_a_line(processes: Processes) -> None:
+    bad = {
+        ('--port', '0'): 'a port is from 1 to 65535',
+        ('--prot', '8000'): 'unrecognized arguments: --prot',
+        ('--ros-args', '-p', 'background_r:=300'): 'background_r',
+        ('--ros-args', '-p', 'holonomic:=7'): 'holonomic',
+        ('--ros-args', '-r', '__node:=7'): "Couldn't parse remap rule: '-r __node:=7'",
+    }
+    module = 'turtlesim_programs.turtlesim_node'
+    ended = run_forked(*((module, *NODE[4:], *words) for words in bad))
+    printed = {words: each.out + each.err for words, each in zip(bad, ended, strict=True)}
+    assert all(each.status == 2 for each in ended), printed
+    refused = processes.start(*NODE, '--port', 'x')
+    assert refused.wait() == 2
+    printed['--port', 'x'] = refused.output
+    bad['--port', 'x'] = 'a port is from 1 to 65535'
+    for words, said in bad.items():
+        told = [
+            line
+            for line in printed[words].splitlines()
+            if not line.startswith(('usage', '  ', '[ros2run]'))
+            and '[rcl]' not in line
+            and 'RTPS_TRANSPORT_SHM' not in line  # who else takes a port of shared memory
+        ]
+        assert len(told) == 1, printed[words]
+        assert said in told[0], words
 
 
-@pytest.mark.parametrize(
-    ('words', 'said'),
-    [
-        (('--port', '0'), 'a port is from 1 to 65535'),
-        (('--prot', '8000'), 'unrecognized arguments: --prot'),
-        (('--ros-args', '-p', 'background_r:=300'), 'background_r'),
-        (('--ros-args', '-p', 'holonomic:=7'), 'holonomic'),
-        (('--ros-args', '-r', '__node:=7'), "Couldn't parse remap rule: '-r __node:=7'"),
-    ],
-)
-def test_bad_arguments_are_refused_in_a_line(
-    processes: Processes, words: tuple[str, ...], said: str
-) -> None:
-    refused = processes.start(*NODE, *words)
-    refused.wait()
-    told = [
-        line
-        for line in refused.lines
-        if not line.startswith(('usage', '  ', '[ros2run]')) and '[rcl]' not in line
-    ]
-    assert len(told) == 1, refused.output
-    assert said in told[0]
-
-
+@pytest.mark.usefixtures('own_domain')
 def test_a_name_and_a_namespace_are_remapped(processes: Processes) -> None:
     node = processes.start(*NODE, '--ros-args', '-r', '__node:=my_turtle', '-r', '__ns:=/zoo')
     node.wait_for_text('Starting turtlesim with node name /zoo/my_turtle')

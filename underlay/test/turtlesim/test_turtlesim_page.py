@@ -18,6 +18,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import numpy as np
+from numpy.typing import NDArray
 from playpen_testing import chromium
 from playpen_testing.browser import (
     errors,
@@ -45,20 +46,47 @@ ADDRESS = re.compile(r'http://127\.0\.0\.1:\d+/')
 
 
 @pytest.fixture(scope='module')
-def browser() -> Iterator[Browser]:
+def shared_browser() -> Iterator[Browser]:
     with start_browser(chromium.find_or_install()) as started:
         yield started
 
 
 @pytest.fixture
-def turtlesim(processes: Processes) -> Process:
+def browser(shared_browser: Browser) -> Iterator[Browser]:
+    """Close the pages of each test."""
+    yield shared_browser
+    for context in shared_browser.contexts:
+        context.close()
+
+
+@pytest.fixture(scope='module')
+def shared_turtlesim(shared_processes: Processes) -> Process:
     """Start a turtlesim with its page."""
-    return start(processes)
+    return start(shared_processes)
+
+
+@pytest.fixture(scope='module')
+def shared_address(shared_turtlesim: Process) -> str:
+    return address_of(shared_turtlesim)
 
 
 @pytest.fixture
-def address(turtlesim: Process) -> str:
-    return address_of(turtlesim)
+def address(shared_address: str, turtlesim: Process) -> str:
+    """Return the address of the shared turtlesim, where it is told that it was reset."""
+    del turtlesim
+    with events_of(shared_address) as events:
+        while not is_as_at_first(events.next(), events.pixels):
+            pass
+    return shared_address
+
+
+def is_as_at_first(told: dict[str, Any], pixels: NDArray[np.uint32]) -> bool:
+    (name, *place, _), *others = told['turtles']
+    return bool(
+        (name, others, told['background']) == ('turtle1', [], list(BLUE))
+        and place == pytest.approx([249.5, 249.5, 0.0], abs=0.01)
+        and not (pixels >> 24).any()
+    )
 
 
 def start(processes: Processes, *words: str) -> Process:
@@ -145,8 +173,9 @@ def test_a_later_page_has_the_same_picture(address: str, student: TurtleClient) 
                 assert not (page.pixels >> 24).any()
 
 
-def test_nothing_is_sent_while_nothing_moves(address: str) -> None:
-    with events_of(address) as events:
+@pytest.mark.usefixtures('own_domain')
+def test_nothing_is_sent_while_nothing_moves(processes: Processes) -> None:
+    with events_of(address_of(start(processes))) as events:
         events.next()
         assert [events.line() for _ in range(3)] == [b'\n', b': still here\n', b'\n']
 
@@ -189,6 +218,7 @@ def test_a_browser_shows_turtles_and_lines(
     assert errors(page) == []
 
 
+@pytest.mark.usefixtures('default_parameters')
 def test_the_background_is_that_of_the_parameters(
     address: str, student: TurtleClient, browser: Browser
 ) -> None:
@@ -237,9 +267,10 @@ def test_tabs_behind_another_leave_their_connection_to_it(
         assert tabs[1].locator('[data-name=later]').count() == 0
 
 
-def test_a_page_goes_on_with_the_next_turtlesim(
-    processes: Processes, turtlesim: Process, address: str, browser: Browser
-) -> None:
+@pytest.mark.usefixtures('own_domain')
+def test_a_page_goes_on_with_the_next_turtlesim(processes: Processes, browser: Browser) -> None:
+    turtlesim = start(processes)
+    address = address_of(turtlesim)
     page = open_page(browser, address)
     turtlesim.close()
     wait_for(page, "document.getElementById('status').className === 'lost'")
@@ -287,9 +318,8 @@ def asked(address: str, path: str = '/', method: str = 'GET', **headers: str) ->
         connection.close()
 
 
-@pytest.mark.parametrize(
-    ('status', 'path', 'method', 'headers'),
-    [
+def test_hostile_requests_are_refused(address: str) -> None:
+    requests: tuple[tuple[int, str, str, dict[str, str]], ...] = (
         (200, '/', 'GET', {'Host': 'localhost:9'}),
         (421, '/', 'GET', {'Host': 'evil.example'}),
         (421, '/events', 'GET', {'Host': 'evil.example:8110'}),
@@ -302,13 +332,10 @@ def asked(address: str, path: str = '/', method: str = 'GET', **headers: str) ->
         (501, '/', 'POST', {}),
         (501, '/events', 'OPTIONS', {}),
         (431, '/', 'GET', {'X-Long': 'x' * 70_000}),
-    ],
-)
-def test_hostile_requests_are_refused(
-    address: str, status: int, path: str, method: str, headers: dict[str, str]
-) -> None:
-    assert asked(address, path, method, **headers) == status
-    assert asked(address) == 200
+    )
+    for status, path, method, headers in requests:
+        assert asked(address, path, method, **headers) == status, (path, method, headers)
+        assert asked(address) == 200, (path, method, headers)
 
 
 def listening(process: Process) -> list[tuple[str, int]]:
@@ -345,9 +372,11 @@ def test_a_page_that_does_not_read_holds_nobody_up(address: str, student: Turtle
             assert events.next()['turtles'][0][0] == 'turtle1'
 
 
+@pytest.mark.usefixtures('own_domain')
 def test_ports_are_the_next_free_one_or_the_one_asked_for(
-    processes: Processes, address: str
+    processes: Processes, shared_address: str
 ) -> None:
+    address = shared_address
     assert address_of(start(processes)) != address
     port = str(urlsplit(address).port)
     refused = processes.start(*NODE, '--port', port)
@@ -357,6 +386,7 @@ def test_ports_are_the_next_free_one_or_the_one_asked_for(
     )
 
 
+@pytest.mark.usefixtures('own_domain')
 @pytest.mark.parametrize('how', ['option', 'variable'])
 def test_graders_have_no_page(
     processes: Processes, monkeypatch: pytest.MonkeyPatch, how: str
@@ -372,6 +402,7 @@ def test_graders_have_no_page(
     assert 'http' not in node.output
 
 
+@pytest.mark.usefixtures('own_domain')
 def test_a_browser_is_opened_on_a_desktop_alone(
     processes: Processes, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
