@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 import re
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
+from playpen_testing.forks import run_forked
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
@@ -19,6 +21,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
 import tf2_ros
+from tf2_ros import tf2_echo
 
 TURNED = """\
 At time 0.0
@@ -71,31 +74,35 @@ def test_packages_and_programs_have_the_names_of_jazzy(ros2: Any) -> None:
     assert versions[0] == versions[1]
 
 
-@pytest.mark.parametrize(
-    'arguments',
-    [
-        (
-            *('--x', '1', '--y', '-2', '--z', '0.5', '--yaw', '1.5707963267948966'),
-            *('--frame-id', 'odom', '--child-frame-id', 'base'),
-        ),
-        (
-            *('--x', '1', '--y', '-2', '--z', '0.5', '--qz', '1', '--qw', '1'),
-            *('--frame-id', 'odom', '--child-frame-id', 'base'),
-        ),
-        ('1', '-2', '0.5', '1.5707963267948966', '0', '0', 'odom', 'base'),
-        ('1', '-2', '0.5', '0', '0', '1', '1', 'odom', 'base'),
-    ],
-)
-def test_tf2_echo_prints_what_is_published_in_each_way(
-    processes: Any, arguments: tuple[str, ...]
-) -> None:
-    publish(processes, *arguments)
+def test_tf2_echo_prints_what_is_published_in_each_way(processes: Any, domain: int) -> None:
+    place = ('--x', '1', '--y', '-2', '--z', '0.5')
+    ways = (
+        (*place, '--yaw', '1.5707963267948966', '--frame-id', 'odom', '--child-frame-id', 'base'),
+        (*place, '--qz', '1', '--qw', '1', '--frame-id', 'odom', '--child-frame-id', 'second'),
+        ('1', '-2', '0.5', '1.5707963267948966', '0', '0', 'odom', 'third'),
+        ('1', '-2', '0.5', '0', '0', '1', '1', 'odom', 'fourth'),
+    )
+    command = ('ros2', 'run', 'tf2_ros', 'static_transform_publisher')
+    for words in ways:
+        processes.start(*command, *words)
     answer = run('tf2_echo', 'odom', 'base', '5', '--limit', '2')
     assert answer.returncode == 0
     assert re.sub(r'-(0\.000 )', r' \1', answer.stdout) == 2 * TURNED
     waiting = r'\[INFO\] \[\d+\.\d+\] \[tf2_echo\]: Waiting for transform odom ->  base: '
     waiting += 'Invalid frame ID "odom" passed to canTransform argument target_frame - '
     assert re.match(waiting + 'frame does not exist\n', answer.stderr)
+    with SpunNodes(domain) as nodes:
+        buffer = tf2_ros.Buffer()
+        tf2_ros.TransformListener(buffer, nodes.start(Node, 'hears'))
+        for child in ('base', 'second', 'third', 'fourth'):
+            wait_until(
+                partial(buffer.can_transform, 'odom', child, Time()),
+                timeout_sec=20.0,
+                what=f'a transform from odom to {child}',
+            )
+            found = buffer.lookup_transform_core('odom', child, Time())
+            shown = re.sub(r'-(0\.000 )', r' \1', f'{tf2_echo.describe(found, 3)}\n')
+            assert shown == TURNED, child
 
 
 def test_tf2_echo_has_more_digits_another_rate_and_an_end(processes: Any) -> None:
@@ -148,58 +155,51 @@ def test_tf2_echo_says_what_is_wrong_once_frames_part(processes: Any, domain: in
     )
 
 
-@pytest.mark.parametrize(
-    ('arguments', 'status', 'said'),
-    [
-        ((), 1, 'the following arguments are required: source_frame, target_frame'),
-        (('a', 'b', '1', 'c'), 1, 'unrecognized arguments: c'),
-        (('a', 'b', 'fast'), 2, "Failed to convert rate argument 'fast' to a floating-point"),
-        (('a', 'b', '1.0foo'), 3, "Failed to convert rate argument '1.0foo' to a floating-"),
-        (('a', 'b', '0'), 2, "tf2_echo: rate '0' is refused: it must be more than 0"),
-        (('a', 'b', '-p', '0'), 1, "'0' is refused: it must be a whole number from 1"),
-    ],
-)
 @pytest.mark.usefixtures('domain')
-def test_tf2_echo_refuses_bad_arguments(
-    arguments: tuple[str, ...], status: int, said: str
-) -> None:
-    answer = run('tf2_echo', *arguments)
-    assert (answer.returncode, said in answer.stderr) == (status, True), answer.stderr
-    assert answer.stdout.startswith('Usage: tf2_echo source_frame target_frame') == (status == 1)
+def test_tf2_echo_refuses_bad_arguments() -> None:
+    bad = {
+        (): (1, 'the following arguments are required: source_frame, target_frame'),
+        ('a', 'b', '1', 'c'): (1, 'unrecognized arguments: c'),
+        ('a', 'b', 'fast'): (2, "Failed to convert rate argument 'fast' to a floating-point"),
+        ('a', 'b', '1.0foo'): (3, "Failed to convert rate argument '1.0foo' to a floating-"),
+        ('a', 'b', '0'): (2, "tf2_echo: rate '0' is refused: it must be more than 0"),
+        ('a', 'b', '-p', '0'): (1, "'0' is refused: it must be a whole number from 1"),
+    }
+    ended = run_forked(*(('tf2_ros.tf2_echo', *words) for words in bad))
+    for (words, (status, said)), each in zip(bad.items(), ended, strict=True):
+        assert (each.status, said in each.err) == (status, True), (words, each)
+        usage = 'Usage: tf2_echo source_frame target_frame'
+        assert each.out.startswith(usage) == (status == 1), words
+    answer = run('tf2_echo', 'a', 'b', 'fast')
+    assert (answer.returncode, answer.stdout) == (2, '[ros2run]: Process exited with failure 2\n')
 
 
-@pytest.mark.parametrize(
-    ('arguments', 'said'),
-    [
-        ((), 'Frame id must not be empty'),
-        (('--frame-id', 'a'), 'Child frame id must not be empty'),
-        (('--x',), 'Not enough arguments for --x'),
-        (('--x', 'far'), 'Failed to parse --x argument as float'),
-        (('1', '2', 'far', '0', '0', '0', 'a', 'b'), 'Failed to parse z argument as float'),
-        (('--yaw', '1', '--qw', '1'), 'Cannot specify both quaternion and Euler rotations'),
-        (('1', '2'), 'Extra unparsed arguments on command-line'),
-        (
-            ('0', '0', '0', '0', '0', '0', 'a', 'b', '--x', '1'),
-            'Cannot specify both new-style (flags) and old-style (arguments)',
+@pytest.mark.usefixtures('domain')
+def test_static_transform_publisher_refuses_bad_arguments() -> None:
+    bad = {
+        (): 'Frame id must not be empty',
+        ('--frame-id', 'a'): 'Child frame id must not be empty',
+        ('--x',): 'Not enough arguments for --x',
+        ('--x', 'far'): 'Failed to parse --x argument as float',
+        ('1', '2', 'far', '0', '0', '0', 'a', 'b'): 'Failed to parse z argument as float',
+        ('--yaw', '1', '--qw', '1'): 'Cannot specify both quaternion and Euler rotations',
+        ('1', '2'): 'Extra unparsed arguments on command-line',
+        ('0', '0', '0', '0', '0', '0', 'a', 'b', '--x', '1'): (
+            'Cannot specify both new-style (flags) and old-style (arguments)'
         ),
-    ],
-)
-@pytest.mark.usefixtures('domain')
-def test_static_transform_publisher_refuses_bad_arguments(
-    arguments: tuple[str, ...], said: str
-) -> None:
-    answer = run('static_transform_publisher', *arguments)
-    assert answer.returncode == 1
-    assert f'[]: error parsing command line arguments: {said}\n' in answer.stderr
-    assert answer.stdout.startswith('usage: static_transform_publisher [--x X]')
-
-
-@pytest.mark.usefixtures('domain')
-def test_a_frame_is_not_published_in_itself() -> None:
-    answer = run('static_transform_publisher', '--frame-id', 'a', '--child-frame-id', 'a')
-    assert answer.returncode == 1
-    said = "[]: cannot publish static transform from 'a' to 'a', exiting\n"
-    assert said in answer.stderr
+    }
+    program = 'tf2_ros.static_transform_publisher'
+    itself = ('--frame-id', 'a', '--child-frame-id', 'a')
+    *ended, in_itself = run_forked(*((program, *words) for words in (*bad, itself)))
+    for (words, said), each in zip(bad.items(), ended, strict=True):
+        assert each.status == 1, words
+        assert f'[]: error parsing command line arguments: {said}\n' in each.err, words
+        assert each.out.startswith('usage: static_transform_publisher [--x X]'), words
+    assert in_itself.status == 1
+    told = "[]: cannot publish static transform from 'a' to 'a', exiting\n"
+    assert told in in_itself.err
+    answer = run('static_transform_publisher', *itself)
+    assert (answer.returncode, told in answer.stderr) == (1, True)
 
 
 def test_static_transform_publisher_tells_its_transform_as_parameters(
@@ -214,27 +214,28 @@ def test_static_transform_publisher_tells_its_transform_as_parameters(
     assert 'read-only' in refused.out + refused.err
 
 
-@pytest.mark.parametrize(
-    ('package', 'program'),
-    [
-        ('tf2_ros', ('tf2_echo', 'a', 'b')),
-        ('tf2_ros', ('tf2_monitor',)),
-        ('tf2_ros', ('buffer_server',)),
-        ('tf2_ros', ('static_transform_publisher', '--frame-id', 'a', '--child-frame-id', 'b')),
-        ('tf2_tools', ('view_frames',)),
-        ('turtlesim', ('turtlesim_node', '--platform', 'offscreen')),
-    ],
-)
-@pytest.mark.parametrize('wrong', [('-p', 'x'), ('--nonsense',), ('-r', '__node:=7')])
 @pytest.mark.usefixtures('domain')
-def test_wrong_ros_arguments_are_told_without_a_traceback(
-    package: str, program: tuple[str, ...], wrong: tuple[str, ...]
-) -> None:
-    command = ('ros2', 'run', package, *program, '--ros-args', *wrong)
-    answer = subprocess.run(command, capture_output=True, text=True, timeout=30.0)
-    assert answer.returncode == 2, answer.stderr
-    assert 'Traceback' not in answer.stderr
-    assert wrong[-1] in answer.stderr
+def test_wrong_ros_arguments_are_told_without_a_traceback() -> None:
+    frames = ('--frame-id', 'a', '--child-frame-id', 'b')
+    programs = {
+        'tf2_ros.tf2_echo': ('a', 'b'),
+        'tf2_ros.tf2_monitor': (),
+        'tf2_ros.buffer_server': (),
+        'tf2_ros.static_transform_publisher': frames,
+        'tf2_tools.view_frames': (),
+        'turtlesim_programs.turtlesim_node': ('--platform', 'offscreen'),
+    }
+    commands = [
+        (program, *words, '--ros-args', *wrong)
+        for program, words in programs.items()
+        for wrong in (('-p', 'x'), ('--nonsense',), ('-r', '__node:=7'))
+    ]
+    for command, ended in zip(commands, run_forked(*commands), strict=True):
+        assert ended.status == 2, (command, ended.err)
+        assert 'Traceback' not in ended.err, command
+        assert command[-1] in ended.err, command
+    answer = run('tf2_monitor', '--ros-args', '-r', '__node:=7')
+    assert (answer.returncode, '__node:=7' in answer.stderr) == (2, True), answer.stderr
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
