@@ -18,6 +18,7 @@ from typing import Any
 
 from mcap.reader import make_reader
 from mcap.writer import Writer
+from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 import pytest
 from rclpy.serialization import deserialize_message
@@ -48,19 +49,20 @@ def _counts(bag: Path) -> dict[str, int]:
     }
 
 
-@pytest.fixture
-def bag(processes: Any, tmp_path: Path) -> Path:
-    talker = processes.node('talker', 'talker')
-    processes.node('latched', 'latched')
+@pytest.fixture(scope='module')
+def bag(shared_processes: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    talker = shared_processes.node('talker', 'talker')
+    latched = shared_processes.node('latched', 'latched')
     for number in range(5):  # on a busy machine its second may be over before it hears all
-        folder = tmp_path / str(number) / 'run'
-        rest = _record(processes, folder, '--all', until='Recording...')
+        folder = tmp_path_factory.mktemp(f'bag_{number}') / 'run'
+        rest = _record(shared_processes, folder, '--all', until='Recording...')
         assert 'Recording stopped: ' in rest
         counts = _counts(folder)
         if counts.get('/chatter', 0) > 5 and counts.get('/latched'):
             break
-    talker.terminate()
-    talker.wait()
+    for node in (talker, latched):
+        node.terminate()
+        node.wait()
     return folder
 
 
@@ -239,9 +241,9 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
     assert refused > 10
 
 
-@pytest.mark.parametrize(
-    ('words', 'status', 'message'),
-    [
+def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: Path) -> None:
+    del domain
+    bad: tuple[tuple[tuple[str, ...], int, str], ...] = (
         (('info', 'broken.db3'), 1, "broken.db3' cannot be read as sqlite3"),
         (('play', 'broken.db3'), 1, "broken.db3' cannot be read as sqlite3"),
         (('info', 'broken.mcap', '-s', 'sqlite3'), 1, 'does not begin as such files do'),
@@ -252,27 +254,19 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
         (('record', '-a', '-o', '.'), 1, 'already exists'),
         (('info', 'nothing'), 1, "Bag path 'nothing' does not exist!"),
         (('info', 'broken.mcap'), 1, 'cannot be read as MCAP'),
-        (('info', '.'), 1, 'holds no file of a bag that ends with .mcap'),
+        (('info', 'folder'), 1, 'holds no file of a bag that ends with .mcap'),
         (('play', 'broken.mcap'), 1, 'cannot be read as MCAP'),
         (('play', 'x', '-r', '-1'), 2, 'must be a number above 0'),
-    ],
-)
-def test_a_bad_call_is_refused(
-    domain: int,
-    ros2: Callable[..., Any],
-    tmp_path: Path,
-    words: tuple[str, ...],
-    status: int,
-    message: str,
-) -> None:
-    del domain
-    if 'broken.mcap' in words:
-        (tmp_path / 'broken.mcap').write_bytes(b'no bag at all')
-    if 'broken.db3' in words:
-        (tmp_path / 'broken.db3').write_bytes(b'SQLite format 3\0' + bytes(200))
-    if 'empty.mcap' in words:
-        (tmp_path / 'empty.mcap').touch()
-    answer = ros2('bag', *words, folder=tmp_path)
-    assert answer.status == status
-    assert message in answer.err
-    assert answer.status == 2 or answer.err.count('\n') == 1
+    )
+    (tmp_path / 'broken.mcap').write_bytes(b'no bag at all')
+    (tmp_path / 'broken.db3').write_bytes(b'SQLite format 3\0' + bytes(200))
+    (tmp_path / 'empty.mcap').touch()
+    (tmp_path / 'folder').mkdir()
+    calls = [('ros2cli.cli', 'bag', *words) for words, _, _ in bad]
+    results = run_forked(*calls, preload=('rclpy', 'rosbag2_py'))
+    for (words, status, message), ended in zip(bad, results, strict=True):
+        assert ended.status == status, (words, ended)
+        assert message in ended.err, words
+        assert status == 2 or ended.err.count('\n') == 1, (words, ended.err)
+    answer = ros2('bag', 'info', 'nothing', folder=tmp_path)
+    assert (answer.status, answer.err) == (1, "Bag path 'nothing' does not exist!\n")
