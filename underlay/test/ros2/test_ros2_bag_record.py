@@ -14,11 +14,12 @@ import time
 from typing import Any
 
 from playpen_testing.bags import opened_reader
+from playpen_testing.forks import run_forked
 import pytest
 from rosbag2_py.selection import EVENTS
 
 CHATTER, FLIPS, SUMS = '/chatter', '/flip/_service_event', '/add_two_ints/_service_event'
-
+VERB = ('ros2bag.verb.record',)  # what the forks of a test share
 WITHOUT_EFFECT = (
     *('--max-cache-size', '0', '--disable-keyboard-controls', '--compression-mode', 'none'),
     *('--compression-queue-size', '1', '--compression-threads', '2'),
@@ -161,50 +162,54 @@ def test_a_file_sets_the_quality_of_service(
     assert recording.end() >= {CHATTER}
 
 
-@pytest.mark.parametrize(
-    ('text', 'message'),
-    [
-        ('', 'names no topic: write /topic: {depth: 10}'),
-        ('/chatter: {', 'is no YAML: '),
-        ('/chatter: reliable', "/chatter: 'reliable' is no dictionary of history, "),
-        ('/chatter: {reliabilty: reliable}', '/chatter: there is no reliabilty; there are his'),
-        ('/chatter: {history: keep_some}', "history: 'keep_some' must be one of system_default,"),
-        ('/chatter: {liveliness: unknown}', "liveliness: 'unknown' must be one of "),
-        ('/chatter: {depth: -1}', 'depth: -1 must be a whole number from 0 to 2147483647'),
-        ('/chatter: {depth: 0}', 'depth: 0 keeps no message'),
-        ('/chatter: {deadline: {sec: 2}}', "{'sec': 2} must have both, as {sec: 1, nsec: 0}"),
-        ('/chatter: {lifespan: {sec: -2, nsec: 0}}', 'lifespan: sec: -2 must be a whole number'),
-        ('/chatter: {avoid_ros_namespace_conventions: 1}', '1 must be true or false'),
-    ],
-)
 def test_a_bad_file_of_qualities_is_refused(
-    domain: int, ros2: Callable[..., Any], tmp_path: Path, text: str, message: str
+    domain: int, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:
-    (tmp_path / 'qos.yaml').write_text(text)
-    answer = ros2('bag', 'record', '-a', '--qos-profile-overrides-path', 'qos.yaml')
-    assert (answer.status, answer.err.count('\n')) == (2, 1)
-    assert "--qos-profile-overrides-path 'qos.yaml'" in answer.err
-    assert message in answer.err
+    bad = {
+        '': 'names no topic: write /topic: {depth: 10}',
+        '/chatter: {': 'is no YAML: ',
+        '/chatter: reliable': "/chatter: 'reliable' is no dictionary of history, ",
+        '/chatter: {reliabilty: reliable}': '/chatter: there is no reliabilty; there are his',
+        '/chatter: {history: keep_some}': "history: 'keep_some' must be one of system_default,",
+        '/chatter: {liveliness: unknown}': "liveliness: 'unknown' must be one of ",
+        '/chatter: {depth: -1}': 'depth: -1 must be a whole number from 0 to 2147483647',
+        '/chatter: {depth: 0}': 'depth: 0 keeps no message',
+        '/chatter: {deadline: {sec: 2}}': "{'sec': 2} must have both, as {sec: 1, nsec: 0}",
+        '/chatter: {lifespan: {sec: -2, nsec: 0}}': 'lifespan: sec: -2 must be a whole number',
+        '/chatter: {avoid_ros_namespace_conventions: 1}': '1 must be true or false',
+    }
+    words = ('bag', 'record', '-a', '--qos-profile-overrides-path')
+    for number, text in enumerate(bad):
+        (tmp_path / f'qos{number}.yaml').write_text(text)
+    calls = [('ros2cli.cli', *words, f'qos{number}.yaml') for number in range(len(bad))]
+    ended = run_forked(*calls, preload=VERB)
+    for call, (text, message), each in zip(calls, bad.items(), ended, strict=True):
+        assert (each.status, each.err.count('\n')) == (2, 1), (text, each)
+        assert f"--qos-profile-overrides-path '{call[-1]}'" in each.err, text
+        assert message in each.err, text
+    answer = ros2(*words, 'qos0.yaml')
+    assert (answer.status, answer.err) == (2, ended[0].err)
 
 
-@pytest.mark.parametrize(
-    ('words', 'message'),
-    [
-        ((CHATTER, '--exclude-regex', 'x'), '--exclude-regex goes with one of --all, '),
-        (('--all-services', '--exclude-topics', CHATTER), '--exclude-topics goes with one of'),
-        ((CHATTER, '--exclude-topic-types', 'x'), '--exclude-topic-types goes with one of'),
-        (('--all-topics', '--exclude-services', '/flip'), '--exclude-services goes with one of'),
-        (('-a', '--qos-profile-overrides-path', 'none'), "'none' cannot be read: No such file"),
-        (('-a', '--compression-mode', 'file'), '--storage-preset-profile zstd_fast'),
-        (('-a', '--compression-format', 'zstd'), '--storage-preset-profile zstd_fast'),
-        (('-a', '-b', '1023'), '--max-bag-size 1023: it is 1024 bytes at least for mcap'),
-        (('-a', '--use-sim-time', '--no-discovery'), 'not --no-discovery'),
-    ],
-)
 def test_options_that_make_no_sense_are_refused(
-    domain: int, ros2: Callable[..., Any], tmp_path: Path, words: tuple[str, ...], message: str
+    domain: int, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:
-    answer = ros2('bag', 'record', '-o', str(tmp_path / 'bag'), *words)
-    assert (answer.status, answer.err.count('\n')) == (2, 1)
-    assert message in answer.err
+    bad = {
+        (CHATTER, '--exclude-regex', 'x'): '--exclude-regex goes with one of --all, ',
+        ('--all-services', '--exclude-topics', CHATTER): '--exclude-topics goes with one of',
+        (CHATTER, '--exclude-topic-types', 'x'): '--exclude-topic-types goes with one of',
+        ('--all-topics', '--exclude-services', '/flip'): '--exclude-services goes with one of',
+        ('-a', '--qos-profile-overrides-path', 'none'): "'none' cannot be read: No such file",
+        ('-a', '--compression-mode', 'file'): '--storage-preset-profile zstd_fast',
+        ('-a', '--compression-format', 'zstd'): '--storage-preset-profile zstd_fast',
+        ('-a', '-b', '1023'): '--max-bag-size 1023: it is 1024 bytes at least for mcap',
+        ('-a', '--use-sim-time', '--no-discovery'): 'not --no-discovery',
+    }
+    calls = [('bag', 'record', '-o', 'bag', *words) for words in bad]
+    ended = run_forked(*(('ros2cli.cli', *words) for words in calls), preload=VERB)
+    for (words, message), each in zip(bad.items(), ended, strict=True):
+        assert (each.status, each.err.count('\n')) == (2, 1), (words, each)
+        assert message in each.err, words
+    answer = ros2(*calls[0])
+    assert (answer.status, answer.err) == (2, ended[0].err)
     assert not (tmp_path / 'bag').exists()
