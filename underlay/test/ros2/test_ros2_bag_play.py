@@ -11,6 +11,7 @@ from typing import Any
 
 from example_interfaces.srv import AddTwoInts
 from playpen_testing.bags import opened_writer, string
+from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
@@ -202,24 +203,22 @@ def test_play_ends_where_it_should(
     assert ''.join(heard) == expected
 
 
-@pytest.mark.parametrize(
-    ('words', 'message'),
-    [
-        (('--topics', '/clock', '--clock'), 'No topic of the bag is chosen; it has /clock'),
-        (('--services', 'x'), "The bag has no topic '/x/_service_event'; it has /clock"),
-        (('-x', '('), "'(' is no regular expression"),
-        (('--playback-duration', 'inf'), "'inf' is refused: it must be a number"),
-        (('--playback-until-sec', '1', '--playback-until-nsec', '1'), 'not allowed with'),
-    ],
-)
 def test_a_bad_choice_is_refused(
-    write_bag: Callable[..., Path],
-    domain: int,
-    ros2: Callable[..., Any],
-    words: tuple[str, ...],
-    message: str,
+    write_bag: Callable[..., Path], domain: int, ros2: Callable[..., Any]
 ) -> None:
+    bad = {
+        ('--topics', '/clock', '--clock'): 'No topic of the bag is chosen; it has /clock',
+        ('--services', 'x'): "The bag has no topic '/x/_service_event'; it has /clock",
+        ('-x', '('): "'(' is no regular expression",
+        ('--playback-duration', 'inf'): "'inf' is refused: it must be a number",
+        ('--playback-until-sec', '1', '--playback-until-nsec', '1'): 'not allowed with',
+    }
     bag = write_bag({'/clock': 'rosgraph_msgs/msg/Clock'}, 0)
-    answer = ros2('bag', 'play', str(bag), *words)
-    assert answer.status in (1, 2)
-    assert message in answer.err
+    calls = [('bag', 'play', str(bag), *words) for words in bad]
+    preload = ('rclpy', 'rosbag2_py')
+    ended = run_forked(*(('ros2cli.cli', *words) for words in calls), preload=preload)
+    for (words, message), each in zip(bad.items(), ended, strict=True):
+        assert each.status in (1, 2), (words, each)
+        assert message in each.err, words
+    answer = ros2(*calls[0])
+    assert (answer.status, answer.err) == (ended[0].status, ended[0].err)
