@@ -13,6 +13,7 @@ import threading
 import time
 from typing import Any
 
+from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
@@ -122,27 +123,28 @@ def test_echo_ends_quietly_at_its_timeout(ros2: Callable[..., Any]) -> None:
     assert (answer.status, answer.out, answer.err) == (0, '', '')
 
 
-@pytest.mark.parametrize(
-    ('words', 'message'),
-    [
-        (('/nothing',), 'Could not determine the type for the passed topic'),
-        (('/chater',), "did you mean '/chatter'?"),
-        (('/chatter', 'std_msgs/msg/Strin'), "has no message 'Strin'; did you mean 'String'"),
-        (('/chatter', 'nothing_msgs/msg/A'), "package 'nothing_msgs' not found"),
-        (('/chatter', 'x'), 'as std_msgs/msg/String'),
-        (('/a//b',), "'/a//b' is no valid topic name"),
-        (('/latched', '--field', 'datum'), "has no attribute 'datum'; there is data"),
-        (('/latched', '--filter', 'm.x ='), "Invalid expression 'm.x ='"),
-        (('/latched', '--filter', 'm.x'), "--filter 'm.x' fails"),
-    ],
-)
 @pytest.mark.usefixtures('world')
-def test_echo_names_what_it_refuses(
-    ros2: Callable[..., Any], words: tuple[str, ...], message: str
-) -> None:
-    answer = ros2('topic', 'echo', *words)
-    assert answer.status in (1, 2)
-    assert message in answer.err
+def test_echo_names_what_it_refuses(ros2: Callable[..., Any]) -> None:
+    bad = {
+        ('/nothing',): 'Could not determine the type for the passed topic',
+        ('/chater',): "did you mean '/chatter'?",
+        ('/chatter', 'std_msgs/msg/Strin'): "has no message 'Strin'; did you mean 'String'",
+        ('/chatter', 'nothing_msgs/msg/A'): "package 'nothing_msgs' not found",
+        ('/chatter', 'x'): 'as std_msgs/msg/String',
+        ('/a//b',): "'/a//b' is no valid topic name",
+        ('/latched', '--field', 'datum'): "has no attribute 'datum'; there is data",
+        ('/latched', '--filter', 'm.x ='): "Invalid expression 'm.x ='",
+        ('/latched', '--filter', 'm.x'): "--filter 'm.x' fails",
+    }
+    calls = [('ros2cli.cli', 'topic', 'echo', *words) for words in bad]
+    preload = ('ros2topic.verb.echo', 'rclpy')
+    for (words, message), ended in zip(
+        bad.items(), run_forked(*calls, preload=preload), strict=True
+    ):
+        assert ended.status in (1, 2), (words, ended)
+        assert message in ended.err, words
+    answer = ros2('topic', 'echo', '/latched', '--filter', 'm.x')
+    assert (answer.status, "--filter 'm.x' fails" in answer.err) == (1, True)
 
 
 def test_hz_measures_the_rate(world: Any) -> None:
@@ -248,27 +250,27 @@ def test_a_header_gets_the_time_when_it_asks_for_it(ros2: Callable[..., Any]) ->
     assert abs(int(sec.partition(',')[0]) - time.time()) < 60
 
 
-@pytest.mark.parametrize(
-    ('words', 'status', 'message'),
-    [
-        (('std_msgs/msg/String', 'data: [1'), 1, 'is no YAML'),
-        (('std_msgs/msg/String', '5'), 1, 'needs to be a dictionary in YAML format'),
-        (('std_msgs/msg/String', 'text: x'), 1, "no attribute 'text'; its fields are data"),
-        (('std_msgs/msg/Float32', 'data: 1e39'), 1, '1e+39 does not fit a float32'),
-        (('std_msgs/msg/Float32', 'data: 3.4028235e38'), 1, '3.4028235e+38 is refused: a node'),
-        (('std_msgs/msg/Int8', 'data: 300'), 1, '300 does not fit int8 (-128 to 127)'),
-        (('std_msgs/msg/Bool', 'data: maybe'), 1, 'expected true or false'),
-        (('geometry_msgs/msg/Twist', 'linear: 3'), 1, 'expected to be a dictionary'),
-        (('std_msgs/msg/String', '-r', '0'), 2, 'must be a number above 0'),
-    ],
-)
 @pytest.mark.usefixtures('domain')
-def test_pub_names_what_it_refuses(
-    ros2: Callable[..., Any], words: tuple[str, ...], status: int, message: str
-) -> None:
-    answer = ros2('topic', 'pub', '/x', *words)
-    assert answer.status == status
-    assert message in answer.err
+def test_pub_names_what_it_refuses(ros2: Callable[..., Any]) -> None:
+    bad = {
+        ('std_msgs/msg/String', 'data: [1'): (1, 'is no YAML'),
+        ('std_msgs/msg/String', '5'): (1, 'needs to be a dictionary in YAML format'),
+        ('std_msgs/msg/String', 'text: x'): (1, "no attribute 'text'; its fields are data"),
+        ('std_msgs/msg/Float32', 'data: 1e39'): (1, '1e+39 does not fit a float32'),
+        ('std_msgs/msg/Float32', 'data: 3.4028235e38'): (1, '3.4028235e+38 is refused: a node'),
+        ('std_msgs/msg/Int8', 'data: 300'): (1, '300 does not fit int8 (-128 to 127)'),
+        ('std_msgs/msg/Bool', 'data: maybe'): (1, 'expected true or false'),
+        ('geometry_msgs/msg/Twist', 'linear: 3'): (1, 'expected to be a dictionary'),
+        ('std_msgs/msg/String', '-r', '0'): (2, 'must be a number above 0'),
+    }
+    calls = [('ros2cli.cli', 'topic', 'pub', '/x', *words) for words in bad]
+    preload = ('ros2topic.verb.pub', 'rclpy')
+    results = run_forked(*calls, preload=preload)
+    for (words, (status, message)), ended in zip(bad.items(), results, strict=True):
+        assert ended.status == status, (words, ended)
+        assert message in ended.err, words
+    answer = ros2(*calls[0][1:])
+    assert (answer.status, answer.err) == (1, results[0].err)
 
 
 def test_a_closed_pipe_ends_echo_without_a_word(processes: Any) -> None:
