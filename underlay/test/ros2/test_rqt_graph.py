@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from http.client import HTTPConnection
 import json
 import os
@@ -14,12 +14,15 @@ import subprocess
 import sys
 import time
 from typing import Any
+from urllib.parse import urlsplit
 from urllib.request import urlopen
 from xml.etree import ElementTree
 
 from playpen_testing import chromium
 from playpen_testing.browser import errors, hide, start_browser
+from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
+from playwright.sync_api import Browser
 import pytest
 
 SVG = '{http://www.w3.org/2000/svg}'
@@ -80,18 +83,32 @@ LIT = {
 }
 
 
-@pytest.fixture
-def talk(processes: Any) -> Any:
+@pytest.fixture(scope='module')
+def talk(shared_processes: Any) -> None:
     for kind, name in (('talker', 'talker_1'), ('talker', 'talker_2'), ('listener', 'listener')):
-        processes.node(kind, name)
-    return processes
+        shared_processes.node(kind, name)
+
+
+@pytest.fixture(scope='module')
+def address(talk: None, shared_processes: Any) -> str:
+    """Start a page that shows who talks, and return its address."""
+    del talk
+    server = shared_processes.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
+    return str(find_line(server.stdout, r'http://127\.0\.0\.1:\d+/')[0])
+
+
+@pytest.fixture(scope='module')
+def browser() -> Iterator[Browser]:
+    with start_browser(chromium.find_or_install()) as started:
+        yield started
 
 
 @pytest.mark.usefixtures('talk')
 def test_svg_has_ellipses_for_nodes_boxes_for_topics_and_arrows(tmp_path: Path) -> None:
-    answer = run('--output', 'graph.svg')
-    assert (answer.returncode, answer.stdout) == (0, 'wrote graph.svg\n'), answer.stderr
-    svg = (tmp_path / 'graph.svg').read_text()
+    file = tmp_path / 'graph.svg'
+    answer = run('--output', str(file))
+    assert (answer.returncode, answer.stdout) == (0, f'wrote {file}\n'), answer.stderr
+    svg = file.read_text()
     assert shapes(svg) == TALK
     assert arrows(svg) == TALK_ARROWS
 
@@ -100,7 +117,7 @@ def test_svg_has_ellipses_for_nodes_boxes_for_topics_and_arrows(tmp_path: Path) 
 def test_png_is_a_picture_of_the_same(tmp_path: Path) -> None:
     from matplotlib.image import imread
 
-    assert run('-o', 'graph.png').returncode == 0
+    assert run('-o', str(tmp_path / 'graph.png')).returncode == 0
     pixels = imread(tmp_path / 'graph.png')
     height, width, _ = pixels.shape
     assert width > 2 * height > 100
@@ -144,20 +161,20 @@ def test_two_nodes_of_one_name_are_one_red_ellipse(processes: Any, tmp_path: Pat
     assert '2 nodes have this name' in svg
 
 
-@pytest.mark.parametrize(
-    ('arguments', 'said'),
-    [
-        (('-o', 'graph.gif'), 'must end in .svg or .png'),
-        (('-o', 'no/graph.svg'), "there is no folder 'no'"),
-        (('--port', 'abc'), 'a port is from 1 to 65535'),
-        (('--view', 'some'), "invalid choice: 'some'"),
-    ],
-)
 @pytest.mark.usefixtures('domain')
-def test_bad_arguments_are_refused(arguments: tuple[str, ...], said: str) -> None:
-    answer = run(*arguments)
-    assert answer.returncode == 2
-    assert said in answer.stderr
+def test_bad_arguments_are_refused() -> None:
+    bad = {
+        ('-o', 'graph.gif'): 'must end in .svg or .png',
+        ('-o', 'no/graph.svg'): "there is no folder 'no'",
+        ('--port', 'abc'): 'a port is from 1 to 65535',
+        ('--view', 'some'): "invalid choice: 'some'",
+    }
+    ended = run_forked(*(('rqt_graph.main', *words) for words in bad))
+    for (words, said), each in zip(bad.items(), ended, strict=True):
+        assert each.status == 2, (words, each)
+        assert said in each.err, words
+    answer = run('-o', 'graph.gif')
+    assert (answer.returncode, answer.stderr) == (2, ended[0].err)
 
 
 @pytest.mark.usefixtures('domain')
@@ -202,53 +219,44 @@ def test_it_is_a_package_of_the_ament_prefix() -> None:
     assert ros2('xml', 'rqt_graph', '-t', 'license').split()[-1] == 'Apache-2.0'
 
 
-def events(address: str) -> Iterator[dict[str, Any]]:
+def events(address: str) -> Generator[dict[str, Any], None, None]:
     with urlopen(address + 'events', timeout=20) as answer:
         for line in answer:
             if line.startswith(b'data: '):
                 yield json.loads(line.removeprefix(b'data: '))
 
 
-def test_the_page_shows_nodes_that_start_and_end(talk: Any) -> None:
-    page = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    address = find_line(page.stdout, r'http://127\.0\.0\.1:\d+/')[0]
+def test_the_page_shows_nodes_that_start_and_end(address: str, shared_processes: Any) -> None:
     assert '<title>rqt_graph</title>' in urlopen(address, timeout=10).read().decode()
     news = events(address)
     first = next(news)
     assert (shapes(first['svg']), arrows(first['svg'])) == (TALK, TALK_ARROWS)
     assert (first['nodes'], first['topics']) == (3, 1)
-    third = talk.node('talker', 'talker_3')
+    third = shared_processes.node('talker', 'talker_3')
     _wait_for_event(news, lambda keys: 'node:/talker_3' in keys)
     third.send_signal(signal.SIGINT)
     _wait_for_event(news, lambda keys: 'node:/talker_3' not in keys)
+    news.close()
     assert urlopen(address + 'graph.png', timeout=20).read().startswith(b'\x89PNG')
     assert set(shapes(urlopen(address + 'graph.svg', timeout=20).read().decode())) == set(TALK)
 
 
-@pytest.mark.parametrize(
-    ('headers', 'status'),
-    [
+def test_the_page_answers_to_this_computer_alone(address: str) -> None:
+    asked: tuple[tuple[dict[str, str], int], ...] = (
         ({}, 200),
         ({'Host': 'evil.example'}, 421),
         ({'Origin': 'http://evil.example'}, 403),
-    ],
-)
-def test_the_page_answers_to_this_computer_alone(
-    processes: Any, headers: dict[str, str], status: int
-) -> None:
-    server = processes.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    place = find_line(server.stdout, r'127\.0\.0\.1:\d+')[0]
-    connection = HTTPConnection(place, timeout=10.0)
-    connection.request('GET', '/graph.svg', headers=headers)
-    assert connection.getresponse().status == status
-    connection.close()
+    )
+    for headers, status in asked:
+        connection = HTTPConnection(urlsplit(address).netloc, timeout=10.0)
+        connection.request('GET', '/graph.svg', headers=headers)
+        assert connection.getresponse().status == status, headers
+        connection.close()
 
 
-def test_the_page_lights_what_hangs_on_a_pointed_shape(talk: Any) -> None:
-    server = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    address = find_line(server.stdout, r'http://127\.0\.0\.1:\d+/')[0]
-    with start_browser(chromium.find_or_install()) as browser:
-        page = browser.new_page()
+def test_the_page_lights_what_hangs_on_a_pointed_shape(address: str, browser: Browser) -> None:
+    with browser.new_context() as one_browser:
+        page = one_browser.new_page()
         page.goto(address)
         for shape, lit in LIT.items():
             page.locator(f'[id="{shape}"]').hover()
@@ -259,11 +267,8 @@ def test_the_page_lights_what_hangs_on_a_pointed_shape(talk: Any) -> None:
         assert errors(page) == []
 
 
-def test_tabs_behind_another_leave_their_connection_to_it(talk: Any) -> None:
-    server = talk.start('ros2', 'run', 'rqt_graph', 'rqt_graph')
-    address = find_line(server.stdout, r'http://127\.0\.0\.1:\d+/')[0]
-    browsers = start_browser(chromium.find_or_install())
-    with browsers as browser, browser.new_context() as one_browser:  # with six connections
+def test_tabs_behind_another_leave_their_connection_to_it(address: str, browser: Browser) -> None:
+    with browser.new_context() as one_browser:  # with six connections
         tabs = [one_browser.new_page() for _ in range(8)]
         for tab in tabs:
             tab.goto(address)
