@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from playpen_testing.forks import run_forked
 import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -35,22 +36,22 @@ def test_a_request_may_come_from_stdin(ros2: Callable[..., Any]) -> None:
     assert 'success=False' in ros2(*words, text='data: false\n').out
 
 
-@pytest.mark.parametrize(
-    ('words', 'message'),
-    [
-        (('std_srvs/srv/SetBool', 'data: 5'), 'expected true or false'),
-        (('std_srvs/srv/SetBol',), "no service 'SetBol'; did you mean 'SetBool'"),
-        (('std_msgs/msg/String',), 'the full name of a service'),
-        (('std_srvs/srv/SetBool', '{{'), 'is no YAML'),
-    ],
-)
 @pytest.mark.usefixtures('world')
-def test_a_bad_call_is_refused(
-    ros2: Callable[..., Any], words: tuple[str, ...], message: str
-) -> None:
-    answer = ros2('service', 'call', '/flip', *words)
-    assert answer.status == 1
-    assert message in answer.err
+def test_a_bad_call_is_refused(ros2: Callable[..., Any]) -> None:
+    bad = {
+        ('std_srvs/srv/SetBool', 'data: 5'): 'expected true or false',
+        ('std_srvs/srv/SetBol',): "no service 'SetBol'; did you mean 'SetBool'",
+        ('std_msgs/msg/String',): 'the full name of a service',
+        ('std_srvs/srv/SetBool', '{{'): 'is no YAML',
+    }
+    calls = [('service', 'call', '/flip', *words) for words in bad]
+    preload = ('ros2service.verb.call', 'rclpy')
+    results = run_forked(*(('ros2cli.cli', *words) for words in calls), preload=preload)
+    for (words, message), ended in zip(bad.items(), results, strict=True):
+        assert ended.status == 1, (words, ended)
+        assert message in ended.err, words
+    answer = ros2(*calls[0])
+    assert (answer.status, answer.err) == (1, results[0].err)
 
 
 def test_a_call_of_a_name_that_nobody_has_gets_a_hint(world: Any) -> None:
@@ -101,27 +102,26 @@ def test_a_parameter_that_is_set_stays_set(ros2: Callable[..., Any]) -> None:
     assert ros2('param', 'get', '/owner', 'wheel.radius', '--hide-type').out == '7\n'
 
 
-@pytest.mark.parametrize(
-    ('words', 'status', 'message'),
-    [
-        (('get', '/owner', 'nothing'), 1, 'Parameter not set'),
-        (('get', '/owne', 'speed'), 1, "Node not found: '/owne'; did you mean '/owner'?"),
-        (('set', '/owner', 'speed', '7.0'), 0, 'Setting parameter failed: Parameter speed out'),
-        (('set', '/owner', 'speed', 'fast'), 0, 'Setting parameter failed: Wrong parameter type'),
-        (('set', '/owner', 'fixed', 'a'), 0, 'read-only'),
-        (('set', '/owner', 'wheel.radius', '9' * 30), 1, 'an integer parameter has 64 bits'),
-        (('delete', '/owner', 'speed'), 0, 'Deleting parameter failed'),
-        (('load', '/owner', '/nothing.yaml'), 1, "'/nothing.yaml' cannot be read: No such file"),
-        (('list', '--filter', '('), 1, 'is no regular expression'),
-    ],
-)
 @pytest.mark.usefixtures('world')
-def test_what_cannot_be_done_is_said(
-    ros2: Callable[..., Any], words: tuple[str, ...], status: int, message: str
-) -> None:
-    answer = ros2('param', *words)
-    assert answer.status == status
-    assert message in answer.err
+def test_what_cannot_be_done_is_said(ros2: Callable[..., Any]) -> None:
+    bad = {
+        ('get', '/owner', 'nothing'): (1, 'Parameter not set'),
+        ('get', '/owne', 'speed'): (1, "Node not found: '/owne'; did you mean '/owner'?"),
+        ('set', '/owner', 'speed', '7.0'): (0, 'Setting parameter failed: Parameter speed out'),
+        ('set', '/owner', 'speed', 'fast'): (0, 'Setting parameter failed: Wrong parameter type'),
+        ('set', '/owner', 'fixed', 'a'): (0, 'read-only'),
+        ('set', '/owner', 'wheel.radius', '9' * 30): (1, 'an integer parameter has 64 bits'),
+        ('delete', '/owner', 'speed'): (0, 'Deleting parameter failed'),
+        ('load', '/owner', '/nothing.yaml'): (1, "'/nothing.yaml' cannot be read: No such file"),
+        ('list', '--filter', '('): (1, 'is no regular expression'),
+    }
+    calls = [('ros2cli.cli', 'param', *words) for words in bad]
+    results = run_forked(*calls, preload=('ros2param.verb.set', 'rclpy'))
+    for (words, (status, message)), ended in zip(bad.items(), results, strict=True):
+        assert ended.status == status, (words, ended)
+        assert message in ended.err, words
+    answer = ros2('param', 'get', '/owner', 'nothing')
+    assert (answer.status, 'Parameter not set' in answer.err) == (1, True)
 
 
 @pytest.mark.usefixtures('world')
