@@ -114,7 +114,8 @@ def test_a_goal_of_another_type_gets_a_hint(processes: Any, ros2: Any) -> None:
     )
     words = (*GOAL[:3], 'turtlesim/action/RotateAbsolute', '{}')
     processes.ros2(*words, ready=f'hint: {told}')
-    assert sum(told in line for line in ros2('doctor').lines) == 1
-    assert sum('(types)' in line for line in ros2('doctor').lines) == 1
+    found = ros2('doctor').lines
+    assert sum(told in line for line in found) == 1
+    assert sum('(types)' in line for line in found) == 1
     answer = ros2(*words, '--timeout', '0.5')
     assert answer.err.splitlines()[-1] == "No action server for '/count' within 0.5 s"
