@@ -50,19 +50,24 @@ def _counts(bag: Path) -> dict[str, int]:
 
 
 @pytest.fixture(scope='module')
-def bag(shared_processes: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    talker = shared_processes.node('talker', 'talker')
-    latched = shared_processes.node('latched', 'latched')
+def talk(shared_processes: Any) -> Any:
+    """Let a node talk; return where processes start that hear it."""
+    shared_processes.node('talker', 'talker')
+    return shared_processes
+
+
+@pytest.fixture(scope='module')
+def bag(talk: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    latched = talk.node('latched', 'latched')
     for number in range(5):  # on a busy machine its second may be over before it hears all
         folder = tmp_path_factory.mktemp(f'bag_{number}') / 'run'
-        rest = _record(shared_processes, folder, '--all', until='Recording...')
+        rest = _record(talk, folder, '--all', until='Recording...')
         assert 'Recording stopped: ' in rest
         counts = _counts(folder)
         if counts.get('/chatter', 0) > 5 and counts.get('/latched'):
             break
-    for node in (talker, latched):
-        node.terminate()
-        node.wait()
+    latched.terminate()
+    latched.wait()
     return folder
 
 
@@ -161,9 +166,8 @@ def test_a_signal_ends_play_without_a_word(
     assert (out, player.returncode) == ('', signal.SIGINT)
 
 
-def test_sigterm_ends_a_recording_as_ctrl_c_does(processes: Any, tmp_path: Path) -> None:
-    processes.node('talker', 'talker')
-    recorder = processes.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
+def test_sigterm_ends_a_recording_as_ctrl_c_does(talk: Any, tmp_path: Path) -> None:
+    recorder = talk.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
     find_line(recorder.stdout, 'Recording...')
     recorder.send_signal(signal.SIGTERM)
     out, _ = recorder.communicate(timeout=10)
@@ -173,10 +177,9 @@ def test_sigterm_ends_a_recording_as_ctrl_c_does(processes: Any, tmp_path: Path)
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGHUP])
 def test_more_signals_leave_a_whole_bag(
-    processes: Any, ros2: Callable[..., Any], tmp_path: Path, number: int
+    talk: Any, ros2: Callable[..., Any], tmp_path: Path, number: int
 ) -> None:
-    processes.node('talker', 'talker')
-    recorder = processes.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
+    recorder = talk.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
     find_line(recorder.stdout, 'Recording...')
     while recorder.poll() is None:
         recorder.send_signal(number)
@@ -186,10 +189,9 @@ def test_more_signals_leave_a_whole_bag(
 
 
 def test_only_chosen_topics_are_recorded(
-    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+    talk: Any, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:
-    processes.node('talker', 'talker')
-    _record(processes, tmp_path / 'run', '/chatter', until="Subscribed to topic '/chatter'")
+    _record(talk, tmp_path / 'run', '/chatter', until="Subscribed to topic '/chatter'")
     assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
 
 
