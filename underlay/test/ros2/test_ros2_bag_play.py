@@ -146,6 +146,17 @@ def heard(domain: int) -> Iterator[list[str]]:
         yield found
 
 
+def full_at_the_end(folder: Path, counts: dict[str, int]) -> tuple[str, str]:
+    """
+    Return options that give each topic a history for as many messages as are played.
+
+    Fast DDS asks at once whether what fills it has arrived, and else within 3 s.
+    """
+    file = folder / 'full.yaml'
+    file.write_text(''.join(f'{topic}: {{depth: {n}}}\n' for topic, n in counts.items()))
+    return '--qos-profile-overrides-path', str(file)
+
+
 @pytest.mark.parametrize(
     ('words', 'expected'),
     [
@@ -164,11 +175,14 @@ def test_what_is_chosen_is_played(
     write_bag: Callable[..., Path],
     heard: list[str],
     ros2: Callable[..., Any],
+    tmp_path: Path,
     words: tuple[str, ...],
     expected: set[str],
 ) -> None:
-    bag = write_bag({'/chatter': STRING, '/other': STRING, SUMS: EVENT}, 3)
-    played = ros2('bag', 'play', str(bag), *words)
+    types = {'/chatter': STRING, '/other': STRING, SUMS: EVENT}
+    bag = write_bag(types, 3)
+    full = full_at_the_end(tmp_path, dict.fromkeys(types, 1))
+    played = ros2('bag', 'play', str(bag), *words, *full)
     assert played.status == (0 if expected else 1)
     assert ('No topic of the bag is chosen; it has ' in played.err) == (not expected)
     wait_until(lambda: set(heard) >= expected, timeout_sec=10.0, what=lambda: f'more than {heard}')
@@ -190,11 +204,13 @@ def test_play_ends_where_it_should(
     write_bag: Callable[..., Path],
     heard: list[str],
     ros2: Callable[..., Any],
+    tmp_path: Path,
     words: tuple[str, ...],
     expected: str,
 ) -> None:
     bag = write_bag({'/chatter': STRING})
     words = (*words, '--read-ahead-queue-size', '1', '--disable-keyboard-controls')
+    words = (*words, *full_at_the_end(tmp_path, {'/chatter': len(expected) or 1}))
     played = ros2('bag', 'play', str(bag), *words)
     assert (played.status, played.err) == (0, '')
     wait_until(
