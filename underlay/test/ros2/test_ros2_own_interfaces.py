@@ -129,12 +129,11 @@ def test_topic_commands_know_an_own_type(shapes: None, ros2: Any) -> None:
 
 
 def test_topic_pub_sends_an_own_type(shapes: None, ros2: Any, shared_processes: Any) -> None:
-    shared_processes.ros2(
-        'topic', 'pub', '-r', '10', '/num', 'tutorial_interfaces/Num', '{num: 7}'
-    )
-    assert (
-        ros2('topic', 'echo', '--once', '/num', 'tutorial_interfaces/msg/Num').lines[0] == 'num: 7'
-    )
+    words = ('topic', 'pub', '-r', '10', '/num', 'tutorial_interfaces/Num', '{num: 7}')
+    publisher = shared_processes.ros2(*words)
+    echoed = ros2('topic', 'echo', '--once', '/num', 'tutorial_interfaces/msg/Num').lines
+    publisher.terminate()
+    assert echoed[0] == 'num: 7'
 
 
 def test_service_call_asks_an_own_service(shapes: None, ros2: Any) -> None:
@@ -144,9 +143,11 @@ def test_service_call_asks_an_own_service(shapes: None, ros2: Any) -> None:
 
 def test_service_echo_shows_requests_and_answers(shapes: None, shared_processes: Any) -> None:
     words = ('/add_three_ints', 'tutorial_interfaces/srv/AddThreeInts', '{a: 1, c: -39}')
-    shared_processes.ros2('service', 'call', '-r', '5', *words)
+    calls = shared_processes.ros2('service', 'call', '-r', '5', *words)
     echo = shared_processes.ros2('service', 'echo', '/add_three_ints', ready='c: -39')
     assert any('sum: -38' in line for line in echo.stdout), 'no answer is shown'
+    calls.terminate()
+    echo.terminate()
 
 
 def test_a_node_describes_its_own_types(shapes: None, ros2: Any) -> None:
@@ -181,8 +182,9 @@ def test_a_bag_plays_own_messages(
     recorder.send_signal(signal.SIGINT)
     rest, _ = recorder.communicate(timeout=10)
     assert 'Recording stopped' in rest, rest
-    shared_processes.ros2('bag', 'play', '--loop', bag, '--remap', '/sphere:=/played')
+    player = shared_processes.ros2('bag', 'play', '--loop', bag, '--remap', '/sphere:=/played')
     echoed = ros2('topic', 'echo', '--once', '/played', 'tutorial_interfaces/msg/Sphere').lines
+    player.terminate()
     assert 'radius: 2.5' in echoed
 
 
