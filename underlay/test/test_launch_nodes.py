@@ -9,8 +9,10 @@ from pathlib import Path
 import re
 from typing import Any
 
-from launch import LaunchContext, LaunchDescription, LaunchService
+from launch import InvalidLaunchFileError, LaunchContext, LaunchDescription, LaunchService
 from launch.conditions import IfCondition
+from launch.launch_description_sources import get_launch_description_from_any_launch_file
+from launch.source_location import describe_error
 from launch_ros.actions import (
     ComposableNodeContainer,
     PushRosNamespace,
@@ -225,6 +227,26 @@ def test_a_wrong_node_is_one_line_with_its_place(
     assert message in line
     assert f'(at {path}:' in line
     assert 'Traceback' not in launched.output
+
+
+def test_a_package_that_python_asks_for_is_explained(
+    python_launch_file: LaunchFile, ros_package: Path
+) -> None:
+    del ros_package
+    before = (
+        f'{BEFORE}\nfrom ament_index_python.packages import get_package_share_directory as share\n'
+    )
+    for package, hint in {
+        'demo_nodes_cpp': 'it has no wheel; here `ros2 run demo_nodes_py talker`',
+        'some_pk': "is 'some_pkg' meant?",
+    }.items():
+        path = python_launch_file(f"LogInfo(msg=share('{package}')),", before=before)
+        with pytest.raises(InvalidLaunchFileError) as caught:
+            get_launch_description_from_any_launch_file(str(path))
+        said = describe_error(caught.value)
+        assert f"package '{package}' not found, searching: [" in said
+        assert said.count(hint) == 1
+        assert f'(at {path}:' in said
 
 
 def test_a_missing_parameter_file_is_warned_about(

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 import sys
 from types import FrameType, TracebackType
@@ -15,6 +16,7 @@ _OWN_FOLDERS = tuple(
 # What a command line tool builds around a launch file has no place worth naming.
 _TOOLS_FOLDER = f'{Path(__file__).parent.parent / "ros2cli"}/'
 _launch_files: set[str] = set()
+_explainers: list[Callable[[BaseException], str]] = []
 
 
 def register_launch_file(path: str) -> None:
@@ -56,12 +58,20 @@ def attach_location(error: Exception, location: tuple[str, int] | None) -> None:
     located_error(error, traceback_location(error.__traceback__) or location)
 
 
+def explain_errors_with(explainer: Callable[[BaseException], str]) -> None:
+    """Let a function say what to do about an error; it returns '' for those it does not know."""
+    _explainers.append(explainer)
+
+
 def describe_error(error: BaseException) -> str:
-    """Return the message with the launch file and line, where they are known."""
+    """Return the message with what to do and the launch file and line, where they are known."""
     message = str(error) or type(error).__name__
     if isinstance(error, KeyError) and error.args:
         said = str(error.args[0])
         message = f'KeyError: {said!r}' if type(error) is KeyError else said
+    for explainer in _explainers:
+        hint = explainer(error) or (explainer(error.__cause__) if error.__cause__ else '')
+        message += f': {hint}' if hint else ''
     location = getattr(error, 'launch_location', None) or traceback_location(error.__traceback__)
     if location is None or f'{location[0]}:{location[1]}' in message:
         return message

@@ -6,11 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import difflib
+import re
+import sys
 from typing import cast
 
 from launch.frontend import expose_substitution
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.source_location import explain_errors_with
 from launch.substitution import MarkupArguments, Substitution
 from launch.substitutions import PathJoinSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -75,3 +78,16 @@ def _why_missing(package: str, known: Iterable[str]) -> str:
     near = difflib.get_close_matches(package, list(known), 1)
     meant = f"is '{near[0]}' meant?" if near else 'is its workspace built and sourced?'
     return stand_ins.hint(package) or meant
+
+
+def _explain(error: BaseException) -> str:
+    """Say why a package is missing that a launch file in Python asked ament_index_python for."""
+    packages = sys.modules.get('ament_index_python.packages')
+    if packages is None or not isinstance(error, packages.PackageNotFoundError):
+        return ''
+    # What a substitution raised has its hint behind the list of folders.
+    asked = re.fullmatch(r"package '(.*)' not found, searching: \[.*\]", str(error.args[0]))
+    return _why_missing(asked[1], packages.get_packages_with_prefixes()) if asked else ''
+
+
+explain_errors_with(_explain)
