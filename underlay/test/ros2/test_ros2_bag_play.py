@@ -24,6 +24,7 @@ from rclpy.serialization import serialize_message
 from ros2bag import player
 from ros2cli.node.direct import command_node
 from rosbag2_py import TopicMetadata
+from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
 
 STRING = 'std_msgs/msg/String'
@@ -187,6 +188,40 @@ def test_what_is_chosen_is_played(
     assert ('No topic of the bag is chosen; it has ' in played.err) == (not expected)
     wait_until(lambda: set(heard) >= expected, timeout_sec=10.0, what=lambda: f'more than {heard}')
     assert set(heard) == expected
+
+
+@pytest.mark.parametrize('source', [None, 'client_introspection'])
+def test_recorded_requests_are_sent_again(
+    tmp_path: Path, domain: int, ros2: Callable[..., Any], source: str | None
+) -> None:
+    asked: list[tuple[int, int]] = []
+
+    def add(request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
+        asked.append((request.a, request.b))
+        return response
+
+    writer = opened_writer(tmp_path / 'bag')
+    writer.create_topic(TopicMetadata(0, SUMS, EVENT, 'cdr'))
+    for number in range(8):  # four calls: what the client sent, what the service received
+        event = AddTwoInts.Event()
+        sent = (ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED)
+        event.info.event_type = sent[number % 2]
+        if number < 6:
+            event.request = [AddTwoInts.Request(a=number, b=10)]
+        writer.write(SUMS, serialize_message(event), number * 10_000_000)
+    writer.close()
+    events: list[AddTwoInts.Event] = []
+    words = ('--service-requests-source', source) if source else ()
+    command = ('bag', 'play', str(tmp_path / 'bag'), '--publish-service-requests', *words)
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'adder')
+        node.create_service(AddTwoInts, 'add_two_ints', add)
+        node.create_subscription(AddTwoInts.Event, SUMS, events.append, 10)
+        played = ros2(*command)
+    assert (played.status, played.err.count('\n')) == (0, 1)
+    assert "Service '/add_two_ints': the bag has only metadata of its calls" in played.err
+    assert asked == [(first, 10) for first in ((0, 2, 4) if source else (1, 3, 5))]
+    assert events == []
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from rosbag2_py.selection import EVENTS
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 
-from ros2bag import choice, player, qos_overrides, without_effect
+from ros2bag import choice, player, qos_overrides, service_requests, without_effect
 from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
 
@@ -70,6 +70,7 @@ class PlayVerb(VerbExtension):
             help='At the end, wait so long at most until all that was published reliably has '
             'arrived; 0 for as long as it takes (default: %(default)s).',
         )
+        service_requests.add_arguments(parser)
         without_effect.add_numbers(parser, '--read-ahead-queue-size')
         without_effect.add_flags(parser, '--disable-keyboard-controls', '--disable-loan-message')
         qos_overrides.add_argument(parser)
@@ -81,14 +82,17 @@ class PlayVerb(VerbExtension):
         remaps = _remaps(args.remap)
         overrides = qos_overrides.read(args.qos_profile_overrides_path)
         with command_node(args, name='rosbag2_player') as node:
-            publishers = player.publishers_of(node, chosen, remaps, overrides)
+            requests = service_requests.players_of(node, args, chosen, remaps)
+            topics = [topic for topic in chosen if topic.name not in requests]
+            publishers = player.publishers_of(node, topics, remaps, overrides)
             clock = node.node.create_publisher(Clock, '/clock', 10) if args.clock else None
             player.wait_for_subscriptions(node, list(publishers.values()))
             node.spin_until(lambda: False, args.delay)
             while True:
-                player.play(node, args, bag, publishers, clock)
+                player.play(node, args, bag, {**publishers, **requests}, clock)
                 if not args.loop:
                     break
+            service_requests.wait_for_answers(node, requests)
             timeout_sec = args.wait_for_all_acked / 1000.0 or None
             player.wait_for_acknowledgements(node, publishers.values(), timeout_sec)
 
