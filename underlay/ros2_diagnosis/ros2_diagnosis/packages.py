@@ -38,24 +38,28 @@ def installed() -> dict[str, Path]:
     return found
 
 
-def prefix_of(package: str) -> Path:
+def prefix_of(package: str, program: str = '') -> Path:
     """Return the prefix of a package.
 
+    :param program: the one of the package that is wanted, where it is known.
     :raises PackageError: it is not there; the message says why and what to do.
     """
     known = installed()
     if package not in known:
-        raise PackageError(f"Package '{package}' not found: {why_missing(package)}")
+        raise PackageError(f"Package '{package}' not found: {why_missing(package, program)}")
     return known[package]
 
 
-def share_of(package: str) -> Path:
-    return prefix_of(package) / 'share' / package
+def share_of(package: str, program: str = '') -> Path:
+    return prefix_of(package, program) / 'share' / package
 
 
-def executables(package: str) -> list[Path]:
-    """List the executables of a package in the order of their paths."""
-    folder = prefix_of(package) / 'lib' / package
+def executables(package: str, program: str = '') -> list[Path]:
+    """List the executables of a package in the order of their paths.
+
+    :param program: the one that is wanted, where it is known.
+    """
+    folder = prefix_of(package, program) / 'lib' / package
     found: list[Path] = []
     for root, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith('.'))
@@ -70,7 +74,7 @@ def find_executable(package: str, name: str) -> Path:
 
     :raises PackageError: there is none of this name, or more than one.
     """
-    known = executables(package)
+    known = executables(package, name)
     matching = [path for path in known if path.name == name]
     if len(matching) == 1:
         return matching[0]
@@ -112,8 +116,11 @@ def launch_files(share: Path) -> list[Path]:
     ]
 
 
-def why_missing(package: str) -> str:
-    """Say why a package is not on AMENT_PREFIX_PATH, and what to do."""
+def why_missing(package: str, program: str = '') -> str:
+    """Say why a package is not on AMENT_PREFIX_PATH, and what to do.
+
+    :param program: the one of the package that is wanted, where it is known.
+    """
     if not prefixes():
         return 'AMENT_PREFIX_PATH is empty: no ROS is sourced in this terminal'
     workspace = workspace_of(Path.cwd())
@@ -130,7 +137,7 @@ def why_missing(package: str) -> str:
                 f'it is in {source}, but not built; run `colcon build --packages-select '
                 f'{package}` in {workspace}, then `source {workspace}/install/setup.bash`'
             )
-    instead = stand_ins.hint(package)
+    instead = stand_ins.hint(package, program)
     if instead:
         return instead
     near = nearest.hint(package, installed(), at_most=0)

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 _GRAPH = '`ros2 run rqt_graph rqt_graph` shows the graph, and `ros2 doctor` what is wrong in it'
+_LOG = '`ros2 topic echo /rosout` shows what all nodes log'
+_CALL = f'`ros2 service call` calls a service, {_GRAPH}'
 _HUSKY = '`ros2 launch husky_sim husky_playpen.launch.py` starts a robot in a world'
 _TELEOP = '`ros2 run husky_driver teleop` drives by the keys'
 _FRAMES = '`ros2 run tf2_tools view_frames --live` shows the tree of frames in the browser'
@@ -30,7 +32,9 @@ _NOTHING = 'nothing does its job, but a sourced ROS 2 Jazzy has it'
 
 BY_PACKAGE = {
     **dict.fromkeys(('rviz2', 'foxglove_bridge'), _VIEW),
-    **dict.fromkeys(('rqt', 'rqt_gui', 'rqt_topic', 'rqt_console', 'rqt_common_plugins'), _GRAPH),
+    **dict.fromkeys(('rqt', 'rqt_gui', 'rqt_topic', 'rqt_common_plugins'), _CALL),
+    'rqt_service_caller': '`ros2 service call` calls a service',
+    'rqt_console': _LOG,
     'rqt_tf_tree': _FRAMES,
     **dict.fromkeys(('rqt_image_view', 'image_view'), _CAMERA),
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
@@ -39,7 +43,8 @@ BY_PACKAGE = {
     'joint_state_publisher_gui': _JOINTS,
     **dict.fromkeys(
         ('turtle_tf2_py', 'turtle_tf2_cpp'),
-        "`turtlesim` and `tf2_ros` run the tutorials' own nodes in Python, as they are typed in",
+        'the pages on tf2 make the same programs in a package of your own, `learning_tf2_py`, and '
+        'launch files may take them from there',
     ),
     'demo_nodes_cpp': f'{_TALK}, and `ros2 pkg executables demo_nodes_py` lists more',
     **dict.fromkeys(
@@ -74,7 +79,31 @@ BY_PACKAGE = {
 """A clause for each package that has no wheel."""
 
 
-def hint(package: str) -> str:
-    """Say in one clause that a package has no wheel, and what does its job; '' for others."""
-    clause = BY_PACKAGE.get(package)
+_BY_PROGRAM = {
+    **{
+        ('demo_nodes_cpp', program): '`ros2 run demo_nodes_py introspection` is the service and '
+        'its client in one, with the same parameters'
+        for program in (
+            'introspection_service',
+            'introspection_client',
+            'introspect_services_launch.py',
+        )
+    },
+    ('demo_nodes_cpp', 'parameter_blackboard'): (
+        '`ros2 run turtlesim turtlesim_node` is a node with parameters to set and to watch, as '
+        '`background_r`'
+    ),
+    **dict.fromkeys(
+        (('demo_nodes_cpp', 'add_two_ints_server'), ('demo_nodes_cpp', 'add_two_ints_client')),
+        _ADD,
+    ),
+}
+
+
+def hint(package: str, program: str = '') -> str:
+    """Say in one clause that a package has no wheel, and what does its job; '' for others.
+
+    :param program: or launch file, the one of the package that is wanted, where it is known.
+    """
+    clause = _BY_PROGRAM.get((package, program)) or BY_PACKAGE.get(package)
     return f'it has no wheel; here {clause}' if clause else ''

@@ -149,7 +149,7 @@ def find_launch_file(
         return path, [*([file_name] if file_name is not None else []), *words]
     if file_name is None and package.endswith(_SUFFIXES):
         raise CommandError(f"'{package}' is no file in this folder ({Path.cwd()})")
-    share = packages.share_of(package)
+    share = packages.share_of(package, file_name or '')
     known = packages.launch_files(share)
     if file_name is None:
         raise CommandError(
