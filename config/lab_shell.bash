@@ -4,5 +4,8 @@
 # shellcheck shell=bash disable=SC1090
 if [[ -f ~/.bashrc ]]; then source ~/.bashrc; fi
 PATH=$VIRTUAL_ENV/bin:$PATH
-if [[ $HUSKY_LAB_ROS == pip ]]; then source "$VIRTUAL_ENV/share/ros2cli/environment/ros2-argcomplete.bash"; fi
+if [[ $HUSKY_LAB_ROS == pip ]]; then
+    eval "$(register-python-argcomplete ros2 colcon)"
+    source "$VIRTUAL_ENV/share/colcon_cd/function/colcon_cd.sh"
+fi
 PS1="(lab) $PS1"

@@ -69,6 +69,16 @@ def test_tab_completes_ros2_once_a_workspace_is_sourced(tmp_path: Path) -> None:
         shell.kill()
 
 
+@pytest.mark.skipif(os.environ.get('HUSKY_LAB_ROS') != 'pip', reason='colcon is not of the lab')
+def test_the_shell_of_the_lab_has_what_colcon_brings(tmp_path: Path) -> None:
+    shell = ('bash', '--rcfile', 'config/lab_shell.bash', '-ic')
+    asked = 'type -t colcon_cd; complete -p ros2 colcon'
+    here = {'VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path)}
+    function, *completions = run(*shell, asked, cwd=ROOT, **here).splitlines()
+    assert function == 'function'
+    assert [line.split()[-1] for line in completions] == ['ros2', 'colcon']
+
+
 def _read_until(controller: int, wanted: str) -> str:
     """Return what a terminal shows up to a text; fails after 30 s with what it has shown."""
     shown = ''
