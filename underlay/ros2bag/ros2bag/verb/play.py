@@ -88,8 +88,14 @@ class PlayVerb(VerbExtension):
             clock = node.node.create_publisher(Clock, '/clock', 10) if args.clock else None
             player.wait_for_subscriptions(node, list(publishers.values()))
             node.spin_until(lambda: False, args.delay)
+            players = {**publishers, **requests}
+            node.node.get_logger().info(
+                f'Playing {len(players)} of {len(bag.topics_with_message_count)} topics in '
+                f"'{args.bag_path}', {bag.duration.nanoseconds * 1e-9:.1f} s long, at rate "
+                f'{args.rate:g}; Ctrl-C ends it'
+            )
             while True:
-                player.play(node, args, bag, {**publishers, **requests}, clock)
+                player.play(node, args, bag, players, clock)
                 if not args.loop:
                     break
             service_requests.wait_for_answers(node, requests)
