@@ -230,7 +230,7 @@ LIVE = {
     'never spins': (
         f'publisher = node.create_publisher(Twist, {TOPIC}, 10)\n'
         'node.create_timer(0.1, lambda: publisher.publish(Twist()))\n'
-        'time.sleep(4)',
+        'time.sleep(30)',
         'it has a publisher on /husky_velocity_controller/cmd_vel, and never sent a command',
     ),
     'prints only': ("print('driving')", 'it never moved: no command but zero arrived'),
