@@ -181,10 +181,13 @@ def test_one_on_simulated_time_is_waited_for(course: str, tmp_path: Path) -> Non
 def test_one_with_another_clock_drives_at_the_pace_of_the_clock(
     course: str, tmp_path: Path
 ) -> None:
-    run = drive_in_jail(BY_SLEEPING, course, tmp_path / 'run')
-    assert run.pace == Mode.OTHER_CLOCK.value.format(factor=1)
-    x = run.record.column(0, 'x')
-    assert 0.8 < abs(x[-1] - x[0]) < 1.3, 'it should be half a metre a second for two seconds'
+    for number in range(3):  # on a busy machine it, or the simulator, may stand still for a while
+        run = drive_in_jail(BY_SLEEPING, course, tmp_path / f'run_{number}')
+        assert run.pace == Mode.OTHER_CLOCK.value.format(factor=1)
+        x = run.record.column(0, 'x')
+        if 0.8 < (driven_m := abs(x[-1] - x[0])) < 1.3:
+            return
+    pytest.fail(f'half a metre a second for two seconds should not be {driven_m:.2f} m')
 
 
 def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Path) -> None:

@@ -76,14 +76,28 @@ class Processes:
 
     def end(self) -> None:
         for process in self._started:
-            process.send_signal(signal.SIGCONT)
-            process.send_signal(signal.SIGINT)
+            _interrupt(process)
         for process in self._started:
-            try:
-                process.communicate(timeout=5)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.communicate()
+            _await_end(process)
+
+    def end_one(self, process: subprocess.Popen[str]) -> None:
+        """End a process before the others."""
+        _interrupt(process)
+        _await_end(process)
+        self._started.remove(process)
+
+
+def _interrupt(process: subprocess.Popen[str]) -> None:
+    process.send_signal(signal.SIGCONT)
+    process.send_signal(signal.SIGINT)
+
+
+def _await_end(process: subprocess.Popen[str]) -> None:
+    try:
+        process.communicate(timeout=5)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
 
 
 @contextmanager

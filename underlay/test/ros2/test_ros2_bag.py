@@ -66,8 +66,7 @@ def bag(talk: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
         counts = _counts(folder)
         if counts.get('/chatter', 0) > 5 and counts.get('/latched'):
             break
-    latched.terminate()
-    latched.wait()
+    talk.end_one(latched)
     return folder
 
 
@@ -121,8 +120,7 @@ def test_sqlite3_is_recorded_described_and_played(
     recorder.send_signal(signal.SIGINT)
     rest, _ = recorder.communicate(timeout=10)
     assert 'Recording stopped: ' in rest
-    talker.terminate()
-    talker.wait()
+    processes.end_one(talker)
 
     assert sorted(each.name for each in file.parent.iterdir()) == ['metadata.yaml', 'run_0.db3']
     count = _count(file, '/chatter')
