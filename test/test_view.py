@@ -16,6 +16,7 @@ from husky_view.live.links import LATCHED
 from nav_msgs.msg import Path
 from playpen_testing import chromium
 from playpen_testing.browser import button, errors, FLAGS, launch, number, wait_for
+from playpen_testing.spinning import do_in_thread_of
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
 from playwright.sync_api import Browser, Error, expect, Page
@@ -391,7 +392,7 @@ def test_a_stop_holds_the_next_simulators_and_anybody_may_release_it(lab: Lab, p
         timeout_sec=10.0,
         what=lambda: f'two releases in {lab.simulator.output}',
     )
-    lab.listener.destroy_publisher(stop)
+    do_in_thread_of(lab.listener, lab.listener.destroy_publisher, stop)
 
 
 @pytest.mark.timeout(120)
@@ -411,7 +412,7 @@ def test_the_page_is_made_anew_for_other_robots_and_knows_what_holds_them(
     for name in ('alpha', 'beta'):
         lab.simulator.wait_for_text(f'{name}: emergency stop released')
     for stop in held:
-        lab.listener.destroy_publisher(stop)
+        do_in_thread_of(lab.listener, lab.listener.destroy_publisher, stop)
     wait_for(page, f'{FACTOR} > 0.5')
     wait_for(page, f'!{TROUBLE}')
     assert errors(page) == []

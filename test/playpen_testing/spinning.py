@@ -15,7 +15,20 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.task import Future
 
+from playpen_testing.waiting import wait_until
+
 AnyNode = TypeVar('AnyNode', bound=Node)
+
+
+def do_in_thread_of(node: Node, act: Callable[..., object], *arguments: object) -> None:
+    """
+    Do something in the thread that spins a node, and wait until it is done.
+
+    An executor fails on what another thread destroys while it makes ready to wait.
+    """
+    assert node.executor is not None, f'{node.get_name()} is not spun'
+    task = node.executor.create_task(act, *arguments)
+    wait_until(task.done, timeout_sec=10.0, what=lambda: f'the end of {act}')
 
 
 class SpunNode:

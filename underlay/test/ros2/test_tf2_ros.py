@@ -14,7 +14,7 @@ from typing import Any
 
 from geometry_msgs.msg import PointStamped, TransformStamped
 from playpen_testing.processes import find_line
-from playpen_testing.spinning import SpunNodes
+from playpen_testing.spinning import do_in_thread_of, SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.duration import Duration
@@ -95,9 +95,7 @@ def test_what_is_sent_can_be_looked_up_and_static_ones_also_later(nodes: SpunNod
 def test_a_listener_hears_no_more_after_it_was_unregistered(nodes: SpunNodes) -> None:
     sender, hearer = nodes.start(Sender), nodes.start(Hearer)
     matched(sender)
-    # In its own thread: an executor fails on what another destroys while it makes ready to wait.
-    assert hearer.executor is not None
-    hearer.executor.create_task(hearer.listener.unregister)
+    do_in_thread_of(hearer, hearer.listener.unregister)
     wait_until(
         lambda: sender.moving.pub_tf.get_subscription_count() == 0,
         timeout_sec=10.0,
