@@ -6,14 +6,17 @@ from __future__ import annotations
 
 from collections.abc import Collection
 import contextlib
+import mmap
 import os
 from pathlib import Path
+from typing import NamedTuple
 
 # DDSI-RTPS 2.2, 9.6.1.1: port base, domain gain, participant gain and offsets.
 _PORT_BASE, _DOMAIN_GAIN, _PARTICIPANT_GAIN, _UNICAST_OFFSET = 7400, 250, 2, 10
 MAX_PARTICIPANTS = 120
 MULTICAST_ADDRESS = '239.255.0.1'
 _ADDRESS, _USER, _INODE = 1, 7, 9  # the columns of /proc/net/udp, see proc(5)
+_QUIET_READS, _MOST_READS = 3, 12
 
 
 def multicast_port(domain_id: int) -> int:
@@ -43,7 +46,7 @@ def bound_udp_ports(*, own: bool = False) -> set[int] | None:
     sockets = _udp_sockets()
     if sockets is None:
         return None
-    return {_port(each) for each in sockets if not own or int(each[_USER]) == os.getuid()}
+    return {each.port for each in sockets if not own or each.user == os.getuid()}
 
 
 def stopped_ports(ports: Collection[int]) -> set[int]:
@@ -52,9 +55,7 @@ def stopped_ports(ports: Collection[int]) -> set[int]:
     The processes of other users are not looked at.
     """
     sockets = {
-        f'socket:[{each[_INODE]}]': _port(each)
-        for each in _udp_sockets() or ()
-        if _port(each) in ports
+        f'socket:[{each.inode}]': each.port for each in _udp_sockets() or () if each.port in ports
     }
     stopped: set[str] = set()
     for process in Path('/proc').glob('[0-9]*'):
@@ -65,15 +66,41 @@ def stopped_ports(ports: Collection[int]) -> set[int]:
     return {port for name, port in sockets.items() if name in stopped}
 
 
-def _udp_sockets() -> list[list[str]] | None:
-    """Return the columns of what proc(5) tells of each UDP socket; None where it tells nothing."""
-    sockets: list[list[str]] | None = None
+class _Socket(NamedTuple):
+    port: int
+    user: int
+    inode: int
+
+
+def _udp_sockets() -> set[_Socket] | None:
+    """Return the UDP sockets of this host; None where the kernel does not tell of them."""
+    sockets: set[_Socket] | None = None
     for table in ('/proc/net/udp', '/proc/net/udp6'):
         with contextlib.suppress(OSError):
-            lines = Path(table).read_text(encoding='ascii').splitlines()[1:]
-            sockets = [*(sockets or ()), *map(str.split, lines)]
+            sockets = (sockets or set()) | _read_whole(Path(table))
     return sockets
 
 
-def _port(columns: list[str]) -> int:
-    return int(columns[_ADDRESS].rpartition(':')[2], 16)
+def _read_whole(table: Path) -> set[_Socket]:
+    """
+    Return every socket that is there all the while, and some that are not.
+
+    The kernel hands out a page at a time, and goes on with the n-th socket: where one before that
+    is closed meanwhile, another is left out. So more than a page is read until nothing new comes.
+    """
+    sockets: set[_Socket] = set()
+    quiet = 0
+    for _ in range(_MOST_READS):
+        text = table.read_text(encoding='ascii')
+        new = set(map(_socket, text.splitlines()[1:])) - sockets
+        sockets |= new
+        quiet = 0 if new else quiet + 1
+        if quiet == _QUIET_READS or len(text) <= mmap.PAGESIZE:
+            break
+    return sockets
+
+
+def _socket(line: str) -> _Socket:
+    columns = line.split()
+    port = int(columns[_ADDRESS].rpartition(':')[2], 16)
+    return _Socket(port, int(columns[_USER]), int(columns[_INODE]))

@@ -7,6 +7,9 @@ from __future__ import annotations
 import contextlib
 import json
 from pathlib import Path
+import socket
+import subprocess
+import sys
 
 from ament_index_python.packages import get_package_share_directory
 from hypothesis import given, settings
@@ -15,6 +18,16 @@ import pytest
 from rtps_graph import announcements, graph, host, names, wire
 
 PREFIX = bytes(range(12))
+# Opens sockets one after the other, and closes the oldest.
+CHURN = """
+import socket
+sockets = []
+while True:
+    sockets.append(socket.socket(type=socket.SOCK_DGRAM))
+    sockets[-1].bind(('127.0.0.1', 0))
+    if len(sockets) > 20:
+        sockets.pop(0).close()
+"""
 READER, WRITER = wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER
 
 
@@ -106,3 +119,18 @@ def test_the_graph_topic_is_announced_with_the_hash_of_its_type() -> None:
     described = json.loads((types / 'ParticipantEntitiesInfo.json').read_text())
     (own, *_) = (e['hash_string'] for e in described['type_hashes'])
     assert f'typehash={own};'.encode() in announcements.graph_reader(PREFIX, PREFIX, 1)
+
+
+def test_no_port_is_missed_while_others_open_and_close_sockets() -> None:
+    with contextlib.ExitStack() as stack:
+        ports = set()
+        for _ in range(80):  # more than a page of the kernel's table
+            kept = stack.enter_context(socket.socket(type=socket.SOCK_DGRAM))
+            kept.bind(('127.0.0.1', 0))
+            ports.add(kept.getsockname()[1])
+        others = stack.enter_context(subprocess.Popen([sys.executable, '-c', CHURN]))
+        stack.callback(others.kill)
+        for number in range(100):
+            bound = host.bound_udp_ports()
+            assert bound is not None
+            assert ports - bound == set(), f'look {number} misses some'
