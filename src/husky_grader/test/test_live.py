@@ -22,7 +22,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n'
-SHORT = 'speed: 0.5\nwaypoints: [[0, 0], [0.5, 0]]\n'
+SHORT = 'speed: 0.5\nwaypoints: [[0, 0], [-0.3, 0]]\n'
 FOLLOWS = """
 import sys
 from husky_driver.follow_path import main
@@ -43,7 +43,7 @@ BY_TIMER = (
     NODE
     + """
 def on_timer():
-    if node.get_clock().now().nanoseconds > 1e9:
+    if node.get_clock().now().nanoseconds > 2e9:
         sys.exit()
     sum(range(1_000_000))  # longer than a control period
     message.linear.x += 0.001
@@ -57,6 +57,8 @@ BY_SLEEPING = (
     NODE
     + """
 import time
+while not publisher.get_subscription_count():
+    time.sleep(0.01)  # what is sent before is lost
 for _ in range(22):
     publisher.publish(message)
     time.sleep(0.093)  # no whole number of control periods: at any moment of one
@@ -108,16 +110,10 @@ def course(tmp_path: Path, courses: Path, monkeypatch: pytest.MonkeyPatch) -> st
 
 
 @contextmanager
-def busy_machine() -> Iterator[Progress]:
-    """Yield what makes the machine busy to the end, as soon as a run has begun to tell."""
-    spinning: list[subprocess.Popen[bytes]] = []
-
-    def keep_busy(_: Told) -> None:
-        while len(spinning) < 4:
-            spinning.append(subprocess.Popen([sys.executable, '-c', 'while True: pass']))
-
+def busy_machine() -> Iterator[None]:
+    spinning = [subprocess.Popen([sys.executable, '-c', 'while True: pass']) for _ in range(4)]
     try:
-        yield keep_busy
+        yield
     finally:
         for process in spinning:
             process.kill()
@@ -151,8 +147,8 @@ def drive_in_jail(
 def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_path: Path) -> None:
     told: list[Told] = []
     quiet = drive_in_jail(FOLLOWS, course, tmp_path / 'a', told.append)
-    with busy_machine() as keep_busy:
-        busy = drive_in_jail(FOLLOWS, course, tmp_path / 'b', keep_busy)
+    with busy_machine():
+        busy = drive_in_jail(FOLLOWS, course, tmp_path / 'b')
     assert quiet.pace == busy.pace == 'in lockstep: each odometry message waited for its command'
     assert quiet.record.rows.tobytes() == busy.record.rows.tobytes()
     assert quiet.ending == busy.ending
@@ -164,10 +160,12 @@ def test_it_finds_the_robot_whatever_network_its_terminal_is_for(
     course: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sandbox: str
 ) -> None:
     Path(course).write_text(SHORT)
+    # Either of them alone would keep them apart.
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
     monkeypatch.setenv('ROS_DISCOVERY_SERVER', '127.0.0.1:11811')
     run = drive_in_jail(FOLLOWS, course, tmp_path, sandbox=sandbox)
-    assert run.ending == 'the controller has ended', run.notes
+    assert run.pace == Mode.ANSWERS.value, run.notes  # a driver that finds no robot ends, too
+    assert run.ending == 'the controller has ended'
 
 
 def test_one_on_simulated_time_is_waited_for(course: str, tmp_path: Path) -> None:
@@ -175,19 +173,16 @@ def test_one_on_simulated_time_is_waited_for(course: str, tmp_path: Path) -> Non
     assert run.pace == Mode.CLOCKED.value.format(factor=1)
     time_sec, speed = run.record.column(0, 'time_sec'), run.record.column(0, 'command_speed_m_s')
     acted_sec = time_sec[:-1][np.diff(speed) != 0.0]
-    assert acted_sec == pytest.approx(np.arange(1, 11) / 10), 'each command acts when it is due'
+    assert acted_sec == pytest.approx(np.arange(1, 21) / 10), 'each command acts when it is due'
 
 
 def test_one_with_another_clock_drives_at_the_pace_of_the_clock(
     course: str, tmp_path: Path
 ) -> None:
-    for number in range(3):  # on a busy machine it, or the simulator, may stand still for a while
-        run = drive_in_jail(BY_SLEEPING, course, tmp_path / f'run_{number}')
-        assert run.pace == Mode.OTHER_CLOCK.value.format(factor=1)
-        x = run.record.column(0, 'x')
-        if 0.8 < (driven_m := abs(x[-1] - x[0])) < 1.3:
-            return
-    pytest.fail(f'half a metre a second for two seconds should not be {driven_m:.2f} m')
+    run = drive_in_jail(BY_SLEEPING, course, tmp_path / 'run')
+    assert run.pace == Mode.OTHER_CLOCK.value.format(factor=1)
+    x = run.record.column(0, 'x')
+    assert 0.8 < abs(x[-1] - x[0]) < 1.3, 'it should be half a metre a second for two seconds'
 
 
 def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Path) -> None:
