@@ -313,7 +313,7 @@ class OwnEnd(FileJob):
 
 
 def test_workers_that_die_as_soon_as_they_begin_cost_their_jobs_only(tmp_path: Path) -> None:
-    jobs = [OwnEnd('', f'{number}', kills=number % 2 == 0) for number in range(8)]
+    jobs = [OwnEnd('', f'{number}', kills=number % 2 == 0) for number in range(16)]
     with workers(2) as start:
         outcomes = [future.result(30.0) for future in [start(job, tmp_path) for job in jobs]]
     assert [outcome.content is None for outcome in outcomes] == [job.kills for job in jobs]

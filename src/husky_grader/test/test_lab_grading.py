@@ -16,7 +16,7 @@ import time
 
 from husky_grader.grade import main as grade
 from husky_grader.jail import find_sandbox, Jail
-from husky_grader.lab.build_step import sourced
+from husky_grader.lab.build_step import build_step, sourced
 from husky_grader.lab.drive_step import drive_step, DriveRunner
 from husky_grader.lab.file_steps import package_step, workspace_step
 from husky_grader.lab.finding import Finding
@@ -258,6 +258,8 @@ def test_a_hostile_archive_costs_only_itself(graded_class: tuple[Path, list[str]
     assert written.startswith(f'written: {report}/class.html')
     steps = json.loads((report / 'good' / 'lab.json').read_text())
     assert good.startswith('good     ')
+    points = sum(step['points'] for step in steps['steps'])
+    assert steps['score'] == pytest.approx(points)
     assert f' {steps["score"]:.1f} of 100  drive: ' in good
     assert hostile.startswith('hostile  refused  ')
     assert steps['sandbox'] in ('bwrap', 'podman', 'docker', 'kernel')
@@ -288,25 +290,16 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
     assert not (workspace / 'install').exists()
 
 
-@pytest.fixture(scope='module')
-def regraded(graph: None, module_path: Path) -> Path:
-    """Grade a workspace twice, with the report in it; its build starts daemons. Return it."""
-    (place := module_path / 'twice').mkdir()
-    workspace, rubric = good_workspace(place), place / 'rubric.yaml'
+@pytest.mark.timeout(60)
+def test_a_report_in_the_workspace_is_no_part_of_it(workspace: Path, tmp_path: Path) -> None:
     shutil.rmtree(workspace / 'src' / 'my_driver')
-    setup = workspace / 'src' / 'topic_demo' / 'setup.py'
-    setup.write_text(setup.read_text() + daemon(place / 'pids'))
+    rubric = tmp_path / 'rubric.yaml'
     rubric.write_text('title: T\nsteps:\n  - {kind: build, points: 1}\n')
     command = ['--lab', str(workspace), '--rubric', str(rubric), '--sandbox', 'none']
     for _ in range(2):
         assert grade([*command, '--report', str(workspace / 'report')]) == 0
-    return workspace
-
-
-@pytest.mark.timeout(60)
-def test_a_report_in_the_workspace_is_no_part_of_it(regraded: Path) -> None:
     # Nor is what was graded for who builds the workspace himself.
-    listed = subprocess.run(['colcon', 'list', '--names-only'], cwd=regraded, capture_output=True)
+    listed = subprocess.run(['colcon', 'list', '--names-only'], cwd=workspace, capture_output=True)
     assert listed.stdout.split() == [b'topic_demo']
 
 
@@ -428,11 +421,18 @@ def daemon(pids: Path) -> str:
     return DAEMON.format(python=sys.executable, pids=str(pids)) + ready
 
 
-@pytest.mark.timeout(60)
-def test_a_daemon_of_a_build_ends_with_the_build(regraded: Path) -> None:
-    assert 'Finished <<< topic_demo' in (regraded / 'report' / 'build.log').read_text()
-    pids = regraded.with_name('pids').read_text().split()
-    assert running([int(pid) for pid in pids]) == []
+def test_a_daemon_of_a_build_ends_with_the_build(workspace: Path, tmp_path: Path) -> None:
+    shutil.rmtree(workspace / 'src' / 'my_driver')
+    pids, report = tmp_path / 'pids', tmp_path / 'report'
+    setup = workspace / 'src' / 'topic_demo' / 'setup.py'
+    setup.write_text(setup.read_text() + daemon(pids))
+    log = tmp_path / 'build.log'
+    report.mkdir()
+    with open_jail(report) as jail:
+        found = build_step(workspace, jail, log)
+    assert found.score == 100.0, found
+    assert 'Finished <<< topic_demo' in log.read_text()
+    assert running([int(pid) for pid in pids.read_text().split()]) == []
 
 
 def test_a_daemon_of_a_publisher_ends_with_its_step(tmp_path: Path) -> None:

@@ -83,8 +83,8 @@ class Generated:
         return {'score': int(hashlib.sha256(self.name.encode()).hexdigest()[:4], 16)}
 
 
-def test_2000_results_in_shards_that_died_are_the_serial_ones(tmp_path: Path) -> None:
-    jobs = [Generated(f's{number:05}') for number in range(2_000)]
+def test_10000_results_in_shards_that_died_are_the_serial_ones(tmp_path: Path) -> None:
+    jobs = [Generated(f's{number:05}') for number in range(10_000)]
     chance, shards, seals = random.Random(13), range(1, 101), Seals()
     dead = set(chance.sample(shards, 5))
     for number in shards:
@@ -240,9 +240,7 @@ def test_a_cluster_that_loses_a_worker_has_the_same_table(
     serial: Serial, tmp_path: Path, dask: tuple[str, list[subprocess.Popen[bytes]]]
 ) -> None:
     address, workers = dask
-    chosen = (0, 1, 4)  # so that both workers are busy when the first is done
-    files = [serial.files[number] for number in chosen]
-    command = [sys.executable, '-m', 'husky_grader.grade', *files]
+    command = [sys.executable, '-m', 'husky_grader.grade', *serial.files[:5]]
     command += ['--executor', f'dask:{address}', '--report', str(tmp_path / 'cluster')]
     environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
     with subprocess.Popen(
@@ -250,14 +248,12 @@ def test_a_cluster_that_loses_a_worker_has_the_same_table(
     ) as running:
         assert running.stderr is not None
         first = running.stderr.readline()
-        assert ' of 3 ' in first, first + running.stderr.read()
+        assert ' of 5 ' in first, first + running.stderr.read()
         workers[0].send_signal(signal.SIGKILL)
         printed, said = running.communicate(timeout=120.0)
     assert running.returncode == 1, said
-    assert printed.splitlines()[:3] == [serial.printed[number] for number in chosen]
-    header, *rows = serial.csv.splitlines()
-    expected = [header, *(rows[number] for number in chosen)]
-    assert tables(tmp_path / 'cluster').splitlines() == expected
+    assert printed.splitlines()[:5] == serial.printed[:5]
+    assert tables(tmp_path / 'cluster').splitlines() == serial.csv.splitlines()[:6]
 
 
 def test_where_no_cluster_answers_one_line_says_so(
