@@ -23,6 +23,7 @@ Victim = dict[str, Any]
 _LIBC = ctypes.CDLL(None)
 _PTRACE_ATTACH, _TIOCSTI = 16, 0x5412
 _CLONE_NEWNS, _CLONE_NEWUSER = 0x20000, 0x10000000
+_KEYCTL_READ, _SESSION_KEYRING = 11, ctypes.c_int(-3)
 
 
 def reads_secrets(victim: Victim) -> Iterator[str]:
@@ -146,6 +147,18 @@ def uses_services_of_the_system(victim: Victim) -> Iterator[str]:
     for path in ('/run/docker.sock', '/run/podman', '/run/dbus', f'/run/user/{os.getuid()}'):
         if Path(path).exists():
             yield path
+
+
+def reads_keys_in_the_kernel(victim: Victim) -> Iterator[str]:
+    text = ctypes.create_string_buffer(20)
+    if _LIBC.syscall(victim['keyctl'], _KEYCTL_READ, victim['key'], text, len(text)) > 0:
+        yield repr(text.value)
+
+
+def leaves_keys_in_the_kernel(victim: Victim) -> Iterator[str]:
+    number = victim['add_key']
+    if _LIBC.syscall(number, b'user', b'kept', b'a course', 8, _SESSION_KEYRING) > 0:
+        yield 'for whoever is next'
 
 
 def mounts_in_a_namespace_of_its_own(victim: Victim) -> Iterator[str]:

@@ -3,6 +3,7 @@
 """What a jailed program does to what is outside, in every sandbox that works here."""
 
 from collections.abc import Iterator
+import ctypes
 import json
 import os
 from pathlib import Path
@@ -27,6 +28,7 @@ SUCCEEDING = (
 OTHERS = (
     *('traces_who_watches', 'listens_to_all_packets', 'has_open_files', 'mounts'),
     *('writes_settings_of_the_kernel', 'types_at_the_terminal', 'uses_services_of_the_system'),
+    *('reads_keys_in_the_kernel', 'leaves_keys_in_the_kernel'),
     'mounts_in_a_namespace_of_its_own',  # last: it is another user then
 )
 # What another user cannot be kept from, on a machine without namespaces; of the services it sees
@@ -46,12 +48,22 @@ found = {
 print(*(name for name, number in found.items() if number >= 0))
 """
 CREATE = 0o1666  # IPC_CREAT, for everybody
+# The numbers of two calls, see keyrings(7), and what they are told.
+ADD_KEY, KEYCTL = (217, 219) if os.uname().machine == 'aarch64' else (248, 250)
+JOIN_SESSION_KEYRING, SESSION_KEYRING = 1, ctypes.c_int(-3)
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     (tmp_path / 'jail').mkdir()
     return tmp_path / 'jail'
+
+
+def new_key() -> int:
+    """Return the number of a key in a new session keyring of ours; -1 where there are no keys."""
+    call = ctypes.CDLL(None).syscall
+    call(KEYCTL, JOIN_SESSION_KEYRING, None)
+    return int(call(ADD_KEY, b'user', b'ticket', b'of the grader', 13, SESSION_KEYRING))
 
 
 @pytest.fixture
@@ -82,6 +94,9 @@ def victim(tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
                 'grader': own.pid,
                 'port': server.getsockname()[1],
                 'name': str(tmp_path),
+                'key': new_key(),
+                'add_key': ADD_KEY,
+                'keyctl': KEYCTL,
             }
         )
         own.kill()

@@ -48,6 +48,15 @@ _SCOPE_ALL = 0b11  # abstract sockets and signals; from version 6 on
 _PR_SET_DUMPABLE, _PR_SET_NO_NEW_PRIVS = 4, 38  # <linux/prctl.h>
 _CAPABILITY_VERSION = 0x20080522  # <linux/capability.h>
 
+# <linux/audit.h> and <asm/unistd.h>: the calls add_key, request_key and keyctl, by machine
+_CALLS_ON_KEYS = {'x86_64': (0xC000003E, 248, 250), 'aarch64': (0xC00000B7, 217, 219)}
+_NO_CALL_FROM = 0x40000000  # numbers of x32, which are other names for the same
+_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 22, 2  # <linux/prctl.h>, <linux/seccomp.h>
+_SECCOMP_ALLOW, _SECCOMP_ERRNO = 0x7FFF0000, 0x00050000
+# <linux/bpf_common.h>: load a word, jump where it is equal or at least so much, return
+_BPF_LOAD, _BPF_IF_EQUAL, _BPF_IF_LEAST, _BPF_RETURN = 0x20, 0x15, 0x35, 0x06
+_AT_CALL, _AT_MACHINE = 0, 4  # of struct seccomp_data
+
 # <signal.h>; to import signal takes longer than all the rest
 _SIGINT, _SIGPIPE, _SIGTERM, _SIGXFSZ = 2, 13, 15, 25
 _SIG_DFL, _SIG_IGN = ctypes.c_void_p(0), ctypes.c_void_p(1)
@@ -130,9 +139,47 @@ def _drop_rights(user: int | None) -> None:
     _checked(_LIBC.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 'no_new_privs')
     header, none = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION, 0), (ctypes.c_uint32 * 6)()
     _checked(_LIBC.capset(header, none), 'capset')
+    _refuse_keys()
     # The command has the same user: it must neither trace, and so stop, this process, nor open its
     # files by /proc/1/fd.
     _checked(_LIBC.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0), 'dumpable')
+
+
+def _refuse_keys() -> None:
+    """
+    Have the kernel refuse all calls on its keys: see keyrings(7).
+
+    A command inherits the session keyring, in which may be keys of who grades, such as tickets of
+    Kerberos; and what one has left there, or in the persistent keyring of its user, others find.
+    """
+    if os.uname().machine not in _CALLS_ON_KEYS:
+        return
+    machine, first, last = _CALLS_ON_KEYS[os.uname().machine]
+    program = (  # code, how many lines to pass over if it is so, if not, number
+        (_BPF_LOAD, 0, 0, _AT_MACHINE),
+        (_BPF_IF_EQUAL, 0, 5, machine),  # the calls of a 32-bit program have other numbers
+        (_BPF_LOAD, 0, 0, _AT_CALL),
+        (_BPF_IF_LEAST, 3, 0, _NO_CALL_FROM),
+        (_BPF_IF_LEAST, 1, 0, last + 1),
+        (_BPF_IF_LEAST, 1, 0, first),
+        (_BPF_RETURN, 0, 0, _SECCOMP_ALLOW),
+        (_BPF_RETURN, 0, 0, _SECCOMP_ERRNO | errno.ENOSYS),
+    )
+
+    class Line(ctypes.Structure):
+        _fields_ = [
+            ('code', ctypes.c_uint16),
+            ('if_so', ctypes.c_uint8),
+            ('if_not', ctypes.c_uint8),
+            ('number', ctypes.c_uint32),
+        ]
+
+    class Program(ctypes.Structure):
+        _fields_ = [('length', ctypes.c_uint16), ('lines', ctypes.POINTER(Line))]
+
+    lines = (Line * len(program))(*program)
+    filter_ = ctypes.byref(Program(len(program), lines))
+    _checked(_LIBC.prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, filter_, 0, 0), 'seccomp')
 
 
 def _restrict_files(readable: list[str], writable: list[str], *, needed: bool) -> None:
