@@ -213,6 +213,17 @@ def test_memory_over_its_limit_ends_only_who_took_it(
     assert f'[ended by the grader: it {eater.stopped}]' in (tmp_path / 'log').read_text()
 
 
+@in_each_way_with_processes
+def test_a_crowd_that_computes_is_ended(sandbox: Sandbox, tmp_path: Path, mark: str) -> None:
+    crowd = 'for i in {1..25}; do setsid sh -c "while :; do :; done" "$0" & done; sleep 600'
+    with jail_in(sandbox, tmp_path, Limits(computing=1)) as jail:
+        other = jail.start(python(SLEEPING, mark), log=tmp_path / 'other')
+        process = jail.start(['bash', '-c', crowd, mark], log=tmp_path / 'log')
+        assert process.wait(10.0)
+        assert other.exit_code is None
+    assert process.stopped.endswith(' processes and threads computing; 1 at a time are allowed')
+
+
 @in_each_way
 def test_a_log_is_cut_in_its_middle(sandbox: Sandbox, tmp_path: Path) -> None:
     log, much = tmp_path / 'log', 'echo begin; yes | head -c 200000000; echo end'

@@ -3,6 +3,7 @@
 """What jailed programs may use."""
 
 from dataclasses import dataclass, fields
+import os
 import resource
 
 MB = 1_000_000
@@ -18,6 +19,7 @@ class Limits:
 
     memory_mb: int = 2000
     tasks: int = 500  # processes and their threads; a node of rclpy has about 15
+    computing: int = 16 + 4 * (os.cpu_count() or 1)  # of these at a time; a build takes two a core
     file_mb: int = 200  # one file
     folder_mb: int = 1000  # all that lies in the jail's folder
     files: int = 50_000  # in the jail's folder

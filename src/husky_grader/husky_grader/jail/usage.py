@@ -17,6 +17,7 @@ from husky_grader.jail.limits import Limits, MB
 PROCESSES_SEC = 0.2  # between two looks at the processes
 FOLDER_SEC = 1.0  # and at the folder, beside one at the processes
 _KIB, _BLOCK_BYTES = 1024, 512  # the units of proc(5) and stat(2)
+_NEWS = 0.1  # what a look counts in the mean of the last ones: that spans two seconds or so
 
 
 class Usage:
@@ -25,6 +26,7 @@ class Usage:
     def __init__(self, folder: Path, limits: Limits) -> None:
         self._folder, self._limits = folder, limits
         self._processes_at_sec = self._folder_at_sec = time.monotonic()
+        self._computing = 0.0  # threads at a time, on the average
 
     def too_much(self, processes: Callable[[], Sequence[psutil.Process]]) -> str:
         """Return in words which limit is exceeded; nothing if none is, or no look is due."""
@@ -33,11 +35,24 @@ class Usage:
             return ''
         self._processes_at_sec = now + PROCESSES_SEC
         found = processes()
-        why = _overuse(found, self._limits)
+        why = _overuse(found, self._limits) or self._crowding(found)
         if not why and now >= self._folder_at_sec:
             self._folder_at_sec = now + FOLDER_SEC
             why = _overfull(self._folder, self._limits, found)
         return why
+
+    def _crowding(self, processes: Sequence[psutil.Process]) -> str:
+        """
+        Return in words that too many compute at a time; nothing if not.
+
+        Among hundreds of them, programs of others on the machine would be late.
+        """
+        count = sum(_computing(process.pid) for process in processes)
+        self._computing += _NEWS * (count - self._computing)
+        most = self._limits.computing
+        if self._computing > most:
+            return f'kept {count} processes and threads computing; {most} at a time are allowed'
+        return ''
 
 
 def _overuse(processes: Sequence[psutil.Process], limits: Limits) -> str:
@@ -68,6 +83,16 @@ def _status_of(pid: int) -> dict[str, int]:
         return {}
     words = [line.split() for line in lines]
     return {each[0][:-1]: int(each[1]) for each in words if len(each) > 1 and each[1].isdigit()}
+
+
+def _computing(pid: int) -> int:
+    """Return how many threads of a process compute, or wait for a processor: see proc(5)."""
+    count = 0
+    with suppress(OSError):  # it has ended
+        for thread in Path(f'/proc/{pid}/task').iterdir():
+            with suppress(OSError):
+                count += b') R ' in (thread / 'stat').read_bytes()
+    return count
 
 
 def _nameless_files(pid: int, counts: Callable[[Path], bool]) -> dict[int, int]:
