@@ -3,6 +3,8 @@
 """Which packages of a workspace are looked at, and what their manifests say."""
 
 from pathlib import Path
+import subprocess
+import sys
 
 from husky_grader.jail import find_sandbox, Jail
 from husky_grader.lab.build_step import build_step
@@ -10,6 +12,7 @@ from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.programs import ProgramMissing, Programs
 from husky_grader.rubric.steps import DriveStep, PackageStep, Rubric, WorkspaceStep
+from playpen_testing.jails import as_ordinary_user
 import pytest
 
 DRIVE = DriveStep(points=10, package_with='follow_path.py', executable='follow_path', courses=())
@@ -96,6 +99,55 @@ def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path
         'it was put into install/my_driver/bin; its setup.cfg lacks: [install] '
         'install_scripts=$base/lib/my_driver'
     )
+
+
+def test_links_in_a_circle_are_no_programs(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'my_driver')
+    programs = install(workspace, 'my_driver', 'lib').parent / 'my_driver'
+    programs.symlink_to('my_driver')
+    with pytest.raises(ProgramMissing, match='my_driver has: no executables; install follow_path'):
+        programs_of(workspace).command_of(DRIVE)
+
+
+CLOSED = """
+from pathlib import Path
+import sys
+from husky_grader.jail import find_sandbox, Jail
+from husky_grader.lab.build_step import sourced
+from husky_grader.lab.file_steps import find_packages
+from husky_grader.lab.programs import find_executable
+workspace, built = map(Path, sys.argv[1:])
+(package,) = find_packages(workspace, 'my_driver', '')
+for closed in (built / 'install' / 'my_driver' / 'lib', built / 'install'):
+    closed.chmod(0)
+    try:
+        find_executable(built, package, 'follow_path')
+    except ValueError as error:
+        print(error)
+with Jail(find_sandbox('none'), built) as jail:
+    try:
+        sourced(jail)
+    except ValueError as error:
+        print(error)
+closed.chmod(0o755)
+"""
+
+
+def test_a_folder_closed_by_its_build_costs_its_student_alone(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'my_driver')
+    install(workspace, 'my_driver', 'lib/my_driver')
+    arguments = ['-c', CLOSED, str(workspace), str(workspace.with_name('built'))]
+    command = as_ordinary_user([sys.executable, *arguments])
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout.splitlines() == [
+        'ros2 run my_driver follow_path finds nothing; my_driver has: no executables; install '
+        'follow_path into lib/my_driver in its CMakeLists.txt',
+        'ros2 run my_driver follow_path finds nothing: package my_driver was not built',
+        'nothing was built',
+    ]
 
 
 def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:

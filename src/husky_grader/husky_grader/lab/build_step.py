@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests
 from husky_grader.lab.finding import Finding, nothing
+from husky_grader.lab.programs import is_there
 from husky_grader.rubric.colcon_errors import first_error, without_own_errors
 from husky_grader.run.diagnosis import crash, how_ended
 
@@ -63,7 +64,7 @@ def sourced(jail: Jail) -> Mapping[str, str]:
 
     :raises ValueError: when nothing was built, or sourcing fails, takes too long or sets too much.
     """
-    if not (jail.folder / 'install' / 'local_setup.bash').is_file():
+    if not is_there(jail.folder / 'install' / 'local_setup.bash'):
         raise ValueError('nothing was built')
     script = 'chmod -R a+rX "$0"; source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
     command = ['bash', '-c', script, str(jail.folder)]

@@ -18,10 +18,15 @@ from husky_grader.rubric.steps import ProgramStep
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
 
 
+def is_there(path: Path) -> bool:
+    """Tell whether a file or folder is there and may be read; links may lead in a circle."""
+    return os.access(path, os.R_OK) and (path.is_file() or path.is_dir())
+
+
 def remove_running(folder: Path) -> None:
     """Remove what programs have left in a report whose grading was killed."""
     for left in folder.glob(f'{_RUNNING}????????'):
-        if home_of(left).is_dir():
+        if is_there(home_of(left)):
             remove(left)
 
 
@@ -96,20 +101,21 @@ def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
     """
     package = manifest.name
     programs = folder / 'install' / package / 'lib' / package
-    if not (folder / 'install' / package).is_dir():
+    if not is_there(folder / 'install' / package):
         raise ProgramMissing(
             f'ros2 run {package} {name} finds nothing: package {package} was not built'
         )
     # What is listed is told: nobody may point it at a folder of the grader's.
-    if not programs.resolve().is_relative_to(folder.resolve()):
+    # By os.path: Path.resolve fails where links lead in a circle.
+    if not Path(os.path.realpath(programs)).is_relative_to(os.path.realpath(folder)):
         raise ProgramMissing(
             f'ros2 run {package} {name}: install/{package}/lib/{package} leads out of the '
             'workspace; let the build put the programs there'
         )
     for candidate in (programs / name, programs / f'{name}.py'):
-        if candidate.is_file() and os.access(candidate, os.X_OK):
+        if os.access(candidate, os.X_OK) and candidate.is_file():
             return candidate
-    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if programs.is_dir() else ''
+    have = ', '.join(sorted(p.name for p in programs.glob('*'))) if is_there(programs) else ''
     raise ProgramMissing(
         f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
         f'{_what_to_do(programs, manifest, name)}'
@@ -120,9 +126,9 @@ def _what_to_do(programs: Path, manifest: Manifest, name: str) -> str:
     """Return in words what puts a program where `ros2 run` looks for it."""
     package = manifest.name
     for there in (programs / name, programs / f'{name}.py'):
-        if there.is_file():
+        if is_there(there):
             return f'{there.name} may not be executed: install it by PROGRAMS, or chmod +x it'
-    if (programs.parents[1] / 'bin' / name).is_file():
+    if is_there(programs.parents[1] / 'bin' / name):
         return (
             f'it was put into install/{package}/bin; its setup.cfg lacks: [install] '
             f'install_scripts=$base/lib/{package}'
