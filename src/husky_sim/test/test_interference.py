@@ -48,9 +48,11 @@ class Run:
         self._contexts.append(context)
         return context
 
-    def publisher(self, kind: Any, topic: str, name: str) -> None:
+    def publisher(
+        self, kind: Any, topic: str, name: str, *, of_the_last_program: bool = False
+    ) -> None:
         """Start a node that publishes a topic, and wait until the simulator sees it."""
-        node = Node(name, context=self._context())
+        node = Node(name, context=self._contexts[-1] if of_the_last_program else self._context())
         node.create_publisher(kind, topic, 10)
         self._others.append(node)
         names = [other.get_name() for other in self._others]
@@ -75,6 +77,20 @@ class Run:
 
         self.until(is_taken, f'a command of {name}')
         node.destroy_node()
+
+    def command_anew(self, name: str, *, times: int) -> None:
+        """Let a node make a publisher for each of its commands, and end with two of them."""
+        node = Node(name, context=self._context())
+        publishers = []
+        for _ in range(times):
+            publishers.append(node.create_publisher(Twist, COMMANDS, 10))
+            self.until(publishers[-1].get_subscription_count, 'the simulator')
+            publishers[-1].publish(Twist())
+            self.spin(seconds=0.04)
+            if len(publishers) > 2:
+                node.destroy_publisher(publishers.pop(0))
+        node.destroy_node()
+        node.context.shutdown()
 
     def until(self, holds: Callable[[], Any], what: str) -> None:
         deadline = time.monotonic() + 10.0
@@ -131,6 +147,19 @@ def test_a_second_publisher_of_commands_is_named(
     (found,) = run.disturbances()
     assert (found.topic, found.nodes) == (COMMANDS, ('/driver', '/stranger'))
     assert found.time_sec > 0.2
+
+
+def test_nodes_of_one_program_are_one_driver(run: Run) -> None:
+    run.publisher(Twist, COMMANDS, 'driver')
+    run.publisher(Twist, COMMANDS, 'stopper', of_the_last_program=True)
+    run.spin(seconds=0.3)
+    assert run.disturbances() == ()
+
+
+def test_who_makes_each_command_a_publisher_is_one_driver(run: Run) -> None:
+    run.command_anew('driver', times=8)
+    run.spin(seconds=0.5)
+    assert run.disturbances() == ()
 
 
 @pytest.mark.parametrize(
