@@ -209,13 +209,11 @@ def listens(*names: str) -> list[Step]:
     ]
 
 
-def gives_a_course() -> Step:
-    """Return a step that gives a program a hidden course first, then one that all know."""
+def gives(name: str, *courses: str) -> Step:
+    """Return a step that gives a program courses, of which one is hidden."""
     given = [
-        CourseToDrive(file=ZOO / f'{name}.yaml', hidden=name == 'hidden')
-        for name in ('hidden', 'course')
+        CourseToDrive(file=ZOO / f'{course}.yaml', hidden=course == 'hidden') for course in courses
     ]
-    name = 'keeps_a_course'
     return DriveStep(
         points=MOST,
         name=name,
@@ -261,10 +259,11 @@ def graded(
         (handed_in / f'{module}.py').write_text("raise RuntimeError('of the wrong folder')")
     sandbox = find_sandbox('auto')
     programs = [*talks('leaves_a_publisher', *TALKS, 'talks_right')]
-    programs += [*listens(*GUESSES, 'listens_right')]
+    programs += [*listens(*GUESSES, 'listens_right'), gives('names_a_course', 'hidden')]
+    programs += [gives('keeps_a_course', 'hidden', 'course')]
     classes = {
         'drives': (ZOO, drives('drives_right', *DRIVES, *HALF_DRIVES)),
-        'talks': (ZOO, [*programs, gives_a_course()]),
+        'talks': (ZOO, programs),
     }
     for name, build in BUILDS.items():
         classes[name] = (
@@ -347,6 +346,13 @@ def test_no_program_reaches_what_is_not_its_own(
     for said in ('wrote ', 'answered: ', 'found ', 'kept: '):
         assert [path for path, text in logs.items() if f'\n{said}' in f'\n{text}'] == [], said
     assert step_of(graded, 'keeps_a_course').points == MOST
+
+
+def test_no_name_of_a_node_tells_of_a_hidden_course(graded: dict[str, StepGrade]) -> None:
+    step = step_of(graded, 'names_a_course')
+    assert step.points == 0.0, step
+    assert 'a program published /clock beside the simulator' in step.why
+    assert '4375' not in f'{step.why} {step.printed}'
 
 
 def test_what_was_handed_in_is_as_it_was(graded: dict[str, StepGrade], reports: Path) -> None:

@@ -79,16 +79,17 @@ def drive_step(step: DriveStep, runner: DriveRunner, folder: Path) -> Finding:
         cost = sum(map(step.cost_percent, over))
         score += max(report.score - cost, 0.0) * course.share / whole
         reasons = _numbers(report) if course.hidden else report.reasons
-        told = _disturbed(report) or '; '.join([*over.values(), *reasons])
+        told = _disturbed(report, course) or '; '.join([*over.values(), *reasons])
         one = f'{report.course}: {told}' if len(step.courses) > 1 or course.hidden else told
         costs = {part.why: part.cost_points for part in report.parts}
         lines.append(one if told else passed(report.course, costs))
     return Finding('; '.join(lines), score=score)
 
 
-def _disturbed(report: Report) -> str:
+def _disturbed(report: Report, course: CourseToDrive) -> str:
     """Return who disturbed a run: all else in it says nothing, and is never the same."""
-    return '; '.join(dict.fromkeys(map(disturbed_by, report.disturbances)))
+    found = [disturbed_by(each, names_nodes=not course.hidden) for each in report.disturbances]
+    return '; '.join(dict.fromkeys(found))
 
 
 def drive_folders(step: DriveStep, folder: Path) -> list[tuple[CourseToDrive, Path]]:

@@ -58,13 +58,19 @@ def _disturbance(entry: Disturbance) -> str:
     return f'disturbed at {entry.time_sec:.2f} s: {disturbed_by(entry)}'
 
 
-def disturbed_by(entry: Disturbance) -> str:
-    """Return who published what, and why that makes a run worth nothing."""
+def disturbed_by(entry: Disturbance, *, names_nodes: bool = True) -> str:
+    """
+    Return who published what, and why that makes a run worth nothing.
+
+    :param names_nodes: by these, chosen while it drives, a program could tell of its course.
+    """
     names, topic = ' and '.join(entry.nodes), entry.topic
     if topic.endswith('/cmd_vel'):  # of these nodes, one is the driver
-        both = 'both' if len(entry.nodes) == 2 else 'all'
-        return f'{names} {both} published {topic}: nobody can tell whose drive it was'
-    return f'{names} published {topic} beside the simulator: nobody can tell what the driver heard'
+        both = f'{names} {"both" if len(entry.nodes) == 2 else "all"}'
+        several = both if names_nodes else 'several programs'
+        return f'{several} published {topic}: nobody can tell whose drive it was'
+    who = names if names_nodes else 'a program'
+    return f'{who} published {topic} beside the simulator: nobody can tell what the driver heard'
 
 
 def _early_end(run: Run) -> list[str]:
