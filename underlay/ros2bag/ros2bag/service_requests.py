@@ -43,17 +43,20 @@ class RequestPlayer:
     def is_answered(self) -> bool:
         return all(future.done() for future in self._futures)
 
-    def publish(self, data: bytes) -> None:
+    def publish(self, data: bytes) -> bool:
+        """Send the request in an event; False where it has none to send."""
         event = deserialize_message(data, self._class.Event)
         if event.info.event_type != self._event:
-            return
+            return False
         if not event.request:
             self._warn_once('the bag has only metadata of its calls: record with `contents`')
-        elif not self.is_ready:
+            return False
+        if not self.is_ready:
             self._warn_once('a request is not sent, the service is not there')
-        else:
-            self._futures = [future for future in self._futures if not future.done()]
-            self._futures.append(self._client.call_async(event.request[0]))
+            return False
+        self._futures = [future for future in self._futures if not future.done()]
+        self._futures.append(self._client.call_async(event.request[0]))
+        return True
 
     def _warn_once(self, text: str) -> None:
         if text not in self._said:

@@ -5,13 +5,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
+import signal
 import time
 from typing import Any
 
 from example_interfaces.srv import AddTwoInts
 from playpen_testing.bags import opened_writer, string
 from playpen_testing.forks import run_forked
+from playpen_testing.keyboard import CTRL_C, CTRL_Z, DOWN, Keyboard, RIGHT, UP
 from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
@@ -24,6 +27,7 @@ from rclpy.serialization import serialize_message
 from ros2bag import player
 from ros2cli.node.direct import command_node
 from rosbag2_py import TopicMetadata
+from rosgraph_msgs.msg import Clock
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
 
@@ -255,6 +259,109 @@ def test_play_ends_where_it_should(
     assert ''.join(heard) == expected
 
 
+@pytest.fixture
+def in_terminal() -> Iterator[Callable[..., Keyboard]]:
+    """Return a function that runs a command in a terminal of its own."""
+    with ExitStack() as ends:
+
+        def run(*command: str) -> Keyboard:
+            terminal = Keyboard(*command)
+            ends.callback(terminal.close)
+            return terminal
+
+        yield run
+
+
+def test_keys_pause_step_and_change_the_rate(
+    write_bag: Callable[..., Path], heard: list[str], in_terminal: Callable[..., Keyboard]
+) -> None:
+    def wait_for(numbers: str) -> None:
+        wait_until(
+            lambda: len(heard) >= len(numbers), timeout_sec=10.0, what=lambda: f'more than {heard}'
+        )
+        assert ''.join(heard) == numbers
+
+    bag = write_bag({'/chatter': STRING})
+    # With jobs, as in an interactive shell, but this one leaves the settings of its terminal.
+    script = f'ros2 bag play {bag} --start-paused; echo "status $?"; read line; fg; echo over'
+    terminal = in_terminal('sh', '-mc', script)
+    terminal.wait_for_text('CURSOR_RIGHT plays the next message while paused')
+    terminal.press(RIGHT + RIGHT + UP + DOWN + DOWN + 'x')
+    for rate in ('1.1', '1', '0.9'):
+        terminal.wait_for_text(f'Rate {rate}\x1b')
+    wait_for('01')
+    assert not terminal.is_as_before()
+    terminal.press(CTRL_Z)
+    terminal.wait_for_text('status 1')
+    assert terminal.is_as_before()
+    terminal.press('\n')
+    wait_until(lambda: not terminal.is_as_before(), timeout_sec=10.0, what='keys after fg')
+    terminal.press(RIGHT)
+    wait_for('012')
+    terminal.press(' ')
+    terminal.wait_for_text('Resumed')
+    terminal.wait_for_text('over')
+    wait_for('012345')
+    assert terminal.is_as_before()
+
+
+@pytest.mark.parametrize('end', [CTRL_C, signal.SIGTERM])
+def test_an_interrupted_player_gives_the_terminal_back(
+    write_bag: Callable[..., Path],
+    domain: int,
+    in_terminal: Callable[..., Keyboard],
+    end: str | signal.Signals,
+) -> None:
+    bag = write_bag({'/chatter': STRING})
+    terminal = in_terminal('ros2', 'bag', 'play', str(bag), '-p', '-d', '60')
+    wait_until(lambda: not terminal.is_as_before(), timeout_sec=20.0, what='keys')
+    if isinstance(end, signal.Signals):
+        terminal.send_signal(end)
+    else:
+        terminal.press(end)
+    terminal.process.wait(timeout=10.0)
+    assert terminal.is_as_before()
+
+
+def test_keys_are_left_alone_where_they_are_disabled(
+    write_bag: Callable[..., Path], domain: int, in_terminal: Callable[..., Keyboard]
+) -> None:
+    bag = write_bag({'/chatter': STRING})
+    words = ('--start-paused', '--disable-keyboard-controls', '--clock')
+    terminal = in_terminal('ros2', 'bag', 'play', str(bag), *words)
+    terminal.wait_for_text('Ctrl-C ends it\x1b')
+    with SpunNodes(domain) as nodes:
+        times: list[Clock] = []
+        nodes.start(Node, 'student').create_subscription(Clock, '/clock', times.append, 10)
+        wait_until(lambda: len(times) > 3, timeout_sec=10.0, what='the time of a paused bag')
+    assert all(each == Clock() for each in times)
+    assert terminal.is_as_before()
+
+
+@pytest.mark.parametrize(
+    ('words', 'expected'),
+    [(('--clock-topics-all',), [0, 1, 2, 3]), (('--clock-topics', 'other'), [1, 3])],
+)
+def test_messages_bring_the_time_with_them(
+    write_bag: Callable[..., Path],
+    domain: int,
+    ros2: Callable[..., Any],
+    words: tuple[str, ...],
+    expected: list[int],
+) -> None:
+    bag = write_bag({'/chatter': STRING, '/other': STRING}, 4)
+    times: list[int] = []
+    with SpunNodes(domain) as nodes:
+        nodes.start(Node, 'student').create_subscription(
+            Clock, '/clock', lambda msg: times.append(msg.clock.nanosec // 10_000_000), 10
+        )
+        assert ros2('bag', 'play', str(bag), *words, '--rate', '0.05').status == 0
+        wait_until(
+            lambda: len(times) >= len(expected), timeout_sec=10.0, what=lambda: f'more: {times}'
+        )
+    assert times == expected
+
+
 def test_a_bad_choice_is_refused(
     write_bag: Callable[..., Path], domain: int, ros2: Callable[..., Any]
 ) -> None:
@@ -262,6 +369,8 @@ def test_a_bad_choice_is_refused(
         ('--topics', '/clock', '--clock'): 'No topic of the bag is chosen; it has /clock',
         ('--services', 'x'): "The bag has no topic '/x/_service_event'; it has /clock",
         ('-x', '('): "'(' is no regular expression",
+        ('--clock-topics', '/x'): "The bag has no topic '/x'; it has /clock",
+        ('--clock', '5', '--clock-topics-all'): 'not allowed with',
         ('--playback-duration', 'inf'): "'inf' is refused: it must be a number",
         ('--playback-until-sec', '1', '--playback-until-nsec', '1'): 'not allowed with',
     }

@@ -5,17 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from functools import partial
 import math
-import os
 import re
 import signal
-import subprocess
-import termios
 import time
 from typing import Any
 
+from playpen_testing.keyboard import CTRL_C, DOWN, Keyboard, LEFT, RIGHT, UP
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
 from playpen_testing.waiting import wait_until
@@ -23,7 +20,6 @@ import pytest
 from turtlesim.srv import Spawn
 
 TELEOP = ('ros2', 'run', 'turtlesim', 'turtle_teleop_key')
-UP, DOWN, RIGHT, LEFT = (f'\x1b[{letter}' for letter in 'ABCD')
 HELP = [
     'The arrow keys move turtle1.',
     'g, t, r, e, d, c, v and b turn it to a direction: they lie round f as directions do.',
@@ -31,53 +27,20 @@ HELP = [
 ]
 
 
-class Keyboard:
-    """A terminal in which a command runs."""
+def press_until(
+    keyboard: Keyboard, keys: str, fact: Callable[[Any], bool], student: TurtleClient
+) -> None:
+    """Press keys as a person does: again where nothing comes of it."""
 
-    def __init__(self, *command: str) -> None:
-        self.master, self._slave = os.openpty()
-        self.before = termios.tcgetattr(self._slave)
-        self.shown = ''
-        self.process = subprocess.Popen(
-            ['setsid', '--ctty', '--wait', *command],
-            stdin=self._slave,
-            stdout=self._slave,
-            stderr=self._slave,
-        )
-        os.set_blocking(self.master, False)
+    def works() -> bool:
+        keyboard.press(keys)
+        end = time.monotonic() + 0.5
+        while time.monotonic() < end:
+            if fact(student.pose()):
+                return True
+        return False
 
-    def press(self, keys: str) -> None:
-        os.write(self.master, keys.encode())
-
-    def press_until(self, keys: str, fact: Callable[[Any], bool], student: TurtleClient) -> None:
-        """Press keys as a person does: again where nothing comes of it."""
-
-        def works() -> bool:
-            self.press(keys)
-            end = time.monotonic() + 0.5
-            while time.monotonic() < end:
-                if fact(student.pose()):
-                    return True
-            return False
-
-        wait_until(works, timeout_sec=20.0, what=lambda: f'{keys!r}, in {student.pose()}')
-
-    def wait_for_text(self, text: str) -> None:
-        def comes() -> bool:
-            with suppress(BlockingIOError):
-                self.shown += os.read(self.master, 4096).decode()
-            return text in self.shown
-
-        wait_until(comes, timeout_sec=20.0, what=lambda: f'{text!r} in {self.shown!r}')
-
-    def is_as_before(self) -> bool:
-        return termios.tcgetattr(self._slave) == self.before
-
-    def close(self) -> None:
-        self.process.kill()
-        self.process.wait()
-        os.close(self.master)
-        os.close(self._slave)
+    wait_until(works, timeout_sec=20.0, what=lambda: f'{keys!r}, in {student.pose()}')
 
 
 @pytest.fixture
@@ -96,10 +59,11 @@ def _goes(pose: Any, *, forward: float, turn: float) -> bool:
 def test_arrows_move_the_turtle(keyboard: Keyboard, student: TurtleClient) -> None:
     assert keyboard.shown.split('\r\n')[: len(HELP)] == HELP
     for keys, forward, turn in ((UP, 2.0, 0.0), (LEFT, 0.0, 2.0), (RIGHT, 0.0, -2.0)):
-        keyboard.press_until(keys, partial(_goes, forward=forward, turn=turn), student)
+        press_until(keyboard, keys, partial(_goes, forward=forward, turn=turn), student)
     before = student.pose()
     way = (math.cos(before.theta), math.sin(before.theta))
-    keyboard.press_until(
+    press_until(
+        keyboard,
         DOWN,
         lambda pose: (pose.x - before.x) * way[0] + (pose.y - before.y) * way[1] < -0.3,
         student,
@@ -115,18 +79,18 @@ def test_letters_turn_to_where_they_lie_round_f(keyboard: Keyboard, student: Tur
 
     for key in 'tredcvbg':  # it looks to where g lies
         assert not is_there(student.pose(), key), key
-        keyboard.press_until(key, partial(is_there, key=key), student)
+        press_until(keyboard, key, partial(is_there, key=key), student)
 
 
 def test_f_cancels_a_rotation(
     keyboard: Keyboard, student: TurtleClient, turtlesim: Process
 ) -> None:
-    keyboard.press_until('d', lambda pose: pose.angular_velocity, student)
+    press_until(keyboard, 'd', lambda pose: pose.angular_velocity, student)
     # Again where the answer to the goal is still under way: there is nothing to cancel before.
-    keyboard.press_until('f', lambda _: 'Rotation goal canceled' in turtlesim.output, student)
+    press_until(keyboard, 'f', lambda _: 'Rotation goal canceled' in turtlesim.output, student)
 
 
-@pytest.mark.parametrize('end', ['q', '\x03'])
+@pytest.mark.parametrize('end', ['q', CTRL_C])
 def test_q_and_ctrl_c_leave_the_terminal_as_it_was(keyboard: Keyboard, end: str) -> None:
     assert not keyboard.is_as_before()
     start = time.monotonic()
@@ -150,7 +114,7 @@ def test_a_parameter_scales_the_keys(student: TurtleClient) -> None:
     terminal = Keyboard(*TELEOP, '--ros-args', '-p', 'scale_linear:=0.5')
     try:
         terminal.wait_for_text(HELP[-1])
-        terminal.press_until(UP, lambda pose: pose.linear_velocity == 0.5, student)
+        press_until(terminal, UP, lambda pose: pose.linear_velocity == 0.5, student)
     finally:
         terminal.close()
 

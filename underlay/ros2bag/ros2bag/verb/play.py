@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+from typing import Any
 
 from ros2cli import arguments
 from ros2cli.errors import CommandError, UsageError
@@ -17,10 +19,17 @@ from rtps_graph import names
 
 from ros2bag import choice, player, qos_overrides, service_requests, without_effect
 from ros2bag.bag_argument import add_bag_argument
+from ros2bag.keyboard import controls
+from ros2bag.playback import Playback
 from ros2bag.refusals import refused_in_one_line
 
 _DEFAULT_CLOCK_HZ = 40.0
 _DEFAULT_ACKNOWLEDGED_MS = 1000
+_RATE_STEP = 0.1
+_KEYS = (
+    ', SPACE pauses and resumes, CURSOR_RIGHT plays the next message while paused, CURSOR_UP '
+    'and CURSOR_DOWN change the rate by 0.1'
+)
 
 
 class PlayVerb(VerbExtension):
@@ -40,14 +49,7 @@ class PlayVerb(VerbExtension):
         parser.add_argument(
             '--remap', '-m', nargs='+', default=[], help='list of topics to be remapped: old:=new'
         )
-        parser.add_argument(
-            '--clock',
-            type=arguments.positive_float,
-            nargs='?',
-            const=_DEFAULT_CLOCK_HZ,
-            metavar='Hz',
-            help='Publish to /clock at this rate, to act as a ROS Time Source (default: off)',
-        )
+        _add_clock(parser)
         parser.add_argument(
             '-d',
             '--delay',
@@ -62,6 +64,13 @@ class PlayVerb(VerbExtension):
             help='Start the playback player this many seconds into the bag file.',
         )
         _add_end(parser)
+        arguments.add_flags(
+            parser,
+            {
+                '-p --start-paused': 'Start the playback player in a paused state.',
+                '--disable-keyboard-controls': 'Leave the keys of the terminal alone.',
+            },
+        )
         parser.add_argument(
             '--wait-for-all-acked',
             type=arguments.nonnegative_int,
@@ -72,7 +81,7 @@ class PlayVerb(VerbExtension):
         )
         service_requests.add_arguments(parser)
         without_effect.add_numbers(parser, '--read-ahead-queue-size')
-        without_effect.add_flags(parser, '--disable-keyboard-controls', '--disable-loan-message')
+        without_effect.add_flags(parser, '--disable-loan-message')
         qos_overrides.add_argument(parser)
 
     @refused_in_one_line()
@@ -85,22 +94,55 @@ class PlayVerb(VerbExtension):
             requests = service_requests.players_of(node, args, chosen, remaps)
             topics = [topic for topic in chosen if topic.name not in requests]
             publishers = player.publishers_of(node, topics, remaps, overrides)
-            clock = node.node.create_publisher(Clock, '/clock', 10) if args.clock else None
-            player.wait_for_subscriptions(node, list(publishers.values()))
-            node.spin_until(lambda: False, args.delay)
             players = {**publishers, **requests}
-            node.node.get_logger().info(
-                f'Playing {len(players)} of {len(bag.topics_with_message_count)} topics in '
-                f"'{args.bag_path}', {bag.duration.nanoseconds * 1e-9:.1f} s long, at rate "
-                f'{args.rate:g}; Ctrl-C ends it'
-            )
-            while True:
-                player.play(node, args, bag, players, clock)
-                if not args.loop:
-                    break
+            asks_for_clock = args.clock or args.clock_topics or args.clock_topics_all
+            clock = node.node.create_publisher(Clock, '/clock', 10) if asks_for_clock else None
+            heard = [*publishers.values(), *([clock] if clock else [])]
+            playback = Playback(node, args, bag, players, clock)
+            with controls(_keys(playback), disabled=args.disable_keyboard_controls) as keyboard:
+                player.wait_for_subscriptions(node, heard)
+                node.node.get_logger().info(
+                    f'Playing {len(players)} of {len(bag.topics_with_message_count)} topics in '
+                    f"'{args.bag_path}', {bag.duration.nanoseconds * 1e-9:.1f} s long, at rate "
+                    f'{args.rate:g}; Ctrl-C ends it{_KEYS if keyboard.is_there else ""}'
+                )
+                while True:
+                    playback.wait(args.delay, keyboard.serve)
+                    playback.play(keyboard.serve)
+                    if not args.loop:
+                        break
             service_requests.wait_for_answers(node, requests)
             timeout_sec = args.wait_for_all_acked / 1000.0 or None
-            player.wait_for_acknowledgements(node, publishers.values(), timeout_sec)
+            player.wait_for_acknowledgements(node, heard, timeout_sec)
+
+
+def _keys(playback: Playback) -> dict[str, Callable[[], Any]]:
+    return {
+        'SPACE': playback.toggle_paused,
+        'CURSOR_RIGHT': playback.play_next,
+        'CURSOR_UP': lambda: playback.change_rate(_RATE_STEP),
+        'CURSOR_DOWN': lambda: playback.change_rate(-_RATE_STEP),
+    }
+
+
+def _add_clock(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument(
+        '--clock',
+        type=arguments.positive_float,
+        nargs='?',
+        const=_DEFAULT_CLOCK_HZ,
+        metavar='Hz',
+        help='Publish to /clock at this rate, to act as a ROS Time Source (default: off)',
+    )
+    group.add_argument(
+        '--clock-topics',
+        nargs='+',
+        default=[],
+        metavar='topic',
+        help='Publish to /clock before each message of these topics.',
+    )
+    arguments.add_flags(group, {'--clock-topics-all': 'Publish to /clock before each message.'})
 
 
 def _add_choice(parser: argparse.ArgumentParser) -> None:
@@ -158,7 +200,7 @@ def _chosen(
     known = {names.expand(topic.name): topic for topic in topics}
     wanted = [names.expand(name) for name in args.topics]
     events = [*choice.event_topics(args.services), *(n for n in wanted if n.endswith(EVENTS))]
-    for name in (*wanted, *events):
+    for name in (*wanted, *events, *map(names.expand, args.clock_topics)):
         if name not in known:
             raise CommandError(f"The bag has no topic '{name}'; it has {', '.join(known)}")
     passes = selection.wanted(
