@@ -33,7 +33,7 @@ from tf2_msgs.msg import TFMessage
 HEADER = b'\0\1\0\0'  # CDR, little endian
 SHIPPED = (
     *('action_tutorials_interfaces', 'composition_interfaces', 'example_interfaces'),
-    *('control_msgs', 'simulation_interfaces', 'tf2_msgs'),
+    *('control_msgs', 'rosbag2_interfaces', 'simulation_interfaces', 'tf2_msgs'),
 )
 NAMES = [
     f'{package}/{name}' for package, names in get_message_interfaces().items() for name in names

@@ -27,12 +27,33 @@ class Recorder:
         writer: BagWriter,
         selection: Selection,
         overrides: dict[str, QoSProfile],
+        *,
+        is_paused: bool = False,
     ) -> None:
+        self.is_paused = is_paused  # what comes meanwhile is not written
         self._node = node
         self._writer = writer
         self._selection = selection
         self._overrides = overrides
         self._seen: set[str] = set()
+
+    def pause(self) -> None:
+        self.is_paused = True
+        self._log('Paused')
+
+    def resume(self) -> None:
+        self.is_paused = False
+        self._log('Resumed')
+
+    def toggle_paused(self) -> None:
+        if self.is_paused:
+            self.resume()
+        else:
+            self.pause()
+
+    def split(self) -> None:
+        """Go on in a new file."""
+        self._writer.split()
 
     def missing(self) -> list[str]:
         """Return the topics that were named, those of services as well, and are not there."""
@@ -76,7 +97,9 @@ class Recorder:
         clock = self._node.node.get_clock()
 
         def on_message(data: bytes, info: dict[str, Any]) -> None:
-            self._writer.write(name, data, clock.now().nanoseconds, info['source_timestamp'])
+            if not self.is_paused:
+                now_ns = clock.now().nanoseconds
+                self._writer.write(name, data, now_ns, info['source_timestamp'])
 
         self._node.node.create_subscription(message_class, name, on_message, qos, raw=True)
         self._log(f"Subscribed to topic '{name}'")

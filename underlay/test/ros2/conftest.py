@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass
 import os
 from pathlib import Path
@@ -16,6 +16,7 @@ import sys
 import time
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.keyboard import Keyboard
 from playpen_testing.processes import find_line
 import pytest
 
@@ -184,6 +185,19 @@ def ros2() -> Ros2:
         return Answer(process.returncode, _SHARED_MEMORY_RACE.sub('', out), err)
 
     return run
+
+
+@pytest.fixture
+def in_terminal() -> Iterator[Callable[..., Keyboard]]:
+    """Return a function that runs a command in a terminal of its own."""
+    with ExitStack() as ends:
+
+        def run(*command: str) -> Keyboard:
+            terminal = Keyboard(*command)
+            ends.callback(terminal.close)
+            return terminal
+
+        yield run
 
 
 def make_package(prefix: Path, name: str, **programs: str) -> Path:

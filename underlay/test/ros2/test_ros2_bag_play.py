@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+import math
 from pathlib import Path
 import signal
 import time
@@ -16,6 +16,7 @@ from playpen_testing.bags import opened_writer, string
 from playpen_testing.forks import run_forked
 from playpen_testing.keyboard import CTRL_C, CTRL_Z, DOWN, Keyboard, RIGHT, UP
 from playpen_testing.processes import find_line
+from playpen_testing.services import ask
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
@@ -26,6 +27,15 @@ from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from ros2bag import player
 from ros2cli.node.direct import command_node
+from rosbag2_interfaces.srv import (
+    GetRate,
+    IsPaused,
+    Pause,
+    PlayNext,
+    Resume,
+    SetRate,
+    TogglePaused,
+)
 from rosbag2_py import TopicMetadata
 from rosgraph_msgs.msg import Clock
 from service_msgs.msg import ServiceEventInfo
@@ -259,19 +269,6 @@ def test_play_ends_where_it_should(
     assert ''.join(heard) == expected
 
 
-@pytest.fixture
-def in_terminal() -> Iterator[Callable[..., Keyboard]]:
-    """Return a function that runs a command in a terminal of its own."""
-    with ExitStack() as ends:
-
-        def run(*command: str) -> Keyboard:
-            terminal = Keyboard(*command)
-            ends.callback(terminal.close)
-            return terminal
-
-        yield run
-
-
 def test_keys_pause_step_and_change_the_rate(
     write_bag: Callable[..., Path], heard: list[str], in_terminal: Callable[..., Keyboard]
 ) -> None:
@@ -336,6 +333,40 @@ def test_keys_are_left_alone_where_they_are_disabled(
         wait_until(lambda: len(times) > 3, timeout_sec=10.0, what='the time of a paused bag')
     assert all(each == Clock() for each in times)
     assert terminal.is_as_before()
+
+
+def test_services_control_what_is_played(
+    write_bag: Callable[..., Path], domain: int, processes: Any
+) -> None:
+    bag = write_bag({'/chatter': STRING})
+    heard: list[str] = []
+    player = processes.ros2('bag', 'play', str(bag), '-p', ready='Playing 1 of 1')
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'student')
+        node.create_subscription(String, '/chatter', lambda msg: heard.append(msg.data[-1]), 10)
+
+        def call(kind: Any, name: str, **fields: object) -> Any:
+            return ask(node, kind, f'/rosbag2_player/{name}', **fields)
+
+        assert call(IsPaused, 'is_paused').paused
+        assert call(SetRate, 'set_rate', rate=0.001).success
+        for bad in (0.0, -1.0, math.inf, math.nan):
+            assert not call(SetRate, 'set_rate', rate=bad).success
+        assert call(GetRate, 'get_rate').rate == 0.001
+        matched = node.count_publishers
+        wait_until(lambda: matched('/chatter') == 1, timeout_sec=10.0, what='a publisher')
+        assert call(PlayNext, 'play_next').success
+        call(Resume, 'resume')
+        assert not call(IsPaused, 'is_paused').paused
+        assert not call(PlayNext, 'play_next').success
+        call(Pause, 'pause')
+        assert call(IsPaused, 'is_paused').paused
+        while call(PlayNext, 'play_next').success:
+            pass
+        wait_until(lambda: '5' in heard, timeout_sec=10.0, what=lambda: f'more than {heard}')
+        assert ''.join(heard).endswith('12345')
+        call(TogglePaused, 'toggle_paused')
+    assert player.wait(timeout=10.0) == 0
 
 
 @pytest.mark.parametrize(

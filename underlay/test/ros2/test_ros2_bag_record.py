@@ -15,8 +15,15 @@ from typing import Any
 
 from playpen_testing.bags import opened_reader
 from playpen_testing.forks import run_forked
+from playpen_testing.keyboard import CTRL_C, Keyboard
+from playpen_testing.services import ask
+from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
 import pytest
+from rclpy.node import Node
+from rosbag2_interfaces.srv import IsPaused, Pause, Resume, SplitBagfile
 from rosbag2_py.selection import EVENTS
+from std_msgs.msg import String
 
 CHATTER, FLIPS, SUMS = '/chatter', '/flip/_service_event', '/add_two_ints/_service_event'
 VERB = ('ros2bag.verb.record',)  # what the forks of a test share
@@ -38,7 +45,7 @@ class Recording:
 
     def wait_for(self, *topics: str, count: int = 1) -> None:
         deadline = time.monotonic() + 20.0
-        while missing := [each for each in topics if self._count(each) < count]:
+        while missing := [each for each in topics if self.count(each) < count]:
             assert time.monotonic() < deadline, f'not recorded within 20 s: {missing}'
             time.sleep(0.05)
 
@@ -49,7 +56,7 @@ class Recording:
         assert 'Recording stopped: ' in rest
         return {each.name for each in opened_reader(self.bag).get_all_topics_and_types()}
 
-    def _count(self, topic: str) -> int:
+    def count(self, topic: str) -> int:
         query = (
             'SELECT COUNT(*) FROM messages WHERE topic_id = (SELECT id FROM topics WHERE name=?)'
         )
@@ -117,6 +124,46 @@ def test_a_limit_begins_new_files(processes: Any, tmp_path: Path, words: tuple[s
     assert all(file.message_count > 1 for file in files[:2])
 
 
+def test_services_pause_a_recording_and_begin_a_new_file(
+    graph: Any, shared_domain: int, tmp_path: Path
+) -> None:
+    recording = Recording(graph, tmp_path, CHATTER, '--start-paused')
+    heard: list[String] = []
+    with SpunNodes(shared_domain) as nodes:
+        node = nodes.start(Node, 'student')
+
+        def call(kind: Any, name: str) -> Any:
+            return ask(node, kind, f'/rosbag2_recorder/{name}')
+
+        assert call(IsPaused, 'is_paused').paused
+        node.create_subscription(String, CHATTER, heard.append, 10)
+        wait_until(lambda: len(heard) > 4, timeout_sec=10.0, what='a talker')
+        assert recording.count(CHATTER) == 0
+        call(Resume, 'resume')
+        recording.wait_for(CHATTER)
+        call(SplitBagfile, 'split_bagfile')
+        call(Pause, 'pause')
+        assert call(IsPaused, 'is_paused').paused
+    assert recording.end() == {CHATTER}
+    assert len(opened_reader(recording.bag).get_metadata().files) == 2
+
+
+def test_space_pauses_a_recording(
+    domain: int, in_terminal: Callable[..., Keyboard], tmp_path: Path
+) -> None:
+    words = ('-o', str(tmp_path / 'bag'), '-a', '--start-paused')
+    terminal = in_terminal('ros2', 'bag', 'record', *words)
+    terminal.wait_for_text('Recording... (paused); SPACE pauses and resumes')
+    wait_until(lambda: not terminal.is_as_before(), timeout_sec=10.0, what='keys')
+    terminal.press('  ')
+    for text in ('Resumed', 'Paused'):
+        terminal.wait_for_text(text)
+    terminal.press(CTRL_C)
+    terminal.wait_for_text('Recording stopped: 0 messages')
+    terminal.process.wait(timeout=10.0)
+    assert terminal.is_as_before()
+
+
 def test_custom_data_is_kept(graph: Any, tmp_path: Path) -> None:
     recording = Recording(graph, tmp_path, CHATTER, '--custom-data', 'robot=husky', 'sum=1+1=2')
     recording.end()
@@ -125,7 +172,7 @@ def test_custom_data_is_kept(graph: Any, tmp_path: Path) -> None:
 
 
 def test_what_has_no_effect_is_said(ros2: Callable[..., Any]) -> None:
-    for verb, count in (('record', 5), ('play', 2)):
+    for verb, count in (('record', 4), ('play', 2)):
         text = ' '.join(ros2('bag', verb, '--help').out.split())
         assert text.count('Accepted, and without effect here.') == count
 

@@ -22,6 +22,7 @@ from ros2bag.bag_argument import add_bag_argument
 from ros2bag.keyboard import controls
 from ros2bag.playback import Playback
 from ros2bag.refusals import refused_in_one_line
+from ros2bag.services import control_player
 
 _DEFAULT_CLOCK_HZ = 40.0
 _DEFAULT_ACKNOWLEDGED_MS = 1000
@@ -99,6 +100,7 @@ class PlayVerb(VerbExtension):
             clock = node.node.create_publisher(Clock, '/clock', 10) if asks_for_clock else None
             heard = [*publishers.values(), *([clock] if clock else [])]
             playback = Playback(node, args, bag, players, clock)
+            control_player(node, playback)
             with controls(_keys(playback), disabled=args.disable_keyboard_controls) as keyboard:
                 player.wait_for_subscriptions(node, heard)
                 node.node.get_logger().info(

@@ -10,7 +10,7 @@ import time
 
 from ros2cli import arguments, discovery
 from ros2cli.errors import UsageError
-from ros2cli.node.direct import command_node
+from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.selection import EVENTS
@@ -18,8 +18,10 @@ from rosbag2_py.storages import DEFAULT_ID, STORAGES
 from rosbag2_py.storages.interface import Storage
 
 from ros2bag import choice, qos_overrides, without_effect
+from ros2bag.keyboard import controls, Keyboard
 from ros2bag.recorder import Recorder
 from ros2bag.refusals import refused_in_one_line
+from ros2bag.services import control_recorder
 
 _COMPRESS = '--storage-preset-profile zstd_fast compresses an MCAP bag'
 
@@ -60,7 +62,13 @@ class RecordVerb(VerbExtension):
             '--compression-threads',
             '--compression-threads-priority',
         )
-        without_effect.add_flags(parser, '--disable-keyboard-controls')
+        arguments.add_flags(
+            parser,
+            {
+                '--start-paused': 'Start the recorder in a paused state.',
+                '--disable-keyboard-controls': 'Leave the keys of the terminal alone.',
+            },
+        )
 
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
@@ -82,22 +90,42 @@ class RecordVerb(VerbExtension):
             command_node(args, name='rosbag2_recorder', may_spin_when_interrupted=True) as node,
         ):
             _end_with_the_terminal()
-            recorder = Recorder(node, writer, selection, overrides)
+            recorder = Recorder(node, writer, selection, overrides, is_paused=args.start_paused)
+            control_recorder(node, recorder)
             log = node.node.get_logger()
             log.info('Listening for topics...')
             recorder.subscribe_to_new_topics(discovery.read_graph())
-            log.info('Recording...')
-            if missing := recorder.missing():
-                log.info(f'Waiting for {", ".join(missing)}{_hint(missing)}')
-            try:
-                while True:
-                    node.spin_until(lambda: False, args.polling_interval * 1e-3)
-                    writer.flush()
-                    if not args.no_discovery:
-                        recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
-            except KeyboardInterrupt:
-                writer.close()
-                log.info(f"Recording stopped: {writer.message_count} messages in '{folder}'")
+            keys = {'SPACE': recorder.toggle_paused}
+            with controls(keys, disabled=args.disable_keyboard_controls) as keyboard:
+                by_key = '; SPACE pauses and resumes' if keyboard.is_there else ''
+                log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
+                if missing := recorder.missing():
+                    log.info(f'Waiting for {", ".join(missing)}{_hint(missing)}')
+                try:
+                    _record(node, args, recorder, writer, keyboard)
+                except KeyboardInterrupt:
+                    writer.close()
+                    log.info(f"Recording stopped: {writer.message_count} messages in '{folder}'")
+
+
+def _record(
+    node: CommandNode,
+    args: argparse.Namespace,
+    recorder: Recorder,
+    writer: BagWriter,
+    keyboard: Keyboard,
+) -> None:
+    """Record until a signal comes."""
+
+    def never() -> bool:
+        keyboard.serve()
+        return False
+
+    while True:
+        node.spin_until(never, args.polling_interval * 1e-3)
+        writer.flush()
+        if not args.no_discovery:
+            recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
 
 
 def _add_bag(parser: argparse.ArgumentParser) -> None:

@@ -1,0 +1,54 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The services by which a player and a recorder of bags are controlled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ros2cli.node.direct import CommandNode
+from rosbag2_interfaces.srv import (
+    GetRate,
+    IsPaused,
+    Pause,
+    PlayNext,
+    Resume,
+    SetRate,
+    SplitBagfile,
+    TogglePaused,
+)
+
+from ros2bag.playback import Playback
+from ros2bag.recorder import Recorder
+
+
+def control_player(node: CommandNode, playback: Playback) -> None:
+    _create(node, Pause, 'pause', lambda _: playback.pause())
+    _create(node, Resume, 'resume', lambda _: playback.resume())
+    _create(node, TogglePaused, 'toggle_paused', lambda _: playback.toggle_paused())
+    _create(node, IsPaused, 'is_paused', lambda _: playback.is_paused, 'paused')
+    _create(node, GetRate, 'get_rate', lambda _: playback.rate, 'rate')
+    _create(node, SetRate, 'set_rate', lambda asked: playback.set_rate(asked.rate), 'success')
+    _create(node, PlayNext, 'play_next', lambda _: playback.play_next(), 'success')
+
+
+def control_recorder(node: CommandNode, recorder: Recorder) -> None:
+    _create(node, Pause, 'pause', lambda _: recorder.pause())
+    _create(node, Resume, 'resume', lambda _: recorder.resume())
+    _create(node, IsPaused, 'is_paused', lambda _: recorder.is_paused, 'paused')
+    _create(node, SplitBagfile, 'split_bagfile', lambda _: recorder.split())
+
+
+def _create(
+    node: CommandNode, kind: Any, name: str, act: Callable[[Any], Any], field: str = ''
+) -> None:
+    """Create a service that answers with what is done, in a field where it has one."""
+
+    def on_request(request: Any, response: Any) -> Any:
+        answer = act(request)
+        if field:
+            setattr(response, field, answer)
+        return response
+
+    node.node.create_service(kind, f'~/{name}', on_request)
