@@ -237,7 +237,7 @@ def test_a_package_that_python_asks_for_is_explained(
         f'{BEFORE}\nfrom ament_index_python.packages import get_package_share_directory as share\n'
     )
     for package, hint in {
-        'demo_nodes_cpp': 'it has no wheel; here `ros2 run demo_nodes_py talker`',
+        'rviz2': 'it has no wheel; here `ros2 launch husky_sim husky_playpen.launch.py`',
         'some_pk': "is 'some_pkg' meant?",
     }.items():
         path = python_launch_file(f"LogInfo(msg=share('{package}')),", before=before)

@@ -98,6 +98,8 @@ def find_executable(package: str, name: str) -> Path:
             f'No executable found: {source / package / stem}.py has a main(), but no entry point; '
             f'{how_to_declare(source, package, stem)}'
         )
+    if instead := stand_ins.hint_of_missing_part(package, name):
+        raise PackageError(f"No executable found: package '{package}' has no '{name}': {instead}")
     if not known:
         raise PackageError(
             f"No executable found: package '{package}' has none; a Python node needs a line "

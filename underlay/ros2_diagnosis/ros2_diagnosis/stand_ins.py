@@ -78,6 +78,7 @@ BY_PACKAGE = {
 }
 """A clause for each package that has no wheel."""
 
+_HERE_IN_PART = {'demo_nodes_cpp'}
 
 _BY_PROGRAM = {
     **{
@@ -89,10 +90,6 @@ _BY_PROGRAM = {
             'introspect_services_launch.py',
         )
     },
-    ('demo_nodes_cpp', 'parameter_blackboard'): (
-        '`ros2 run turtlesim turtlesim_node` is a node with parameters to set and to watch, as '
-        '`background_r`'
-    ),
     **dict.fromkeys(
         (('demo_nodes_cpp', 'add_two_ints_server'), ('demo_nodes_cpp', 'add_two_ints_client')),
         _ADD,
@@ -107,3 +104,8 @@ def hint(package: str, program: str = '') -> str:
     """
     clause = _BY_PROGRAM.get((package, program)) or BY_PACKAGE.get(package)
     return f'it has no wheel; here {clause}' if clause else ''
+
+
+def hint_of_missing_part(package: str, program: str) -> str:
+    """Say the same of a program or launch file that is missing in a package that is here."""
+    return hint(package, program) if package in _HERE_IN_PART else ''

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 import re
 import signal
@@ -206,10 +205,40 @@ def test_to_set_one_parameter_sets_the_other(processes: Any, domain: int, ros2: 
     end(node)
 
 
-def test_a_node_of_a_student_keeps_what_the_client_sets(domain: int) -> None:
-    with SpunNodes(domain) as nodes:
-        nodes.start(partial(Node, BOARD, allow_undeclared_parameters=True))
-        done = run('async_param_client')
+@pytest.fixture
+def board(processes: Any, tmp_path: Path) -> Any:
+    """Start what the page on arguments of nodes starts."""
+    (tmp_path / 'demo_params.yaml').write_text(f'{BOARD}: {{ros__parameters: {{some_int: 42}}}}')
+    return processes.start(
+        *('ros2', 'run', 'demo_nodes_cpp', BOARD, '--ros-args', '-p', 'a_string:=Hello world'),
+        *('--params-file', 'demo_params.yaml', '-p', 'some_lists.some_doubles:=[3.14, 2.718]'),
+        ready=f"Parameter blackboard '/{BOARD}' is ready, with 5 parameters",
+    )
+
+
+def test_a_blackboard_keeps_what_it_is_given(board: Any, domain: int, ros2: Any) -> None:
+    assert ros2('param', 'set', BOARD, 'new', '3.45').out == 'Set parameter successful\n'
+    assert (
+        ros2('param', 'dump', BOARD).out.strip()
+        == f"""\
+/{BOARD}:
+  ros__parameters:
+    a_string: Hello world
+    new: 3.45
+    some_int: 42
+    some_lists:
+      some_doubles:
+      - 3.14
+      - 2.718
+    start_type_description_service: true
+    use_sim_time: false"""
+    )
+    end(board)
+
+
+@pytest.mark.usefixtures('board')
+def test_a_blackboard_keeps_what_the_client_sets() -> None:
+    done = run('async_param_client')
     assert done.returncode == 0
     said = [line.removeprefix('[INFO] [async_param_client]: ') for line in lines_of(done.stdout)]
     titles = ['Setting parameters:', 'Listing Parameters:', 'Getting parameters:']

@@ -94,7 +94,6 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
             'ros2 launch demo_nodes_cpp introspect_services_launch.py',
             'demo_nodes_py introspection',
         ),
-        ('ros2 run demo_nodes_cpp parameter_blackboard', 'turtlesim_node'),
         ('ros2 run ros_gz_sim create', 'husky_playpen.launch.py'),
         ('ros2 run teleop_twist_keyboard teleop_twist_keyboard', 'ros2 run husky_driver teleop'),
         ('ros2 run demo_nodes_cpp talker', 'ros2 run demo_nodes_py talker'),

@@ -86,8 +86,7 @@ def _steps(node: Node, spinner: Spinner) -> int:
     if not tour.begin():
         node.get_logger().error(
             f'there is no node {TARGET}: start it before this demo by `ros2 run demo_nodes_cpp '
-            f'{TARGET}`, in C++ and so in a sourced Jazzy only, or as a node of your own with '
-            'allow_undeclared_parameters=True'
+            f'{TARGET}`'
         )
         return 1
     tour.set_some()

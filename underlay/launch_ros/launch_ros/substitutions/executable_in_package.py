@@ -15,7 +15,7 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import MarkupArguments
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from ros2_diagnosis import programs
+from ros2_diagnosis import programs, stand_ins
 
 from .find_package import FindPackagePrefix
 
@@ -49,7 +49,9 @@ class ExecutableInPackage(FindPackagePrefix):
             return str(path)
         known = _executables(folder)
         near = difflib.get_close_matches(executable, known, 1)
-        if not folder.is_dir():
+        if instead := stand_ins.hint_of_missing_part(package, executable):
+            hint = instead
+        elif not folder.is_dir():
             hint = 'the package has none (is it built? does its setup.cfg name the folder?)'
         else:
             hint = f"is '{near[0]}' meant?" if near else f'there are: {", ".join(known) or "none"}'

@@ -9,7 +9,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from ros2_diagnosis import nearest, packages, workspaces
+from ros2_diagnosis import nearest, packages, stand_ins, workspaces
 from ros2cli.arguments import add_completed, add_package
 from ros2cli.command import CommandExtension
 from ros2cli.discovery import settings_from_environment
@@ -160,7 +160,9 @@ def find_launch_file(
     try:
         found = api.get_share_file_path_from_package(package_name=package, file_name=file_name)
     except FileNotFoundError as error:
-        raise CommandError(f'{error}{nearest.hint(file_name, (p.name for p in known))}') from None
+        instead = stand_ins.hint_of_missing_part(package, file_name)
+        hint = f': {instead}' if instead else nearest.hint(file_name, (p.name for p in known))
+        raise CommandError(f'{error}{hint}') from None
     except api.MultipleLaunchFilesError as error:
         raise CommandError(str(error)) from None
     return Path(found), list(words)
