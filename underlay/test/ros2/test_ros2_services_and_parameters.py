@@ -6,12 +6,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+import threading
 from typing import Any
 
 from playpen_testing.forks import run_forked
+from playpen_testing.processes import find_line
+from playpen_testing.spinning import SpunNodes
 import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
 from ros2param import api
 
 
@@ -94,6 +98,26 @@ def test_parameters_are_listed_with_types(ros2: Callable[..., Any]) -> None:
 @pytest.mark.usefixtures('world')
 def test_a_parameter_is_shown(ros2: Callable[..., Any], name: str, shown: str) -> None:
     assert ros2('param', 'get', '/owner', name).out == f'{shown}\n'
+
+
+def test_a_busy_node_is_waited_for(processes: Any, domain: int) -> None:
+    may_go_on = threading.Event()
+    hint = 'gave no answer within 5 s; its node is busy or stopped; Ctrl-C ends the waiting'
+    asked = (('set', '/busy', 'load', '1.0'), ('dump', '/busy'), ('list', '/busy'))
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'busy', load=0.5)
+        node.declare_parameter('load', 0.0)
+        assert node.executor is not None
+        node.executor.create_task(may_go_on.wait)
+        commands = [processes.ros2('param', *words) for words in asked]
+        for command in commands:
+            find_line(command.stdout, hint)
+        may_go_on.set()
+        rests = [command.communicate(timeout=20.0)[0] for command in commands]
+        assert node.get_parameter('load').value == 1.0
+    assert [command.returncode for command in commands] == [0, 0, 0]
+    for rest, said in zip(rests, ('Set parameter successful', 'load: ', '  load'), strict=True):
+        assert said in rest
 
 
 @pytest.mark.usefixtures('world')

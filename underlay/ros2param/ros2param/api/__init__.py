@@ -67,19 +67,33 @@ def call_list_parameters(
     return future
 
 
-def list_names(*, node: Any, node_name: str, prefixes: Sequence[str] = ()) -> list[str]:
+def list_names(
+    *, node: Any, node_name: str, prefixes: Sequence[str] = (), may_take_long: bool = False
+) -> list[str]:
     """List the names of the parameters in their order.
 
+    :param may_take_long: as for `calls.call`.
     :raises CommandError: the node does not answer.
     """
-    response = _call(node, node_name, ListParameters, 'list_parameters', prefixes=prefixes)
+    response = _call(
+        node,
+        node_name,
+        ListParameters,
+        'list_parameters',
+        may_take_long=may_take_long,
+        prefixes=prefixes,
+    )
     return sorted(response.result.names)
 
 
 def call_describe_parameters(
     *, node: Any, node_name: str, parameter_names: Sequence[str] | None = None
 ) -> DescribeParameters.Response:
-    """Ask for descriptions; this and the calls below raise RuntimeError without an answer."""
+    """Ask for descriptions.
+
+    This and the calls below await the answer of a busy node for as long as it takes, and raise
+    RuntimeError where there will be none.
+    """
     names = parameter_names or []
     return _call(node, node_name, DescribeParameters, 'describe_parameters', names=names)
 
@@ -132,9 +146,21 @@ class ParameterNameCompleter:
         return [name for name in names if name.startswith(prefix)]
 
 
-def _call(node: Any, node_name: str, service_class: Any, service: str, **request: Any) -> Any:
+def _call(
+    node: Any,
+    node_name: str,
+    service_class: Any,
+    service: str,
+    *,
+    may_take_long: bool = True,
+    **request: Any,
+) -> Any:
     return calls.call(
-        node, service_class, f'{node_name}/{service}', service_class.Request(**request)
+        node,
+        service_class,
+        f'{node_name}/{service}',
+        service_class.Request(**request),
+        may_take_long=may_take_long,
     )
 
 

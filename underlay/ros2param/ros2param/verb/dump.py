@@ -23,7 +23,7 @@ class DumpVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         node_name = params.find_node(args)
         with command_node(args) as node:
-            names = api.list_names(node=node, node_name=node_name)
+            names = api.list_names(node=node, node_name=node_name, may_take_long=True)
             values = api.call_get_parameters(
                 node=node, node_name=node_name, parameter_names=names
             ).values

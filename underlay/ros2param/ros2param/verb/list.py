@@ -61,7 +61,12 @@ def _pattern(text: str) -> re.Pattern[str]:
 def _print_parameters(
     node: CommandNode, node_name: str, args: argparse.Namespace, keep: re.Pattern[str]
 ) -> None:
-    known = api.list_names(node=node, node_name=node_name, prefixes=args.param_prefixes)
+    known = api.list_names(
+        node=node,
+        node_name=node_name,
+        prefixes=args.param_prefixes,
+        may_take_long=bool(args.node_name),  # of all nodes, the others are not kept waiting
+    )
     found = [name for name in known if keep.match(name)]
     if found and not args.node_name:
         print(f'{node_name}:')
