@@ -272,3 +272,19 @@ def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: 
         assert status == 2 or ended.err.count('\n') == 1, (words, ended.err)
     answer = ros2('bag', 'info', 'nothing', folder=tmp_path)
     assert (answer.status, answer.err) == (1, "Bag path 'nothing' does not exist!\n")
+
+
+def test_storages_are_listed_and_nothing_else_is_there() -> None:
+    expected = {
+        ('storage',): 'mcap\nsqlite3\n',
+        ('storage', '-v'): 'name: sqlite3\n\tfiles *.db3, presets none, resilient\n',
+        ('converter', '--verbose'): 'available converter plugins are:\n',
+        ('compressor',): '',
+        ('decompressor',): '',
+    }
+    calls = [('ros2cli.cli', 'bag', 'list', *words) for words in expected]
+    results = run_forked(*calls, preload=('rosbag2_py',))
+    for text, ended in zip(expected.values(), results, strict=True):
+        assert ended.status == 0, ended
+        assert ended.out.endswith(text)
+        assert bool(ended.out) == bool(text)

@@ -20,7 +20,7 @@ from ros2cli.node.strategy import NodeStrategy
 
 COMMANDS = {
     'action': {'info', 'list', 'send_goal', 'type'},
-    'bag': {'convert', 'info', 'play', 'record', 'reindex'},
+    'bag': {'convert', 'info', 'list', 'play', 'record', 'reindex'},
     'component': {'list', 'load', 'standalone', 'types', 'unload'},
     'daemon': {'start', 'status', 'stop'},
     'interface': {'list', 'package', 'packages', 'proto', 'show'},
