@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 import re
 
-from ros2_diagnosis import nearest, PackageError, stand_ins
+from ros2_diagnosis import nearest, package_files, PackageError, stand_ins
 
 LAUNCH_SUFFIXES = (
     '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
@@ -86,11 +86,12 @@ def find_executable(package: str, name: str) -> Path:
         )
     source = source_of(package)
     if source is not None and _declares(source, name):
-        workspace = workspace_of(source)
+        why = package_files.why_not_run(source, package) or (
+            f"but package '{package}' was built before that; run `colcon build --packages-select "
+            f'{package}` in {workspace_of(source)}'
+        )
         raise PackageError(
-            f"No executable found: '{name}' is declared in {source / 'setup.py'}, but package "
-            f"'{package}' was built before that; run `colcon build --packages-select {package}` "
-            f'in {workspace}'
+            f"No executable found: '{name}' is declared in {source / 'setup.py'}, {why}"
         )
     stem = name.removesuffix('.py')
     if source is not None and stem in undeclared_programs(source, package):
@@ -127,17 +128,13 @@ def why_missing(package: str, program: str = '') -> str:
         return 'AMENT_PREFIX_PATH is empty: no ROS is sourced in this terminal'
     workspace = workspace_of(Path.cwd())
     if workspace is not None:
-        built = built_prefix(workspace, package)
-        if built is not None:
+        why = why_unbuilt(workspace, package)
+        if why is not None:
+            return why
+        if built_prefix(workspace, package) is not None:
             return (
                 f'it is built in {workspace}, but not sourced in this terminal; '
                 f'run `source {workspace}/install/setup.bash`'
-            )
-        source = source_in(workspace, package)
-        if source is not None:
-            return (
-                f'it is in {source}, but not built; run `colcon build --packages-select '
-                f'{package}` in {workspace}, then `source {workspace}/install/setup.bash`'
             )
     instead = stand_ins.hint(package, program)
     if instead:
@@ -154,6 +151,53 @@ def why_missing(package: str, program: str = '') -> str:
 # Workspaces
 
 
+def why_unbuilt(workspace: Path, package: str) -> str | None:
+    """Say why a package in the src of a workspace is not built; None where it is, or not there."""
+    source = source_in(workspace, package)
+    if source is None:
+        return None
+    build = (
+        f'run `colcon build --packages-select {package}` in {workspace}, then '
+        f'`source {workspace}/install/setup.bash`'
+    )
+    refused = package_files.why_refused(source)
+    if refused:
+        return f'it is in {source}, but colcon cannot build it: {"; ".join(refused)}; then {build}'
+    if built_prefix(workspace, package) is not None:
+        return None
+    ignored = _ignored(source, workspace)
+    if ignored is not None:
+        return (
+            f'it is in {source}, but colcon passes over it for {ignored}; remove that and {build}'
+        )
+    failure = _failure_of(workspace, package)
+    if failure is not None:
+        return f'it is in {source}, but `colcon build` failed: {failure}; mend that, and {build}'
+    return f'it is in {source}, but not built; {build}'
+
+
+def _ignored(source: Path, workspace: Path) -> Path | None:
+    for folder in (source, *source.parents):
+        for name in ('COLCON_IGNORE', 'AMENT_IGNORE'):
+            if (folder / name).exists():
+                return folder / name
+        if folder == workspace:
+            return None
+    return None
+
+
+def _failure_of(workspace: Path, package: str) -> str | None:
+    """Return the last line that the last build of a package wrote, None where it did not fail."""
+    try:
+        status = (workspace / 'build' / package / 'colcon_build.rc').read_text().strip()
+        log = workspace / 'log' / 'latest_build' / package / 'stderr.log'
+        lines = log.read_text(encoding='utf-8', errors='replace').split('\n')
+    except OSError:
+        return None
+    said = [line.strip() for line in lines if line.strip()]
+    return None if status == '0' or not said else said[-1]
+
+
 def workspace_of(path: Path) -> Path | None:
     """Return the colcon workspace that a folder lies in: the nearest one with src or install."""
     for folder in (path, *path.parents):
@@ -167,16 +211,21 @@ def sources_in(folder: Path, *, depth: int = 4) -> dict[str, Path]:
     found: dict[str, Path] = {}
     if not folder.is_dir():
         return found
-    manifest = folder / 'package.xml'
-    if manifest.is_file():
-        match = _PACKAGE_NAME.search(manifest.read_text(encoding='utf-8', errors='replace'))
-        return {match[1]: folder} if match else {}
+    if (folder / 'package.xml').is_file():
+        return {name_in(folder): folder}
     if depth == 0 or (folder / 'COLCON_IGNORE').exists():
         return found
     for child in sorted(folder.iterdir()):
         if child.is_dir() and not child.name.startswith('.'):
             found |= sources_in(child, depth=depth - 1)
     return found
+
+
+def name_in(folder: Path) -> str:
+    """Return the name that a package.xml tells, that of its folder where it tells none."""
+    text = (folder / 'package.xml').read_text(encoding='utf-8', errors='replace')
+    match = _PACKAGE_NAME.search(text)
+    return match[1] if match else folder.name
 
 
 def source_in(workspace: Path, package: str) -> Path | None:

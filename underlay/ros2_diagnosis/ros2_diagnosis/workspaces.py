@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
-from ros2_diagnosis import packages
+from ros2_diagnosis import packages, setup_py
 from ros2_diagnosis.finding import Finding
 
 _SETTINGS = ('setup.py', 'setup.cfg', 'package.xml')
@@ -63,6 +63,12 @@ def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
             f'{program}.py has a main(), but no entry point: `ros2 run` does not know it',
             packages.how_to_declare(source, package, program),
             serious=False,
+        )
+    for program, why in setup_py.broken_programs(source, package):
+        yield Finding(
+            package,
+            f'{program} of setup.py cannot start: {why}',
+            f'then run `colcon build --packages-select {package}` in {workspace}',
         )
     changed = changed_file(package, prefix, source, workspace / 'build' / package)
     if changed is not None:

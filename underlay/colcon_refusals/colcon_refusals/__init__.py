@@ -1,0 +1,52 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Lets colcon refuse, in one line, a package that it would misread or end amid.
+
+It is installed with the wheels of ROS alone. What is wrong says ros2_diagnosis.package_files.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from colcon_core.event.output import StderrLine
+from colcon_core.package_identification import PackageIdentificationExtensionPoint
+from colcon_core.task import TaskExtensionPoint
+from ros2_diagnosis import package_files, packages
+
+_TYPE = 'refused'
+_BESIDE = ('setup.py', 'setup.cfg', 'CMakeLists.txt')  # other systems have a package.xml, too
+_IGNORED = ('AMENT_IGNORE', 'CATKIN_IGNORE')
+
+
+class RefusedIdentification(PackageIdentificationExtensionPoint):
+    """Take a package that cannot be built for one of the type `refused`."""
+
+    PRIORITY = 160  # before colcon-ros, which passes over a package.xml that it cannot read
+
+    def identify(self, desc: Any) -> None:
+        folder = Path(desc.path)
+        if (
+            desc.type is not None
+            or not (folder / 'package.xml').is_file()
+            or not any((folder / name).is_file() for name in _BESIDE)
+            or any((folder / name).exists() for name in _IGNORED)
+        ):
+            return
+        if package_files.why_refused(folder):
+            desc.type = _TYPE
+            desc.name = packages.name_in(folder)
+
+
+class RefusedTask(TaskExtensionPoint):
+    """Say why."""
+
+    async def build(self) -> int:
+        package = self.context.pkg
+        for reason in package_files.why_refused(Path(package.path)):
+            self.context.put_event_into_queue(StderrLine(f'{package.name}: {reason}\n'.encode()))
+        return 2
+
+    test = build

@@ -1,0 +1,119 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Why colcon cannot build a package, from what stands in its package.xml, setup.cfg and setup.py.
+
+colcon takes a package whose package.xml it cannot read for a plain Python one: it builds that, and
+ROS never finds it. At the other two files it ends with a traceback of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from configparser import Error, RawConfigParser
+import os
+from pathlib import Path
+
+from ros2_diagnosis import setup_py
+
+# catkin is what colcon takes a package for that names none; its CMake modules are of ROS 1.
+_BUILD_TYPES = ('ament_python', 'ament_cmake', 'cmake')
+
+
+def why_refused(folder: Path) -> list[str]:
+    """Say, a line each, why colcon cannot build the package in a folder; [] where it can."""
+    try:
+        build_type = _build_type(folder)
+        if build_type != 'ament_python':
+            return []
+        _check_settings(folder / 'setup.cfg')
+        _check_text(folder / 'setup.py', f'there is none; package.xml says {build_type}')
+    except _RefusedError as error:
+        return [str(error)]
+    return list(setup_py.faults(folder))
+
+
+def why_not_run(folder: Path, package: str) -> str | None:
+    """Say why `ros2 run` finds no program of a built package; None where nothing is wrong."""
+    if not setup_py.has_console_scripts(folder):
+        return "but not under 'console_scripts' of entry_points; put it there, and build again"
+    settings = RawConfigParser()
+    settings.read(folder / 'setup.cfg', encoding='utf-8')
+    wanted = f'lib/{package}'
+    for section, option in (('develop', 'script_dir'), ('install', 'install_scripts')):
+        place = settings.get(section, option, fallback='') or settings.get(
+            section, option.replace('_', '-'), fallback=''
+        )
+        if not place.endswith(wanted):
+            return (
+                f'but {folder / "setup.cfg"} does not put programs where `ros2 run` looks: write '
+                f'{option}=$base/{wanted} below [{section}] and build again'
+            )
+    return None
+
+
+class _RefusedError(Exception):
+    pass
+
+
+def _build_type(folder: Path) -> str:
+    # It takes its time, and most commands need not know.
+    from catkin_pkg.package import InvalidPackage, parse_package
+
+    _check_text(folder / 'package.xml', 'there is none')
+    try:
+        package = parse_package(str(folder), warnings=[])  # colcon shows those
+        package.evaluate_conditions({**os.environ, 'DISABLE_GROUPS_WORKAROUND': '1'})
+        build_type = str(package.get_build_type())
+    except (AssertionError, InvalidPackage) as error:
+        raise _RefusedError(f'package.xml: {"; ".join(_reasons(str(error)))}') from None
+    if build_type not in _BUILD_TYPES:
+        named = any(export.tagname == 'build_type' for export in package.exports)
+        wanted = 'ament_python' if (folder / 'setup.py').is_file() else 'ament_cmake'
+        raise _RefusedError(
+            f'package.xml has {f"the build type {build_type!r}" if named else "no build type"}: '
+            f'write <export><build_type>{wanted}</build_type></export>, that of ROS 2'
+        )
+    return build_type
+
+
+def _reasons(text: str) -> Iterator[str]:
+    """Return what catkin_pkg has against a file, without the lines around it."""
+    for line in text.splitlines():
+        reason = line.strip().removeprefix('- ')
+        if reason and not reason.startswith(('Error(s)', 'The manifest contains invalid XML')):
+            yield reason
+
+
+def _check_settings(path: Path) -> None:
+    if not path.is_file():
+        return
+    text = _check_text(path, '')
+    if text.startswith('\ufeff'):
+        raise _RefusedError(
+            f'{path.name} begins with a byte order mark, which setuptools does not read: save it '
+            f"as UTF-8 without BOM, or `sed -i '1s/^\\xEF\\xBB\\xBF//' {path}`"
+        )
+    try:
+        RawConfigParser().read_string(text, path.name)
+    except Error as error:
+        raise _RefusedError(f'{path.name}: {" ".join(str(error).split())}') from None
+
+
+def _check_text(path: Path, absent: str) -> str:
+    """Return what a file says.
+
+    :raises _RefusedError: it is not there, or no text in UTF-8.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise _RefusedError(f'{path.name}: {absent or error.strerror}') from None
+    if data.startswith((b'\xff\xfe', b'\xfe\xff')) or b'\0' in data:
+        raise _RefusedError(f'{path.name} is saved as UTF-16 (Windows: Unicode): save it as UTF-8')
+    try:
+        return data.decode()
+    except UnicodeDecodeError as error:
+        line = data.count(b'\n', 0, error.start) + 1
+        raise _RefusedError(
+            f'{path.name}:{line}: byte {data[error.start]:#x} is no UTF-8: save the file as UTF-8'
+        ) from None

@@ -1,0 +1,193 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a setup.py asks for, as far as it can be read without running it."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+import re
+import warnings
+
+from ros2_diagnosis import nearest
+
+# As setuptools takes it: NAME = PACKAGE.MODULE:FUNCTION.
+_ENTRY_POINT = re.compile(r'\s*(\S[^=]*?)\s*=\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\]\s*)?')
+
+
+def faults(folder: Path) -> Iterator[str]:
+    """Say, a line each, at what the setup.py in a folder ends when colcon runs it."""
+    try:
+        tree = _parsed(folder / 'setup.py')
+    except SyntaxError as error:
+        quotes = ', which a word processor writes: type \' or "' if '(U+201' in error.msg else ''
+        yield f'setup.py:{error.lineno}: {error.msg}{quotes}'
+        return
+    call = _call_of_setup(tree)
+    if call is None:
+        yield 'setup.py does not call setup(): `ros2 pkg create` writes one that does'
+        return
+    values = _constants(tree)
+    yield from _unbound_names(tree)
+    for node, text in _scripts(call, values):
+        if _ENTRY_POINT.fullmatch(text) is None:
+            comma = '; is there no comma behind the line before?' if text.count('=') > 1 else ''
+            yield (
+                f'setup.py:{node.lineno}: {text!r} is no entry point: write '
+                f"'NAME = PACKAGE.MODULE:FUNCTION'{comma}"
+            )
+    yield from _missing_files(call, values, folder)
+
+
+def broken_programs(folder: Path, package: str) -> Iterator[tuple[str, str]]:
+    """Name each program that setuptools takes, but that cannot start, and say what to mend."""
+    try:
+        tree = _parsed(folder / 'setup.py')
+    except (OSError, SyntaxError):
+        return
+    call = _call_of_setup(tree)
+    for _, text in _scripts(call, _constants(tree)):
+        entry = _ENTRY_POINT.fullmatch(text)
+        why = _why_broken(folder, package, entry[2], entry[3]) if entry is not None else None
+        if entry is not None and why is not None:
+            yield entry[1], why
+    init = folder / package / '__init__.py'
+    if init.parent.is_dir() and not init.exists() and 'find_packages(' in ast.unparse(tree):
+        yield (
+            package,
+            f'{init} is missing, without which its folder is not installed: make an empty one',
+        )
+
+
+def _why_broken(folder: Path, package: str, module: str, function: str | None) -> str | None:
+    top = module.partition('.')[0]
+    if not (folder / top).is_dir():
+        if find_spec(top) is not None:  # of another package
+            return None
+        return f'{module!r}: {folder} has no folder {top}; that of the package is {package}'
+    path = folder.joinpath(*module.split('.')).with_suffix('.py')
+    if module.endswith('.py'):
+        return f'{module!r}: write the name of a module without .py'
+    if not path.is_file() and not path.with_suffix('').is_dir():
+        near = nearest.hint(path.stem, (each.stem for each in path.parent.glob('*.py')))
+        return f'{module!r}: there is no {path}{near}'
+    if function is None:
+        return f'{module!r} names no function: write {module}:main'
+    text = path.read_text(encoding='utf-8', errors='replace') if path.is_file() else function
+    if function.partition('.')[0] not in text:
+        return f'{path} has no {function}()'
+    return None
+
+
+def has_console_scripts(folder: Path) -> bool:
+    """Tell whether a setup.py that can be read declares programs."""
+    groups = _argument(_call_of_setup(_parsed(folder / 'setup.py')), 'entry_points')
+    names = groups.keys if isinstance(groups, ast.Dict) else []
+    return not names or any(getattr(name, 'value', '') == 'console_scripts' for name in names)
+
+
+def _parsed(path: Path) -> ast.Module:
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore')
+        return ast.parse(path.read_bytes(), str(path))
+
+
+def _call_of_setup(tree: ast.AST) -> ast.Call | None:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            name = getattr(node.func, 'id', getattr(node.func, 'attr', ''))
+            if name == 'setup':
+                return node
+    return None
+
+
+def _unbound_names(tree: ast.Module) -> Iterator[str]:
+    bound = {*dir(builtins), '__file__'}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+            bound.add(node.id)
+        elif isinstance(node, ast.alias):
+            bound.add((node.asname or node.name).partition('.')[0])
+        else:
+            names = (getattr(node, each, None) for each in ('name', 'arg'))
+            bound.update(name for name in names if isinstance(name, str))
+    if '*' in bound:
+        return
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and node.id not in bound:
+            wanted = 'from glob import glob' if node.id == 'glob' else f'import {node.id}'
+            yield (
+                f'setup.py:{node.lineno}: {node.id} is not defined: is `{wanted}` missing above?'
+            )
+            bound.add(node.id)
+
+
+def _scripts(call: ast.Call | None, values: dict[str, str]) -> Iterator[tuple[ast.expr, str]]:
+    groups = _argument(call, 'entry_points')
+    if isinstance(groups, ast.Dict):
+        for lines in groups.values:
+            for line in getattr(lines, 'elts', []):
+                text = _text(line, values)
+                if text is not None:
+                    yield line, text
+
+
+def _missing_files(call: ast.Call, values: dict[str, str], folder: Path) -> Iterator[str]:
+    for entry in getattr(_argument(call, 'data_files'), 'elts', []):
+        if not isinstance(entry, ast.Tuple) or len(entry.elts) != 2:
+            continue
+        single = _text(entry.elts[1], values)
+        if single is not None:
+            yield f'setup.py:{entry.lineno}: {single!r} in data_files: write a list, [{single!r}]'
+        for node in getattr(entry.elts[1], 'elts', []):
+            path = _text(node, values)
+            if path is None:
+                continue
+            why = ''
+            if Path(path).is_absolute():
+                why = 'begins with /: write it from the folder of setup.py on'
+            elif (folder / path).is_dir():
+                why = f"is a folder: name the files in it, glob('{path}/*')"
+            elif not (folder / path).exists():
+                why = 'is not there'
+            if why:
+                yield f'setup.py:{node.lineno}: {path!r} in data_files {why}'
+
+
+def _argument(call: ast.Call | None, name: str) -> ast.expr | None:
+    keywords = call.keywords if call is not None else []
+    return next((each.value for each in keywords if each.arg == name), None)
+
+
+def _constants(tree: ast.Module) -> dict[str, str]:
+    """Return the text that stands in names, as `package_name`."""
+    values: dict[str, str] = {}
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            text = _text(node.value, values)
+            if text is not None:
+                values[node.targets[0].id] = text
+    return values
+
+
+def _text(node: ast.expr, values: dict[str, str]) -> str | None:
+    """Return the text of an expression, None where it depends on what runs."""
+    if isinstance(node, ast.Constant):
+        return node.value if isinstance(node.value, str) else None
+    if isinstance(node, ast.Name):
+        return values.get(node.id)
+    parts: list[ast.expr] = []
+    between = ''
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        parts = [node.left, node.right]
+    elif isinstance(node, ast.JoinedStr):
+        parts = [
+            each.value if isinstance(each, ast.FormattedValue) else each for each in node.values
+        ]
+    elif isinstance(node, ast.Call) and ast.unparse(node.func) in ('os.path.join', 'join'):
+        parts, between = node.args, '/'
+    texts = [_text(part, values) for part in parts]
+    return None if not texts or None in texts else between.join(each or '' for each in texts)

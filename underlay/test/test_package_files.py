@@ -1,0 +1,235 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What colcon would misread in a package, or end at with a traceback, is told in a line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+import pytest
+from ros2_diagnosis import package_files, packages, setup_py, workspaces
+
+FILES = {
+    'package.xml': """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>talk</name>
+  <version>0.0.0</version>
+  <description>Two programs</description>
+  <maintainer email="someone@example.org">someone</maintainer>
+  <license>Apache-2.0</license>
+  <export><build_type>ament_python</build_type></export>
+</package>
+""",
+    'setup.cfg': """\
+[develop]
+script_dir=$base/lib/talk
+[install]
+install_scripts=$base/lib/talk
+""",
+    'setup.py': """\
+from setuptools import find_packages, setup
+
+package_name = 'talk'
+
+setup(
+    name=package_name,
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+    entry_points={
+        'console_scripts': [
+            'hello = talk.hello:main',
+        ],
+    },
+)
+""",
+    'resource/talk': '',
+    'talk/__init__.py': '',
+    'talk/hello.py': "def main():\n    print('hello')\n",
+}
+BUILD_TYPE = '<export><build_type>ament_python</build_type></export>'
+
+
+def write_package(folder: Path) -> Path:
+    for name, text in FILES.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return write_package(tmp_path / 'src' / 'talk')
+
+
+def replace(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def test_nothing_is_wrong_with_what_builds(folder: Path) -> None:
+    for encoded in (lambda text: '\ufeff' + text, lambda text: text.replace('\n', '\r\n')):
+        for name in ('package.xml', 'setup.py'):
+            (folder / name).write_bytes(encoded(FILES[name]).encode())
+        assert package_files.why_refused(folder) == []
+    (folder / 'setup.cfg').unlink()
+    assert package_files.why_refused(folder) == []
+    assert list(setup_py.broken_programs(folder, 'talk')) == []
+
+
+@pytest.mark.parametrize('name', ['package.xml', 'setup.cfg', 'setup.py'])
+@pytest.mark.parametrize(
+    ('encoding', 'reason'),
+    [('utf-16', ' is saved as UTF-16'), ('latin-1', ':1: byte 0xfc is no UTF-8')],
+)
+def test_another_encoding_is_named(folder: Path, name: str, encoding: str, reason: str) -> None:
+    (folder / name).write_bytes(f'# für\n{FILES[name]}'.encode(encoding))
+    (told,) = package_files.why_refused(folder)
+    assert told.startswith(name + reason)
+
+
+@pytest.mark.parametrize(
+    ('name', 'old', 'new', 'reason'),
+    [
+        ('package.xml', '</license>', '', 'package.xml: mismatched tag: line 9'),
+        ('package.xml', 'Two', 'Two & a half', 'package.xml: not well-formed (invalid token)'),
+        ('package.xml', '0.0.0', '1.0', 'package.xml: Package version "1.0" does not follow'),
+        ('package.xml', '>talk<', '>my talk<', 'package.xml: Package name "my talk" does not fol'),
+        ('package.xml', BUILD_TYPE, '', f'package.xml has no build type: write {BUILD_TYPE}'),
+        ('package.xml', 't_python<', 't-python<', "has the build type 'ament-python': write"),
+        ('package.xml', 'ament_python<', 'catkin<', "package.xml has the build type 'catkin': "),
+        ('setup.cfg', '[dev', '\ufeff[dev', 'byte order mark, which setuptools does not read'),
+        ('setup.cfg', '[develop]', '', 'setup.cfg: File contains no section headers.'),
+        ('setup.py', FILES['setup.py'], '', 'setup.py does not call setup(): `ros2 pkg create`'),
+        ('setup.py', "'talk'", '’talk’', "setup.py:3: invalid character '’' (U+2019), which a"),
+        ('setup.py', '],\n    entry', '\n    entry', 'setup.py:'),
+        ('setup.py', "'hello =", "'hello:", "setup.py:14: 'hello: talk.hello:main' is no entry p"),
+        ('setup.py', ':main', ':main()', "'hello = talk.hello:main()' is no entry point: write"),
+        ('setup.py', "main',", "main'\n 'b = talk.b:main',", 'is there no comma behind the line'),
+        ('setup.py', "['package.xml']", "glob('*.xml')", 'is `from glob import glob` missing abo'),
+        ('setup.py', "['package.xml']", 'os.listdir()', 'os is not defined: is `import os` miss'),
+        ('setup.py', "['package.xml']", "'package.xml'", 'in data_files: write a list, ['),
+        ('setup.py', "['package.xml']", "['a.xml']", ":10: 'a.xml' in data_files is not there"),
+        ('setup.py', "['package.xml']", "['talk']", "name the files in it, glob('talk/*')"),
+        ('setup.py', "['package.xml']", "['/etc/hosts']", "'/etc/hosts' in data_files begins wi"),
+        ('setup.py', "= 'talk'", "= 'talks'", "setup.py:9: 'resource/talks' in data_files is not"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_built_is_told(
+    folder: Path, name: str, old: str, new: str, reason: str
+) -> None:
+    replace(folder / name, old, new)
+    (told,) = package_files.why_refused(folder)
+    assert reason in told
+
+
+def test_a_missing_setup_file_is_told(folder: Path) -> None:
+    (folder / 'setup.py').unlink()
+    assert package_files.why_refused(folder) == [
+        'setup.py: there is none; package.xml says ament_python'
+    ]
+
+
+@pytest.mark.parametrize(
+    ('old', 'new', 'reason'),
+    [
+        ('talk.hello:', 'talk.helo:', "talk/helo.py; did you mean 'hello'?"),
+        ('talk.hello:', 'tolk.hello:', 'has no folder tolk; that of the package is talk'),
+        ('talk.hello:', 'talk.hello.py:', 'write the name of a module without .py'),
+        ('talk.hello:main', 'talk.hello', 'names no function: write talk.hello:main'),
+        (':main', ':mian', 'hello.py has no mian()'),
+    ],
+)
+def test_a_program_that_cannot_start_is_told(
+    folder: Path, old: str, new: str, reason: str
+) -> None:
+    replace(folder / 'setup.py', old, new)
+    assert package_files.why_refused(folder) == []  # as colcon builds it everywhere
+    ((program, told),) = setup_py.broken_programs(folder, 'talk')
+    assert program == 'hello'
+    assert reason in told
+
+
+def test_a_package_without_init_is_told(folder: Path) -> None:
+    (folder / 'talk' / '__init__.py').unlink()
+    ((_, told),) = setup_py.broken_programs(folder, 'talk')
+    assert 'talk/__init__.py is missing, without which its folder is not installed' in told
+
+
+def test_a_program_that_is_installed_elsewhere_is_told(folder: Path) -> None:
+    assert package_files.why_not_run(folder, 'talk') is None
+    replace(folder / 'setup.cfg', 'install_scripts', 'install-scripts')
+    assert package_files.why_not_run(folder, 'talk') is None
+    replace(folder / 'setup.cfg', 'lib/talk', 'lib/tolk')
+    told = package_files.why_not_run(folder, 'talk')
+    assert told is not None
+    assert 'write script_dir=$base/lib/talk below [develop] and build again' in told
+    replace(folder / 'setup.py', 'console_scripts', 'console_script')
+    told = package_files.why_not_run(folder, 'talk')
+    assert told == "but not under 'console_scripts' of entry_points; put it there, and build again"
+
+
+def broken(tmp_path: Path, name: str, file: str, change: Callable[[str], bytes]) -> str:
+    """Write a package of another name, with a change in one of its files."""
+    folder = write_package(tmp_path / 'src' / name)
+    for path in ('package.xml', 'setup.py', 'setup.cfg'):
+        replace(folder / path, 'talk', name)
+    (folder / 'talk').rename(folder / name)
+    (folder / 'resource' / 'talk').rename(folder / 'resource' / name)
+    (folder / file).write_bytes(change((folder / file).read_text()))
+    return name
+
+
+def test_colcon_and_ros2_run_say_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    broken(tmp_path, 'marked', 'setup.cfg', lambda text: f'\ufeff{text}'.encode())
+    broken(tmp_path, 'wide', 'package.xml', lambda text: text.encode('utf-16'))
+    broken(tmp_path, 'open_tag', 'package.xml', lambda text: text.replace('</name>', '').encode())
+    broken(tmp_path, 'ignored', 'setup.py', lambda text: text.encode())
+    (tmp_path / 'src' / 'ignored' / 'COLCON_IGNORE').touch()
+    (tmp_path / 'src' / 'cpp').mkdir()
+    (tmp_path / 'src' / 'cpp' / 'CMakeLists.txt').write_text(
+        'project(cpp)\nadd_executable(a a.cpp)\n'
+    )
+    (tmp_path / 'src' / 'cpp' / 'package.xml').write_text(
+        FILES['package.xml'].replace('talk', 'cpp').replace('ament_python', 'ament_cmake')
+    )
+    command = [sys.executable, '-m', 'colcon', 'build', '--continue-on-error', '--symlink-install']
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert 'Finished <<< talk' in done.stdout
+    assert 'Traceback' not in done.stderr
+    for line in (
+        'marked: setup.cfg begins with a byte order mark',
+        'wide: package.xml is saved as UTF-16',
+        'open_tag: package.xml: mismatched tag: line ',
+    ):
+        assert line in done.stderr
+
+    monkeypatch.chdir(tmp_path)
+    for name, reason in (
+        ('marked', 'colcon cannot build it: setup.cfg begins with a byte order mark'),
+        ('wide', 'colcon cannot build it: package.xml is saved as UTF-16'),
+        ('open_tag', 'colcon cannot build it: package.xml: mismatched tag'),
+        ('ignored', f'for {tmp_path / "src/ignored/COLCON_IGNORE"}; remove that and run `colcon'),
+        ('cpp', '`colcon build` failed: cpp: CMakeLists.txt:2: add_executable'),
+        ('talk', 'it is built in'),
+    ):
+        assert reason in packages.why_missing(name)
+
+    prefix = tmp_path / 'install' / 'talk'
+    monkeypatch.setenv(
+        'AMENT_PREFIX_PATH', f'{prefix}{os.pathsep}{os.environ["AMENT_PREFIX_PATH"]}'
+    )
+    replace(folder / 'talk' / 'hello.py', 'main', 'mian')
+    (finding,) = workspaces.check_changed('talk', prefix)
+    assert 'hello of setup.py cannot start: ' in str(finding)
