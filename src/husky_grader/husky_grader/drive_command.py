@@ -3,14 +3,13 @@
 """Drive a path through the playpen with real nodes, in a domain of their own; then a report."""
 
 import argparse
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, ExitStack
 import os
 from pathlib import Path
 import shlex
 import shutil
 import sys
-from tempfile import TemporaryDirectory
 import time
 
 from husky_course.printable import printable
@@ -97,10 +96,8 @@ def _drive(options: argparse.Namespace, conditions: Mapping[str, str]) -> int:
     folder = Path(options.report)
     try:
         page = None if options.no_view else drive_page(options.open)
-        with alone_in(folder), TemporaryDirectory() as own:
-            # What is driven is what is judged, whoever edits the file meanwhile.
-            copy = Path(own, Path(options.waypoints).name)
-            options.waypoints = str(shutil.copyfile(options.waypoints, copy))
+        with alone_in(folder), _copy_in(folder, Path(options.waypoints)) as copy:
+            options.waypoints = str(copy)
             status = _run(options, folder, page, conditions)
     except (ValueError, AddressError) as error:
         print(f'lab drive: {printable(str(error))}', file=sys.stderr)
@@ -108,6 +105,22 @@ def _drive(options: argparse.Namespace, conditions: Mapping[str, str]) -> int:
     if status in (PASSED, NOT_PASSED):
         _show_again(folder, page)
     return status
+
+
+@contextmanager
+def _copy_in(folder: Path, course: Path) -> Iterator[Path]:
+    """
+    Copy the course: what is driven is what is judged, whoever edits the file meanwhile.
+
+    The copy of a drive that was killed is removed by the next one into the same folder.
+    """
+    place = folder / '.driven'
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir(parents=True)
+    try:
+        yield Path(shutil.copyfile(course, place / course.name))
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
 
 
 def _run(

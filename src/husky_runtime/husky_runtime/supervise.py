@@ -3,9 +3,12 @@
 """Run a command and leave nothing of what it started: `-m husky_runtime.supervise COMMAND`."""
 
 from collections.abc import Mapping, Sequence
+import contextlib
 import os
 import signal
 import sys
+
+import psutil
 
 from husky_runtime.children import ChildProcess
 from husky_runtime.descendants import (
@@ -35,17 +38,23 @@ def run_to_end(
     adopt_orphans()
     asked: list[int] = []
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    stops: list[int] = []
     before = {
         number: signal.signal(number, lambda number, _: asked.append(number))
         for number in numbers
         # Under nohup the run goes on when its terminal is closed.
         if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN
     }
+    before[signal.SIGTSTP] = signal.getsignal(signal.SIGTSTP)
+    if before[signal.SIGTSTP] is signal.SIG_DFL:
+        signal.signal(signal.SIGTSTP, lambda number, _: stops.append(number))
     firm_sec = FIRM_SEC
     try:
         child = ChildProcess(command, environment)
         while not asked and not child.wait(POLL_SEC):
-            pass
+            if stops:
+                _stop_with_descendants()
+                stops.clear()
         if asked:
             firm_sec = HURRIED_FIRM_SEC
         first = signal.SIGINT if signal.SIGINT in asked else signal.SIGTERM
@@ -59,6 +68,24 @@ def run_to_end(
         print('\ninterrupted', file=sys.stderr)
         raise SystemExit(128 + asked[0])
     return child.exit_code or 0
+
+
+def _stop_with_descendants() -> None:
+    """
+    Stop as Ctrl-Z asks, until `fg` or `bg`, with everything that this process has started.
+
+    That is in sessions of its own, where the terminal's signals do not reach it.
+    """
+    started = descendants()
+    for process in started:
+        with contextlib.suppress(psutil.Error):
+            process.suspend()
+    handler = signal.signal(signal.SIGTSTP, signal.SIG_DFL)
+    signal.raise_signal(signal.SIGTSTP)  # it returns when this process is continued
+    signal.signal(signal.SIGTSTP, handler)
+    for process in started:
+        with contextlib.suppress(psutil.Error):
+            process.resume()
 
 
 def main() -> int:

@@ -62,12 +62,25 @@ child = ChildProcess([sys.executable, '-c', {IGNORING!r}], os.environ, parent_de
 print(child.pid, flush=True)
 sys.stdin.read()
 """
+FAMILY = """
+import os, time
+if os.fork() == 0:
+    os.setsid()
+print(os.getpid(), flush=True)
+time.sleep(60)
+"""
 NOHUP = """
 import os, sys
 from husky_runtime.supervise import run_to_end
 hang_up = 'import os, signal, sys, time; os.kill(os.getppid(), signal.SIGHUP); '
 hang_up += 'time.sleep(float(sys.argv[1])); print("goes on")'
 sys.exit(run_to_end([sys.executable, '-c', hang_up, sys.argv[1]], os.environ))
+"""
+
+SUPERVISED = f"""
+import os, sys
+from husky_runtime.supervise import run_to_end
+run_to_end([sys.executable, '-c', {FAMILY!r}], os.environ)
 """
 
 
@@ -83,6 +96,10 @@ def start(text: str, log: Path) -> ChildProcess:
         process = ChildProcess([sys.executable, '-c', text], os.environ, stream)
     wait_for(lambda: log.read_text().endswith('\n'), 'the first line of the child')
     return process
+
+
+def states(pids: list[int]) -> set[str]:
+    return {psutil.Process(pid).status() for pid in pids}
 
 
 def is_running(pid: int) -> bool:
@@ -167,3 +184,27 @@ def test_under_nohup_a_run_outlives_its_terminal(tmp_path: Path) -> None:
             timeout=20.0,
         )
         assert (run.stdout, run.returncode) == expected, run.stderr
+
+
+def test_ctrl_z_stops_a_run_and_fg_goes_on() -> None:
+    run = subprocess.Popen(
+        [sys.executable, '-c', SUPERVISED],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=os.setpgrp,  # a job of its own, as a shell makes it
+    )
+    assert run.stdout is not None
+    pids = [run.pid, int(run.stdout.readline()), int(run.stdout.readline())]
+    for _ in range(2):
+        os.killpg(run.pid, signal.SIGTSTP)
+        wait_for(lambda: states(pids) == {psutil.STATUS_STOPPED}, f'all of {pids} stopped')
+        os.killpg(run.pid, signal.SIGCONT)
+        wait_for(lambda: psutil.STATUS_STOPPED not in states(pids), f'none of {pids} stopped')
+    os.killpg(run.pid, signal.SIGTSTP)
+    wait_for(lambda: states(pids) == {psutil.STATUS_STOPPED}, f'all of {pids} stopped again')
+    run.terminate()  # as a shell does that is told to end a stopped job
+    os.killpg(run.pid, signal.SIGCONT)
+    run.communicate(timeout=10.0)
+    assert run.returncode == 128 + signal.SIGTERM
+    assert not any(map(is_running, pids))
