@@ -53,6 +53,12 @@ def _commands() -> Iterable[Finding]:
     return commands.check_command_rate(graph())
 
 
+def _answers() -> Iterable[Finding]:
+    from ros2_doctor_checks import answers
+
+    return answers.check_answers(graph())
+
+
 # What the entry points name: called, each makes its check.
 Environment = partial(
     _Check,
@@ -80,3 +86,4 @@ QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph())
 Clock = partial(_Check, 'clock', lambda: nodes.check_clock(graph()))
 Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))
 Commands = partial(_Check, 'commands', _commands)
+Answers = partial(_Check, 'answers', _answers)

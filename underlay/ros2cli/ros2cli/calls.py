@@ -17,7 +17,7 @@ from rclpy.task import Future
 from ros2cli.discovery import SOON_SEC, why_unanswered
 from ros2cli.errors import CommandError, ServiceTimeout
 
-_TIMEOUT_SEC = 5.0
+TIMEOUT_SEC = 5.0
 _POLL_SEC = 0.02
 
 
@@ -47,7 +47,7 @@ def call_all(
     clients = {name: node.create_client(service_class, name) for name in requests}
     try:
         _spin_until(
-            node, lambda: all(each.service_is_ready() for each in clients.values()), _TIMEOUT_SEC
+            node, lambda: all(each.service_is_ready() for each in clients.values()), TIMEOUT_SEC
         )
         futures = {
             name: client.call_async(requests[name])
@@ -58,7 +58,7 @@ def call_all(
         waiting = [name for name, future in futures.items() if not future.done()]
         in_vain = why_unanswered(waiting) if waiting else {}
         awaited = [futures[name] for name in waiting if name not in in_vain]
-        left_sec = _TIMEOUT_SEC - SOON_SEC
+        left_sec = TIMEOUT_SEC - SOON_SEC
         _spin_until(node, lambda: all(future.done() for future in awaited), left_sec)
         if may_take_long:
             late = [name for name in waiting if name not in in_vain and not futures[name].done()]
@@ -72,7 +72,7 @@ def call_all(
 def _await_late(node: Node, calls: Mapping[str, tuple[Any, Future]]) -> None:
     """Wait until each service, by its name, has answered or is gone."""
     for name in calls:
-        print(f'hint: {_late(name)}; Ctrl-C ends the waiting', file=sys.stderr)
+        print(f'hint: {no_answer(name)}; Ctrl-C ends the waiting', file=sys.stderr)
     _spin_until(
         node,
         lambda: all(
@@ -98,11 +98,15 @@ def _outcome(name: str, future: Any, in_vain: str | None) -> Any:
     if future is None:
         return ServiceTimeout(f"Wait for service timed out: '{name}' does not answer")
     if not future.done():
-        return CommandError(in_vain or _late(name))
+        return CommandError(in_vain or no_answer(name))
     if future.exception() is not None:
         return CommandError(f"Exception while calling service '{name}': {future.exception()}")
     return future.result()
 
 
-def _late(name: str) -> str:
-    return f"'{name}' gave no answer within {_TIMEOUT_SEC:g} s; its node is busy or stopped"
+def no_answer(name: str) -> str:
+    """Say that a service has not answered in time."""
+    return (
+        f"'{name}' gave no answer within {TIMEOUT_SEC:g} s; its node is busy or stopped, or "
+        'waits in a callback for another one (`ros2 doctor` says more)'
+    )

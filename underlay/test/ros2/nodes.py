@@ -108,6 +108,13 @@ def service(node: Node) -> None:
     server.configure_introspection(node.get_clock(), LATCHED, ServiceIntrospectionState.CONTENTS)
 
 
+def waiting(node: Node) -> None:
+    """Call a service of its own in a callback, while its only thread is in that callback."""
+    service(node)
+    client = node.create_client(SetBool, 'flip')
+    node.create_timer(0.01, lambda: client.call(SetBool.Request()))
+
+
 def parameters(node: Node) -> None:
     speed = FloatingPointRange(from_value=0.0, to_value=1.0)
     node.declare_parameter(

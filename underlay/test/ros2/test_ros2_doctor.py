@@ -36,7 +36,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 13 checks passed' in answer.lines
+    assert 'All 14 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -316,6 +316,19 @@ def test_pub_says_why_nobody_hears(processes: Any, ros2: Callable[..., Any]) -> 
     answer = ros2('topic', 'pub', '-t', '1', '-w', '1', '--max-wait-time-secs', '0.5', *words)
     assert '/husky subscribes to geometry_msgs/msg/Twist' in answer.err
     assert 'Timed out waiting for subscribers' in answer.err
+
+
+def test_a_node_that_waits_in_a_callback_is_named(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('talker', 'talker')
+    processes.node('waiting', 'waiter')
+    words = ('service', 'call', '/flip', 'std_srvs/srv/SetBool')
+    call = processes.ros2(*words)
+    line = _line(ros2('doctor'), 'answers')
+    assert '/waiter: answers nothing: it does not spin, or one of its callbacks' in line
+    assert 'talker' not in line
+    find_line(call.stdout, "hint: '/flip' gave no answer within 5 s; its node is busy or stopped")
 
 
 def test_a_missing_profile_and_an_empty_prefix_are_named(

@@ -25,7 +25,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rtps_graph import names
 
-from ros2cli import discovery
+from ros2cli import calls, discovery
 from ros2cli.discovery import add_direct_arguments as add_arguments
 from ros2cli.errors import CommandError
 from ros2cli.node import NODE_NAME_PREFIX
@@ -89,9 +89,12 @@ class CommandNode:
         return True
 
     def spin_until_answered(self, future: Any, service: str) -> None:
-        """Spin until a service has answered; where it never will, say so on stderr."""
+        """Spin until a service has answered; where it never will, or is late, say so on stderr."""
         if not self.spin_until(future.done, discovery.SOON_SEC):
-            for why in discovery.why_unanswered([service]).values():
+            why = discovery.why_unanswered([service]).get(service)
+            if why is None and not self.spin_until(future.done, calls.TIMEOUT_SEC):
+                why = calls.no_answer(service)
+            if why is not None:
                 print(f'hint: {why}', file=sys.stderr)
             self.spin_until(future.done)
 

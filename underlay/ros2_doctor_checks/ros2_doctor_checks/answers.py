@@ -1,0 +1,39 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes that are there, but whose callbacks are not called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rcl_interfaces.srv import ListParameters
+from ros2_diagnosis import nodes
+from ros2_diagnosis.finding import Finding
+from ros2cli import calls
+from ros2cli.errors import CommandError, ServiceTimeout
+from ros2cli.node.direct import command_node
+from ros2param import params
+from rtps_graph.graph import Graph
+
+
+def check_answers(graph: Graph) -> Iterator[Finding]:
+    """Ask each node for the names of its parameters, which one answers that spins."""
+    unheard = {
+        name for finding in nodes.check_vendors(graph) for name in finding.where.split(', ')
+    }
+    names = {node.full_name for node in graph.nodes if params.has_parameters(node)} - unheard
+    if not names:
+        return
+    request = ListParameters.Request()
+    with command_node() as node:
+        answers = calls.call_all(
+            node, ListParameters, {f'{name}/list_parameters': request for name in sorted(names)}
+        )
+    for service, answer in answers.items():
+        if isinstance(answer, CommandError) and not isinstance(answer, ServiceTimeout):
+            yield Finding(
+                service.removesuffix('/list_parameters'),
+                'answers nothing: it does not spin, or one of its callbacks does not return, as '
+                'one that waits by call(), spin...() or sleep() for what another callback does',
+                'spin it; in a callback use call_async() and a timer in the place of waiting',
+            )
