@@ -20,6 +20,7 @@ import marshal
 import os
 import resource
 import select
+import struct
 import sys
 
 # Exit codes as those of env(1).
@@ -166,20 +167,12 @@ def _refuse_keys() -> None:
         (_BPF_RETURN, 0, 0, _SECCOMP_ERRNO | errno.ENOSYS),
     )
 
-    class Line(ctypes.Structure):
-        _fields_ = [
-            ('code', ctypes.c_uint16),
-            ('if_so', ctypes.c_uint8),
-            ('if_not', ctypes.c_uint8),
-            ('number', ctypes.c_uint32),
-        ]
-
-    class Program(ctypes.Structure):
-        _fields_ = [('length', ctypes.c_uint16), ('lines', ctypes.POINTER(Line))]
-
-    lines = (Line * len(program))(*program)
-    filter_ = ctypes.byref(Program(len(program), lines))
-    _checked(_LIBC.prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, filter_, 0, 0), 'seccomp')
+    # struct sock_filter, and struct sock_fprog: how many there are, and where
+    lines = ctypes.create_string_buffer(b''.join(struct.pack('=HBBI', *line) for line in program))
+    whole = struct.pack('@HP', len(program), ctypes.addressof(lines))
+    done = _LIBC.prctl(_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, whole, 0, 0)
+    if done == 0 or ctypes.get_errno() != errno.EINVAL:  # that of a kernel without seccomp
+        _checked(done, 'seccomp')
 
 
 def _restrict_files(readable: list[str], writable: list[str], *, needed: bool) -> None:
