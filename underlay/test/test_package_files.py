@@ -85,6 +85,24 @@ def test_nothing_is_wrong_with_what_builds(folder: Path) -> None:
     assert list(setup_py.broken_programs(folder, 'talk')) == []
 
 
+@pytest.mark.parametrize(
+    ('old', 'new'),
+    [
+        (FILES['setup.py'], 'from of_ours import set_up\n\nset_up()\n'),
+        ('\nsetup(', "\nopen('made.xml', 'w').close()\nsetup("),
+        ("= 'talk'", "= 'talk'\nexec(open('about.py').read())\nprint(VERSION)"),
+        ('    entry_points', "    cmdclass={'build': 'makes_files'},\n    entry_points"),
+        ('\nsetup(', '\ntry:\n    odd()\nexcept NameError:\n    pass\nsetup('),
+        ('find_packages, setup', '*\nmake()'),
+    ],
+)
+def test_what_is_not_certain_colcon_shall_try(folder: Path, old: str, new: str) -> None:
+    replace(folder / 'setup.py', old, new)
+    if old != FILES['setup.py']:
+        replace(folder / 'setup.py', "['package.xml']", "['made.xml']")
+    assert package_files.why_refused(folder) == []
+
+
 @pytest.mark.parametrize('name', ['package.xml', 'setup.cfg', 'setup.py'])
 @pytest.mark.parametrize(
     ('encoding', 'reason'),

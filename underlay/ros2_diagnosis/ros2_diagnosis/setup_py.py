@@ -17,9 +17,21 @@ from ros2_diagnosis import nearest
 # As setuptools takes it: NAME = PACKAGE.MODULE:FUNCTION.
 _ENTRY_POINT = re.compile(r'\s*(\S[^=]*?)\s*=\s*([\w.]+)\s*(?::\s*([\w.]+)\s*)?(?:\[.*\]\s*)?')
 
+# By these a name may be bound that no line binds.
+_BINDING = {'exec', 'globals', 'locals', 'vars'}
+# What calls nothing else makes no files.
+_MAKING_NO_FILES = {
+    *('setup', 'find_packages', 'find_namespace_packages', 'glob', 'iglob', 'print', 'str'),
+    *('join', 'dirname', 'abspath', 'realpath', 'basename', 'exists', 'isfile', 'isdir'),
+    *('listdir', 'walk', 'sorted', 'list', 'tuple', 'append', 'extend', 'Path', 'read_text'),
+}
+
 
 def faults(folder: Path) -> Iterator[str]:
-    """Say, a line each, at what the setup.py in a folder ends when colcon runs it."""
+    """Say, a line each, at what the setup.py in a folder ends when colcon runs it.
+
+    Nothing where that is not certain: then colcon shall try.
+    """
     try:
         tree = _parsed(folder / 'setup.py')
     except SyntaxError as error:
@@ -28,7 +40,8 @@ def faults(folder: Path) -> Iterator[str]:
         return
     call = _call_of_setup(tree)
     if call is None:
-        yield 'setup.py does not call setup(): `ros2 pkg create` writes one that does'
+        if not _called(tree):
+            yield 'setup.py does not call setup(): `ros2 pkg create` writes one that does'
         return
     values = _constants(tree)
     yield from _unbound_names(tree)
@@ -39,7 +52,8 @@ def faults(folder: Path) -> Iterator[str]:
                 f'setup.py:{node.lineno}: {text!r} is no entry point: write '
                 f"'NAME = PACKAGE.MODULE:FUNCTION'{comma}"
             )
-    yield from _missing_files(call, values, folder)
+    if _called(tree) <= _MAKING_NO_FILES and _argument(call, 'cmdclass') is None:
+        yield from _missing_files(call, values, folder)
 
 
 def broken_programs(folder: Path, package: str) -> Iterator[tuple[str, str]]:
@@ -96,27 +110,37 @@ def _parsed(path: Path) -> ast.Module:
 
 
 def _call_of_setup(tree: ast.AST) -> ast.Call | None:
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call):
-            name = getattr(node.func, 'id', getattr(node.func, 'attr', ''))
-            if name == 'setup':
-                return node
-    return None
+    calls = (node for node in ast.walk(tree) if isinstance(node, ast.Call))
+    return next((call for call in calls if _name_of(call) == 'setup'), None)
+
+
+def _called(tree: ast.AST) -> set[str]:
+    """Return the names of what is called."""
+    return {_name_of(node) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+
+
+def _name_of(call: ast.Call) -> str:
+    return str(getattr(call.func, 'id', getattr(call.func, 'attr', '')))
 
 
 def _unbound_names(tree: ast.Module) -> Iterator[str]:
+    """Name what is used where each run comes, in no function and no block, and bound nowhere."""
     bound = {*dir(builtins), '__file__'}
+    used = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
-            bound.add(node.id)
+        if isinstance(node, ast.Name):
+            used.add(node.id)
+            if not isinstance(node.ctx, ast.Load):
+                bound.add(node.id)
         elif isinstance(node, ast.alias):
             bound.add((node.asname or node.name).partition('.')[0])
         else:
-            names = (getattr(node, each, None) for each in ('name', 'arg'))
+            names = (getattr(node, each, None) for each in ('name', 'arg', 'rest'))
             bound.update(name for name in names if isinstance(name, str))
-    if '*' in bound:
+    if '*' in bound or _BINDING & used:
         return
-    for node in ast.walk(tree):
+    always = [node for node in tree.body if isinstance(node, (ast.Assign, ast.Expr))]
+    for node in (each for statement in always for each in ast.walk(statement)):
         if isinstance(node, ast.Name) and node.id not in bound:
             wanted = 'from glob import glob' if node.id == 'glob' else f'import {node.id}'
             yield (
