@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 import sys
+import threading
 
 from rtps_graph import graph, names
 from rtps_graph import settings as rtps_settings
@@ -18,6 +19,10 @@ from ros2cli.errors import UsageError
 DEFAULT_TIMEOUT_SEC = 8.0  # all have answered long before, but on a machine that stands still
 DEFAULT_SPIN_TIME_SEC = 0.5
 SOON_SEC = 1.0  # a service that answers at all mostly answers sooner
+
+
+# Of nodes: raise KeyboardInterrupt where a signal has come that Python is not told of.
+signal_checks: list[Callable[[], None]] = []
 
 
 def settings_from_environment() -> rtps_settings.Settings:
@@ -70,7 +75,9 @@ def read_graph(args: argparse.Namespace | None = None, *, quiet: bool = False) -
         static_peers=settings.static_peers,
     ) as observer:
         observer.observe(
-            timeout_sec=max(DEFAULT_TIMEOUT_SEC, settle_sec + 1.0), settle_sec=settle_sec
+            timeout_sec=max(DEFAULT_TIMEOUT_SEC, settle_sec + 1.0),
+            settle_sec=settle_sec,
+            check=_check_signals,
         )
         found = graph.build(observer.participants.values(), observer.unanswered)
     if not quiet:
@@ -122,6 +129,12 @@ def why_unanswered(services: Iterable[str]) -> dict[str, str]:
     graph = read_graph(quiet=True)
     found = {service: nodes.check_vendors(graph, service) for service in services}
     return {service: str(each) for service, findings in found.items() for each in findings}
+
+
+def _check_signals() -> None:
+    if threading.current_thread() is threading.main_thread():  # the one that signals interrupt
+        for check in signal_checks:
+            check()
 
 
 def _print_hints(settings: rtps_settings.Settings, found: graph.Graph) -> None:

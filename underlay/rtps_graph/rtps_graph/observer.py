@@ -11,6 +11,7 @@ again after milliseconds. It joins the domain as a participant that has one read
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import contextlib
 import os
 import socket
@@ -67,16 +68,24 @@ class Observer:
             self._send(removal, participant.address, participant.discovery_port)
         self._socket.close()
 
-    def observe(self, *, timeout_sec: float, settle_sec: float = 0.3) -> bool:
+    def observe(
+        self,
+        *,
+        timeout_sec: float,
+        settle_sec: float = 0.3,
+        check: Callable[[], None] = lambda: None,
+    ) -> bool:
         """Read until everything is known; False where something that is there is not.
 
         That is so where `timeout_sec` passed before, or where a process is stopped.
 
         :param settle_sec: how long nothing new may come before other hosts count as complete.
+        :param check: called every 0.03 s or sooner; what it raises ends the reading.
         """
         start = self._news_sec = time.monotonic()
         retry, look = 0.0, start + _LOOK_SEC
         while (now := time.monotonic()) < start + timeout_sec:
+            check()
             if now >= retry:
                 expected = self._count()
                 self._ask_again(expected)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import contextlib
 import os
 from pathlib import Path
 import signal
@@ -13,10 +14,11 @@ import sys
 import time
 from typing import Any
 
+from playpen_testing.bags import opened_writer
 from playpen_testing.processes import Processes
 from playpen_testing.waiting import wait_until
 import pytest
-from rtps_graph import announcements
+from rtps_graph import announcements, host
 from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant
 
@@ -197,6 +199,41 @@ def test_a_stopped_process_is_named_and_the_others_are_shown(
     assert 'hint: ' in answer.err
     assert 'does not answer' in answer.err
     assert '/udp' in answer.err
+
+
+def test_a_signal_ends_a_command_that_reads_the_graph(
+    processes: Any, domain: int, tmp_path: Path
+) -> None:
+    opened_writer(tmp_path / 'bag', '/chatter').close()
+    # Commands whose node handles the signals itself, or leaves them to rclpy.
+    record = ('bag', 'record', '-a', '-o')
+    rows = (
+        (signal.SIGINT, (*record, str(tmp_path / 'interrupted'))),
+        (signal.SIGTERM, (*record, str(tmp_path / 'terminated'))),
+        (signal.SIGTERM, ('bag', 'play', str(tmp_path / 'bag'))),
+    )
+
+    def participants() -> int:
+        return len(host.participant_ports(domain, host.bound_udp_ports() or set()))
+
+    with contextlib.ExitStack() as silent:
+        # A participant that never answers, so that each of them reads for 8 s.
+        last = host.discovery_ports(domain)[-1]
+        for port in (last, last + 1):
+            bound = silent.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+            bound.bind(('127.0.0.1', port))
+        started = [processes.ros2(*words) for _, words in rows]
+        wait_until(
+            lambda: participants() == 1 + len(rows), timeout_sec=20.0, what='a node of each'
+        )
+        start = time.monotonic()
+        for (number, _), process in zip(rows, started, strict=True):
+            process.send_signal(number)
+        for (_, words), process in zip(rows, started, strict=True):
+            output, _ = process.communicate(timeout=20.0)
+            assert time.monotonic() - start < 4.0, words
+            assert 'Traceback' not in output
+            assert ('Recording stopped: 0 messages' in output) == (words[1] == 'record')
 
 
 def test_a_node_that_has_ended_is_gone_at_once(processes: Any, ros2: Callable[..., Any]) -> None:

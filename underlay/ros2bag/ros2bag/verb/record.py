@@ -92,20 +92,15 @@ class RecordVerb(VerbExtension):
             _end_with_the_terminal()
             recorder = Recorder(node, writer, selection, overrides, is_paused=args.start_paused)
             control_recorder(node, recorder)
-            log = node.node.get_logger()
-            log.info('Listening for topics...')
-            recorder.subscribe_to_new_topics(discovery.read_graph())
             keys = {'SPACE': recorder.toggle_paused}
             with controls(keys, disabled=args.disable_keyboard_controls) as keyboard:
-                by_key = '; SPACE pauses and resumes' if keyboard.is_there else ''
-                log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
-                if missing := recorder.missing():
-                    log.info(f'Waiting for {", ".join(missing)}{_hint(missing)}')
                 try:
                     _record(node, args, recorder, writer, keyboard)
                 except KeyboardInterrupt:
                     writer.close()
-                    log.info(f"Recording stopped: {writer.message_count} messages in '{folder}'")
+                    node.node.get_logger().info(
+                        f"Recording stopped: {writer.message_count} messages in '{folder}'"
+                    )
 
 
 def _record(
@@ -116,6 +111,13 @@ def _record(
     keyboard: Keyboard,
 ) -> None:
     """Record until a signal comes."""
+    log = node.node.get_logger()
+    log.info('Listening for topics...')
+    recorder.subscribe_to_new_topics(discovery.read_graph())
+    by_key = '; SPACE pauses and resumes' if keyboard.is_there else ''
+    log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
+    if missing := recorder.missing():
+        log.info(f'Waiting for {", ".join(missing)}{_hint(missing)}')
 
     def never() -> bool:
         keyboard.serve()

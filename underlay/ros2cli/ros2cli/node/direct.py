@@ -70,6 +70,13 @@ class CommandNode:
         except InvalidNodeNameException as error:
             rclpy.try_shutdown()
             raise CommandError(' '.join(str(error).split())) from None
+        discovery.signal_checks.append(self._check_signals)
+
+    def _check_signals(self) -> None:
+        """Raise KeyboardInterrupt where a signal has come; that is heard once."""
+        if self._interrupted.is_set() or not rclpy.ok():
+            self._interrupted.clear()
+            raise KeyboardInterrupt
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         with _ended_by_signals():
@@ -82,9 +89,7 @@ class CommandNode:
             left_sec = end - time.monotonic()  # asked once: below 0 rclpy would wait for ever
             if left_sec <= 0.0:
                 return False
-            if self._interrupted.is_set():
-                self._interrupted.clear()
-                raise KeyboardInterrupt
+            self._check_signals()
             self.spin_once(min(0.02, left_sec))
         return True
 
@@ -99,6 +104,8 @@ class CommandNode:
             self.spin_until(future.done)
 
     def destroy(self) -> None:
+        if self._check_signals in discovery.signal_checks:
+            discovery.signal_checks.remove(self._check_signals)
         self._executor.shutdown()
         self.node.destroy_node()
         rclpy.try_shutdown()
@@ -121,8 +128,12 @@ class DirectNode(CommandNode):
             start_parameter_services=getattr(args, 'start_parameter_services', False),
             parameter_overrides=[Parameter('start_type_description_service', value=described)],
         )
-        others = {node.full_name for node in discovery.read_graph(args, quiet=True).nodes}
-        self.spin_until(lambda: others <= self._discovered(), discovery.DEFAULT_TIMEOUT_SEC)
+        try:
+            others = {node.full_name for node in discovery.read_graph(args, quiet=True).nodes}
+            self.spin_until(lambda: others <= self._discovered(), discovery.DEFAULT_TIMEOUT_SEC)
+        except BaseException:
+            self.destroy()
+            raise
 
     def __enter__(self) -> DirectNode:
         return self
