@@ -208,9 +208,10 @@ def test_a_signal_ends_a_command_that_reads_the_graph(
     # Commands whose node handles the signals itself, or leaves them to rclpy.
     record = ('bag', 'record', '-a', '-o')
     rows = (
-        (signal.SIGINT, (*record, str(tmp_path / 'interrupted'))),
-        (signal.SIGTERM, (*record, str(tmp_path / 'terminated'))),
-        (signal.SIGTERM, ('bag', 'play', str(tmp_path / 'bag'))),
+        ((signal.SIGINT,), (*record, str(tmp_path / 'interrupted'))),
+        # Two at once, as where a launch and its terminal end together.
+        ((signal.SIGINT, signal.SIGTERM), (*record, str(tmp_path / 'terminated'))),
+        ((signal.SIGTERM,), ('bag', 'play', str(tmp_path / 'bag'))),
     )
 
     def participants() -> int:
@@ -227,8 +228,9 @@ def test_a_signal_ends_a_command_that_reads_the_graph(
             lambda: participants() == 1 + len(rows), timeout_sec=20.0, what='a node of each'
         )
         start = time.monotonic()
-        for (number, _), process in zip(rows, started, strict=True):
-            process.send_signal(number)
+        for (numbers, _), process in zip(rows, started, strict=True):
+            for number in numbers:
+                process.send_signal(number)
         for (_, words), process in zip(rows, started, strict=True):
             output, _ = process.communicate(timeout=20.0)
             assert time.monotonic() - start < 4.0, words

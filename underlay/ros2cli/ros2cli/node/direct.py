@@ -217,7 +217,8 @@ def _first_signal() -> Iterator[threading.Event]:
 
     def on_signal(*_: object) -> None:
         for number in ends:
-            signal.signal(number, signal.SIG_IGN)
+            # Not SIG_IGN: of one that has come already Python would print a traceback.
+            signal.signal(number, lambda *_: None)
         first.set()
 
     before = {number: signal.signal(number, on_signal) for number in ends}
