@@ -202,6 +202,15 @@ def test_errors_in_python_name_file_and_line(
         assert describe_error(caught.value).endswith(f'(at {path}:{line})')
 
 
+@pytest.mark.parametrize('name', ['a.launch.py', 'a.launch.xml', 'a.launch.yaml'])
+def test_a_file_in_utf_16_is_told(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_text('launch:', encoding='utf-16')
+    with pytest.raises(InvalidLaunchFileError, match='it is saved as UTF-16') as caught:
+        get_launch_description_from_any_launch_file(str(path))
+    assert describe_error(caught.value).endswith(f'save it as UTF-8 (at {path}:1)')
+
+
 def test_a_file_of_no_known_name_is_tried_in_each_format(launch_file: LaunchFile) -> None:
     path = launch_file('launch:\n- log: {message: a}\n', 'whatever')
     assert len(get_launch_description_from_any_launch_file(str(path)).entities) == 1

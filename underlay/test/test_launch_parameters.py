@@ -93,6 +93,11 @@ def test_text_that_no_node_starts_with_is_refused(launch_environment: None) -> N
     SetParameter('a', 'b: c').execute(context)
     with pytest.raises(ValueError, match="SetParameter 'a' has 'b: c', which is no value"):
         Node(executable='x')._perform_substitutions(context)
+    context = LaunchContext()
+    context.launch_configurations['x'] = '1,5'
+    value = ParameterValue(LaunchConfiguration('x'), value_type=float)
+    with pytest.raises(ValueError, match="parameter 'speed': could not convert string to float: "):
+        Node(executable='x', parameters=[{'speed': value}])._perform_substitutions(context)
 
 
 def test_a_relative_log_folder_is_below_the_present_one(launch_environment: None) -> None:

@@ -176,6 +176,12 @@ def test_a_program_that_cannot_start_is_told(
     assert reason in told
 
 
+def test_a_program_in_utf_16_is_told(folder: Path) -> None:
+    (folder / 'talk' / 'hello.py').write_text(FILES['talk/hello.py'], encoding='utf-16')
+    ((_, told),) = setup_py.broken_programs(folder, 'talk')
+    assert told.endswith('hello.py is saved as UTF-16 (Windows: Unicode): save it as UTF-8')
+
+
 def test_a_package_without_init_is_told(folder: Path) -> None:
     (folder / 'talk' / '__init__.py').unlink()
     ((_, told),) = setup_py.broken_programs(folder, 'talk')
@@ -193,6 +199,11 @@ def test_a_program_that_is_installed_elsewhere_is_told(folder: Path) -> None:
     replace(folder / 'setup.py', 'console_scripts', 'console_script')
     told = package_files.why_not_run(folder, 'talk')
     assert told == "but not under 'console_scripts' of entry_points; put it there, and build again"
+    (folder / 'setup.py').write_text(FILES['setup.py'], encoding='utf-16')
+    told = package_files.why_not_run(folder, 'talk')
+    assert told is not None
+    assert told.startswith('but colcon cannot build it: setup.py is saved as UTF-16')
+    assert list(setup_py.broken_programs(folder, 'talk')) == []
 
 
 def broken(tmp_path: Path, name: str, file: str, change: Callable[[str], bytes]) -> str:

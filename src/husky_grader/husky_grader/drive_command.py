@@ -114,9 +114,10 @@ def _copy_in(folder: Path, course: Path) -> Iterator[Path]:
 
     The copy of a drive that was killed is removed by the next one into the same folder.
     """
+    folder.mkdir(parents=True, exist_ok=True)
     place = folder / '.driven'
     shutil.rmtree(place, ignore_errors=True)
-    place.mkdir(parents=True)
+    place.mkdir()
     try:
         yield Path(shutil.copyfile(course, place / course.name))
     finally:

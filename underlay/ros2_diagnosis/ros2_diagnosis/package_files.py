@@ -34,6 +34,9 @@ def why_refused(folder: Path) -> list[str]:
 
 def why_not_run(folder: Path, package: str) -> str | None:
     """Say why `ros2 run` finds no program of a built package; None where nothing is wrong."""
+    refused = why_refused(folder)
+    if refused:
+        return f'but colcon cannot build it: {"; ".join(refused)}'
     if not setup_py.has_console_scripts(folder):
         return "but not under 'console_scripts' of entry_points; put it there, and build again"
     settings = RawConfigParser()

@@ -60,7 +60,7 @@ def broken_programs(folder: Path, package: str) -> Iterator[tuple[str, str]]:
     """Name each program that setuptools takes, but that cannot start, and say what to mend."""
     try:
         tree = _parsed(folder / 'setup.py')
-    except (OSError, SyntaxError):
+    except (OSError, SyntaxError, ValueError):  # ValueError: UTF-16, up to Python 3.11
         return
     call = _call_of_setup(tree)
     for _, text in _scripts(call, _constants(tree)):
@@ -86,11 +86,13 @@ def _why_broken(folder: Path, package: str, module: str, function: str | None) -
     if module.endswith('.py'):
         return f'{module!r}: write the name of a module without .py'
     if not path.is_file() and not path.with_suffix('').is_dir():
-        near = nearest.hint(path.stem, (each.stem for each in path.parent.glob('*.py')))
+        near = nearest.hint(path.stem, (each.stem for each in path.parent.glob('[!_]*.py')))
         return f'{module!r}: there is no {path}{near}'
     if function is None:
         return f'{module!r} names no function: write {module}:main'
     text = path.read_text(encoding='utf-8', errors='replace') if path.is_file() else function
+    if '\0' in text:
+        return f'{path} is saved as UTF-16 (Windows: Unicode): save it as UTF-8'
     if function.partition('.')[0] not in text:
         return f'{path} has no {function}()'
     return None

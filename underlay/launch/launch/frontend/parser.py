@@ -14,6 +14,7 @@ import entry_point_index as importlib_metadata
 from ..invalid_launch_file_error import InvalidLaunchFileError
 from ..source_location import attach_location
 from ..substitution import Substitution
+from ..utilities.encoding import refuse_utf_16
 from .entity import Entity
 from .expose import instantiate_action, load_entry_points, load_extensions
 from .parse_substitution import (
@@ -150,6 +151,7 @@ class Parser:
         :raises InvalidFrontendLaunchFileError: none could.
         """
         if isinstance(file, (str, Path)):
+            refuse_utf_16(file)
             with Path(file).open(encoding='utf-8') as opened:
                 return Parser.load(opened)
         name = str(getattr(file, 'name', ''))

@@ -9,6 +9,7 @@ from types import ModuleType
 
 from ..launch_description import LaunchDescription
 from ..source_location import located_error, register_launch_file, traceback_location
+from ..utilities.encoding import refuse_utf_16
 from ..utilities.typing_file_path import FilePath
 
 
@@ -22,6 +23,7 @@ def load_python_launch_file_as_module(python_launch_file_path: FilePath) -> Modu
     module = ModuleType('python_launch_file')
     module.__file__ = path
     register_launch_file(path)
+    refuse_utf_16(path)
     code = compile(Path(path).read_bytes(), path, 'exec')
     exec(code, module.__dict__)
     return module

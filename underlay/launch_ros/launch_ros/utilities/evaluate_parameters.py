@@ -47,7 +47,10 @@ def _check_list(name: str, values: list[Any]) -> tuple[Any, ...]:
 
 def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
     if isinstance(value, ParameterValue):
-        return value.evaluate(context)
+        try:
+            return value.evaluate(context)
+        except ValueError as error:
+            raise ValueError(f"parameter '{name}': {error}") from None
     if not isinstance(value, tuple):
         ensure_argument_type(value, _SCALARS, f"value of parameter '{name}'")
         return value
