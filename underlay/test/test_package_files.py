@@ -262,3 +262,21 @@ def test_colcon_and_ros2_run_say_it(
     replace(folder / 'talk' / 'hello.py', 'main', 'mian')
     (finding,) = workspaces.check_changed('talk', prefix)
     assert 'hello of setup.py cannot start: ' in str(finding)
+
+    (folder / 'launch').mkdir()
+    launch_file = folder / 'launch' / 'talk.launch.py'
+    launch_file.touch()
+    assert packages.why_not_installed('talk', 'talks.launch.py') is None
+    told = packages.why_not_installed('talk', 'talk.launch.py')
+    assert told is not None
+    assert told.startswith(f"{launch_file} is not installed: add ('share/talk/launch', glob('laun")
+    replace(folder / 'setup.py', '    ],\n    entry', "('x', glob('launch/*.py'))],\n    entry")
+    told = packages.why_not_installed('talk', 'talk.launch.py')
+    assert told is not None
+    assert told.startswith(f'{launch_file} is not installed yet: run `colcon build')
+
+    assert [str(each) for each in workspaces.check_changed('talk', prefix)] != []
+    replace(folder / 'package.xml', '>talk<', '>chat<')
+    (finding,) = workspaces.check_changed('talk', prefix)
+    assert str(finding).startswith(f'talk: an old build: {tmp_path} has no sources of it any more')
+    assert f'`rm -r {prefix} {tmp_path / "build/talk"}`' in str(finding)

@@ -119,6 +119,26 @@ def launch_files(share: Path) -> list[Path]:
     ]
 
 
+def why_not_installed(package: str, name: str) -> str | None:
+    """Say why a file of the sources of a package is not in its share; None where there is none."""
+    source = source_of(package)
+    found = sorted(path for path in source.rglob('*') if path.name == name) if source else []
+    if source is None or not found:
+        return None
+    folder = found[0].parent.relative_to(source)
+    build = f'run `colcon build --packages-select {package}` in {workspace_of(source)}'
+    if not (source / 'setup.py').is_file():
+        line = f'install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})'
+        return f'{found[0]} is not installed: write {line} in CMakeLists.txt, and {build}'
+    if re.search(rf"""['"/]{re.escape(str(folder))}['"/]""", _setup_of(source)):
+        return f'{found[0]} is not installed yet: {build}'
+    line = f"('share/{package}/{folder}', glob('{folder}/*'))"
+    return (
+        f'{found[0]} is not installed: add {line} to data_files in {source / "setup.py"}, `from '
+        f'glob import glob` at its top, and {build}'
+    )
+
+
 def why_missing(package: str, program: str = '') -> str:
     """Say why a package is not on AMENT_PREFIX_PATH, and what to do.
 

@@ -54,8 +54,11 @@ def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
 def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
     """Compare the sources of a package with what was built of them."""
     workspace = packages.workspace_of(prefix)
-    source = packages.source_in(workspace, package) if workspace is not None else None
-    if workspace is None or source is None:
+    if workspace is None:
+        return
+    source = packages.source_in(workspace, package)
+    if source is None:
+        yield from _check_orphaned(package, prefix, workspace)
         return
     for program in packages.undeclared_programs(source, package):
         yield Finding(
@@ -76,6 +79,20 @@ def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
             package,
             f'{changed} has changed since the package was built, so that the old one runs',
             f'run `colcon build --packages-select {package}` in {workspace}',
+        )
+
+
+def _check_orphaned(package: str, prefix: Path, workspace: Path) -> Iterator[Finding]:
+    if prefix != workspace / 'install' / package:
+        return
+    # colcon looks everywhere below a workspace; that may be a home with very many folders.
+    sources = packages.sources_in(workspace / 'src', depth=8)
+    if sources and package not in sources | packages.sources_in(workspace, depth=3):
+        yield Finding(
+            package,
+            f'an old build: {workspace} has no sources of it any more, as of a package that was '
+            'renamed',
+            f'`rm -r {prefix} {workspace / "build" / package}`, then open a new terminal',
         )
 
 

@@ -160,6 +160,9 @@ def find_launch_file(
     try:
         found = api.get_share_file_path_from_package(package_name=package, file_name=file_name)
     except FileNotFoundError as error:
+        why = packages.why_not_installed(package, file_name)
+        if why is not None:
+            raise CommandError(f'{error}; {why}') from None
         instead = stand_ins.hint_of_missing_part(package, file_name)
         hint = f': {instead}' if instead else nearest.hint(file_name, (p.name for p in known))
         raise CommandError(f'{error}{hint}') from None
