@@ -143,6 +143,10 @@ def test_arguments_of_markup_files_can_be_listed(launch_file: LaunchFile) -> Non
         ('<launch>\n<log message="$(var"/></launch>', 2, 'missing \\)'),
         ('<launch>\n<group if="1" unless="1"/></launch>', 2, "can't be used simultaneously"),
         ('<launch>\n<executable cmd="x" respawn_delay="soon"/></launch>', 2, 'respawn_delay'),
+        ('<launch>\n<rosparam/></launch>', 2, r'of ROS 1: write <param from="FILE"/> inside'),
+        ('<launch>\n<log message="$(arg x)"/></launch>', 2, r'of ROS 1: write \$\(var NAME\)'),
+        ('<launch>\n<node pkg="a" type="b"/></launch>', 2, 'type of ROS 1 is exec now'),
+        ('<launch>\n<arg name="a" value="1"/></launch>', 2, 'value of ROS 1 is default now'),
         ('<start/>', 1, "Expected 'launch' as root tag, got 'start'"),
     ],
 )

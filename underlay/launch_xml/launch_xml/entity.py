@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 from xml.parsers import expat
 
@@ -11,6 +12,14 @@ from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import check_is_list_entity
 from launch.source_location import located_error
 from launch.utilities.type_utils import get_typed_value
+
+# What took the place of attributes of elements.
+_OF_ROS_1 = {
+    ('arg', 'doc'): 'description',
+    ('arg', 'value'): 'default',
+    ('node', 'ns'): 'namespace',
+    ('node', 'type'): 'exec',
+}
 
 
 class Element:
@@ -90,8 +99,13 @@ class Entity(BaseEntity):
         if attributes:
             raise ValueError(
                 f'Unexpected attribute(s) found in `{self.type_name}`: '
-                f'{", ".join(sorted(attributes))}'
+                f'{", ".join(sorted(attributes))}{self.__hint(attributes)}'
             )
+
+    def __hint(self, attributes: Iterable[str]) -> str:
+        old = [each for each in sorted(attributes) if (self.type_name, each) in _OF_ROS_1]
+        news = [f'{each} of ROS 1 is {_OF_ROS_1[self.type_name, each]} now' for each in old]
+        return f' ({", ".join(news)})' if news else ''
 
     def get_attr(
         self,
@@ -114,6 +128,7 @@ class Entity(BaseEntity):
             kind = getattr(data_type, '__name__', data_type)
             raise AttributeError(
                 f"Attribute '{name}' of type '{kind}' not found in Entity '{self.type_name}'"
+                f'{self.__hint(self.__xml.attributes)}'
             )
         return value
 

@@ -72,11 +72,22 @@ def load_entry_points(group: str, what: str) -> dict[str, Any]:
     return loaded
 
 
+# What took the place of substitutions and elements.
+_OF_ROS_1 = {
+    'arg': '$(var NAME)',
+    'find': '$(find-pkg-share PACKAGE)',
+    'optenv': '$(env NAME DEFAULT)',
+    'rosparam': '<param from="FILE"/> inside of <node>',
+}
+
+
 def _find(name: str, methods: dict[str, Callable[..., Any]], what: str) -> Callable[..., Any]:
     load_extensions()
     if name not in methods:
         near = difflib.get_close_matches(name, list(methods), 1)
         hint = f" (is '{near[0]}' meant?)" if near else ''
+        if name in _OF_ROS_1:
+            hint = f' (that is of ROS 1: write {_OF_ROS_1[name]})'
         raise RuntimeError(f'{what}{name}{hint}')
     return methods[name]
 
