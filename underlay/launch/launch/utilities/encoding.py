@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from os import PathLike
 from pathlib import Path
 
 from ..source_location import located_error
-from .typing_file_path import FilePath
 
 
-def refuse_utf_16(path: FilePath) -> None:
+def refuse_utf_16(path: str | PathLike[str]) -> None:
     """Refuse a file as some editors of Windows save it.
 
     :raises ValueError: it is in UTF-16.
