@@ -159,6 +159,10 @@ SAME = 'write both in the same column'
             f'loop: true\nspeed:0.5\n{COURSE}',
             "2, column 7: a space is missing; write 'speed: 0.5'",
         ),
+        (
+            'waypoints:\n  -{x: 0, y: 0}\n',
+            "2, column 4: a space is missing; write '- {x: 0, y: 0}'",
+        ),
         (f'{COURSE}speed:0.5\n', "4, column 7: a space is missing; write 'speed: 0.5'"),
         (
             f'frame: odom speed: 1\n{COURSE}',

@@ -31,6 +31,7 @@ _LINE_BREAK = re.compile('\r\n|[\n\r\x85\u2028\u2029]')  # YAML 1.1, 4.2: as the
 _FIELD = re.compile(r'([A-Za-z_]\w*)\s*:(?:\s|$)')
 _NO_SPACE = re.compile(r'([A-Za-z_]\w*):([^\s:/][^:]*)$')
 _NO_COLON = re.compile(r'([A-Za-z_]\w*)(?: *= *| +)([^\s:=][^:=]*)$')
+_NO_ITEM = re.compile(r'-[\[{]')
 
 Found = tuple[int, int, str]
 """Line and column, from 1, and the message."""
@@ -74,6 +75,7 @@ def explain(error: yaml.MarkedYAMLError, text: str) -> Found | None:
     return (
         _odd_space(near, text)
         or _unclosed(error, text)
+        or _first(map(_dash, [*near, *before[::-1]]))
         or _first(map(_colon, near))
         or _two_fields(error, near)
         or _column(lines, problem)
@@ -128,6 +130,13 @@ def _unclosed(error: yaml.MarkedYAMLError, text: str) -> Found | None:
             return end.line + 1, end.column + 1, message
         return begin.line + 1, begin.column + 1, f'the {opened} has no {closing} in this line'
     return None
+
+
+def _dash(line: Line) -> Found | None:
+    """Tell of an item without a space behind its dash, which YAML takes for text."""
+    if not _NO_ITEM.match(line.text):
+        return None
+    return line.number, line.column + 1, f"a space is missing; write '- {line.text[1:]}'"
 
 
 def _colon(line: Line) -> Found | None:
