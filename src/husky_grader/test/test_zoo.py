@@ -355,6 +355,10 @@ def test_no_name_of_a_node_tells_of_a_hidden_course(graded: dict[str, StepGrade]
     assert '4375' not in f'{step.why} {step.printed}'
 
 
+def test_a_build_prints_nothing_of_the_lab_s_own_packages(graded: dict[str, StepGrade]) -> None:
+    assert 'husky_' not in graded['talks: build'].printed
+
+
 def test_what_was_handed_in_is_as_it_was(graded: dict[str, StepGrade], reports: Path) -> None:
     copy = reports / 'deletes everything' / COPY
     assert [path.read_text() for path in copy.rglob('package.xml')] == [MANIFEST]

@@ -30,8 +30,8 @@ _ROS = ('.venv', 'underlay')
 _CLONE = Path(__file__).resolve().parents[4]
 # The lab's own packages: there are solutions among them, and how they are judged.
 _OWN_PACKAGES = (
-    *('husky_course', 'husky_driver', 'husky_grader', 'husky_runtime', 'husky_sim', 'husky_view'),
-    'topic_demo',
+    *('husky_course', 'husky_driver', 'husky_grader', 'husky_gym', 'husky_runtime', 'husky_sim'),
+    *('husky_view', 'topic_demo'),
 )
 
 # Variables that programs of ROS read, and no other: among those are tokens and passwords.
