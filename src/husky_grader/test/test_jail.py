@@ -69,6 +69,21 @@ for file in hoard:
     file.flush()
 time.sleep(600)
 """
+FILLS = """
+import ctypes, os, select, time
+libc = ctypes.CDLL(None)
+file = os.open('file', os.O_CREAT | os.O_RDWR)
+looks = libc.inotify_init1(0)
+libc.inotify_add_watch(looks, b'.', 0x20)  # IN_OPEN, of the folder
+for _ in range(6):
+    os.read(looks, 1000)
+    time.sleep(0.1)
+    while select.select([looks], [], [], 0)[0]:
+        os.read(looks, 1000)
+    os.posix_fallocate(file, 0, 50_000_000)
+    time.sleep(0.5)
+    os.ftruncate(file, 0)
+"""
 GRADER = """
 import os, sys, time
 import os
@@ -259,6 +274,16 @@ def test_files_that_were_removed_count_while_they_are_open(
     with jail_in(sandbox, tmp_path, Limits(folder_mb=5)) as jail:
         process = jail.start(python(REMOVES, mark), log=tmp_path / 'log')
         assert process.wait(10.0)
+    assert process.stopped == 'filled its folder with over 5 MB'
+
+
+@in_each_way_with_processes
+def test_files_count_that_are_there_between_two_looks(
+    sandbox: Sandbox, tmp_path: Path, mark: str
+) -> None:
+    with jail_in(sandbox, tmp_path, Limits(folder_mb=5)) as jail:
+        process = jail.start(python(FILLS, mark), log=tmp_path / 'log')
+        assert process.wait(20.0)
     assert process.stopped == 'filled its folder with over 5 MB'
 
 

@@ -15,7 +15,7 @@ import psutil
 from husky_grader.jail.limits import Limits, MB
 
 PROCESSES_SEC = 0.2  # between two looks at the processes
-FOLDER_SEC = 1.0  # and at the folder, beside one at the processes
+FOLDER_SEC = 1.0  # and at the folder, beside one at the processes, if its disk does not fill
 _KIB, _BLOCK_BYTES = 1024, 512  # the units of proc(5) and stat(2)
 _NEWS = 0.1  # what a look counts in the mean of the last ones: that spans two seconds or so
 
@@ -27,6 +27,7 @@ class Usage:
         self._folder, self._limits = folder, limits
         self._processes_at_sec = self._folder_at_sec = time.monotonic()
         self._computing = 0.0  # threads at a time, on the average
+        self._room_bytes = _room_bytes(folder)  # when it was last looked at
 
     def too_much(self, processes: Callable[[], Sequence[psutil.Process]]) -> str:
         """Return in words which limit is exceeded; nothing if none is, or no look is due."""
@@ -36,10 +37,20 @@ class Usage:
         self._processes_at_sec = now + PROCESSES_SEC
         found = processes()
         why = _overuse(found, self._limits) or self._crowding(found)
-        if not why and now >= self._folder_at_sec:
+        if not why and (now >= self._folder_at_sec or self._is_disk_filling()):
             self._folder_at_sec = now + FOLDER_SEC
+            self._room_bytes = _room_bytes(self._folder)
             why = _overfull(self._folder, self._limits, found)
         return why
+
+    def _is_disk_filling(self) -> bool:
+        """
+        Tell whether the disk holds more than a folder may, since the last look at that.
+
+        A look a program can notice, by inotify(7), and have its files there between two.
+        """
+        taken_bytes = self._room_bytes - _room_bytes(self._folder)
+        return taken_bytes > self._limits.folder_mb * MB
 
     def _crowding(self, processes: Sequence[psutil.Process]) -> str:
         """
@@ -83,6 +94,11 @@ def _status_of(pid: int) -> dict[str, int]:
         return {}
     words = [line.split() for line in lines]
     return {each[0][:-1]: int(each[1]) for each in words if len(each) > 1 and each[1].isdigit()}
+
+
+def _room_bytes(folder: Path) -> int:
+    about = os.statvfs(folder)
+    return about.f_bfree * about.f_frsize
 
 
 def _computing(pid: int) -> int:
