@@ -251,6 +251,13 @@ def test_a_log_is_cut_in_its_middle(sandbox: Sandbox, tmp_path: Path) -> None:
     assert '\n[199900010 bytes of the log are left out here]\n' in text
 
 
+def test_what_was_printed_last_is_in_the_log_while_it_runs(tmp_path: Path) -> None:
+    log, much = tmp_path / 'log', 'yes | head -c 300000; echo last; sleep 600'
+    with jail_in(find_sandbox('none'), tmp_path, Limits(log_mb=0.1)) as jail:
+        jail.start(['bash', '-c', much], log=log)
+        has_said(log, 'y\nlast\n')
+
+
 @in_each_with_network
 def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> None:
     limits = Limits(file_mb=2, folder_mb=5, temporary_mb=1, shared_mb=1)

@@ -158,6 +158,7 @@ class JailedProcess:
                     break
                 elif not is_open:
                     self._child.wait(wait_sec)
+                self._log.show()
                 if not has_ended and (why := self._usage.too_much(self._processes)):
                     self.stopped = why
                     self._kill()

@@ -22,6 +22,7 @@ import time
 from typing import Any
 
 import rclpy
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -44,7 +45,7 @@ from husky_grader.rubric.steps import (
 )
 from husky_grader.run.diagnosis import Graph, nearest, unheard_topics
 from husky_grader.run.graph import has_other_fields, read_graph
-from husky_grader.run.printed import read_printed
+from husky_grader.run.printed import printed_lines
 from husky_grader.run.trusted import limit_memory
 
 NAME = 'grader'
@@ -254,10 +255,16 @@ def _why_silent(step: PublisherStep, graph: Graph) -> str:
 def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding:
     token = str(random.randint(*TOKENS))
     message = filled(get_message(step.type)(), with_token(step.sent, token))
-    publisher = observer.node.create_publisher(type(message), step.topic, HEARD_BY_ALL)
+    matched: list[object] = []  # who has listened: what is printed else is guessed
+    publisher = observer.node.create_publisher(
+        type(message),
+        step.topic,
+        HEARD_BY_ALL,
+        event_callbacks=PublisherEventCallbacks(matched=matched.append),
+    )
 
     def lines() -> list[str]:
-        return [line.strip() for line in read_printed(log).splitlines() if token in line]
+        return [line.strip() for line in printed_lines(log, token)] if matched else []
 
     def sent_and_printed() -> bool:
         publisher.publish(message)

@@ -9,6 +9,8 @@ from husky_course.printable import printable
 
 MAX_READ = 32_000  # bytes, of the beginning and of the end each
 MAX_SHOWN = 4_000  # characters
+MAX_LINES = 100  # that hold a word
+MAX_AROUND = 2_000  # bytes of a line before and behind it
 
 
 def read_printed(log: Path) -> str:
@@ -23,6 +25,22 @@ def read_printed(log: Path) -> str:
         return ''
     dots = f'\n[{left - MAX_READ} bytes are left out]\n' if left > MAX_READ else ''
     return ''.join((_text(begin), dots, _text(end)))
+
+
+def printed_lines(log: Path, word: str) -> list[str]:
+    """Return the first lines in all of a log that hold a word, cut where they are very long."""
+    try:
+        data, sought = log.read_bytes(), word.encode()
+    except OSError:
+        return []
+    lines: list[str] = []
+    end = 0
+    while len(lines) < MAX_LINES and (at := data.find(sought, end)) >= 0:
+        begin = max(end, data.rfind(b'\n', end, at) + 1, at - MAX_AROUND)
+        end = data.find(b'\n', at, at + MAX_AROUND)
+        end = end if end >= 0 else at + MAX_AROUND
+        lines += [line for line in _text(data[begin:end]).splitlines() if word in line]
+    return lines
 
 
 def shown(printed: str) -> str:
