@@ -103,6 +103,11 @@ def connects_to_an_abstract_socket(victim: Victim) -> Iterator[str]:
         yield str(victim['name'])
 
 
+def opens_a_socket_that_no_namespace_separates(victim: Victim) -> Iterator[str]:
+    with contextlib.suppress(OSError), socket.socket(socket.AF_VSOCK, socket.SOCK_STREAM):
+        yield 'AF_VSOCK'
+
+
 def listens_to_all_packets(victim: Victim) -> Iterator[str]:
     for family in (socket.AF_INET, socket.AF_PACKET):
         with contextlib.suppress(OSError), socket.socket(family, socket.SOCK_RAW, 1):

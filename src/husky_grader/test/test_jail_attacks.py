@@ -29,6 +29,7 @@ OTHERS = (
     *('traces_who_watches', 'listens_to_all_packets', 'has_open_files', 'mounts'),
     *('writes_settings_of_the_kernel', 'types_at_the_terminal', 'uses_services_of_the_system'),
     *('reads_keys_in_the_kernel', 'leaves_keys_in_the_kernel'),
+    'opens_a_socket_that_no_namespace_separates',
     'mounts_in_a_namespace_of_its_own',  # last: it is another user then
 )
 # What another user cannot be kept from, on a machine without namespaces; of the services it sees

@@ -49,14 +49,16 @@ _SCOPE_ALL = 0b11  # abstract sockets and signals; from version 6 on
 _PR_SET_DUMPABLE, _PR_SET_NO_NEW_PRIVS = 4, 38  # <linux/prctl.h>
 _CAPABILITY_VERSION = 0x20080522  # <linux/capability.h>
 
-# <linux/audit.h> and <asm/unistd.h>: the calls add_key, request_key and keyctl, by machine
-_CALLS_ON_KEYS = {'x86_64': (0xC000003E, 248, 250), 'aarch64': (0xC00000B7, 217, 219)}
+# <linux/audit.h> and <asm/unistd.h>: the machine, its calls add_key to keyctl, and socket
+_CALLS = {'x86_64': (0xC000003E, 248, 250, 41), 'aarch64': (0xC00000B7, 217, 219, 198)}
+_NR_IO_URING_SETUP = 425  # of every architecture
 _NO_CALL_FROM = 0x40000000  # numbers of x32, which are other names for the same
+_FAMILIES = (1, 2, 10, 16)  # <sys/socket.h>: UNIX, INET, INET6, NETLINK; namespaces separate them
 _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 22, 2  # <linux/prctl.h>, <linux/seccomp.h>
 _SECCOMP_ALLOW, _SECCOMP_ERRNO = 0x7FFF0000, 0x00050000
 # <linux/bpf_common.h>: load a word, jump where it is equal or at least so much, return
 _BPF_LOAD, _BPF_IF_EQUAL, _BPF_IF_LEAST, _BPF_RETURN = 0x20, 0x15, 0x35, 0x06
-_AT_CALL, _AT_MACHINE = 0, 4  # of struct seccomp_data
+_AT_CALL, _AT_MACHINE, _AT_FIRST_ARGUMENT = 0, 4, 16  # of struct seccomp_data, its low word
 
 # <signal.h>; to import signal takes longer than all the rest
 _SIGINT, _SIGPIPE, _SIGTERM, _SIGXFSZ = 2, 13, 15, 25
@@ -140,29 +142,37 @@ def _drop_rights(user: int | None) -> None:
     _checked(_LIBC.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 'no_new_privs')
     header, none = (ctypes.c_uint32 * 2)(_CAPABILITY_VERSION, 0), (ctypes.c_uint32 * 6)()
     _checked(_LIBC.capset(header, none), 'capset')
-    _refuse_keys()
+    _refuse_calls()
     # The command has the same user: it must neither trace, and so stop, this process, nor open its
     # files by /proc/1/fd.
     _checked(_LIBC.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0), 'dumpable')
 
 
-def _refuse_keys() -> None:
+def _refuse_calls() -> None:
     """
-    Have the kernel refuse all calls on its keys: see keyrings(7).
+    Have the kernel refuse calls that reach what no namespace separates: see seccomp(2).
 
-    A command inherits the session keyring, in which may be keys of who grades, such as tickets of
-    Kerberos; and what one has left there, or in the persistent keyring of its user, others find.
+    Keys, keyrings(7): a command inherits the session keyring, in which may be keys of who grades,
+    such as tickets of Kerberos; and what one has left there, or in the persistent keyring of its
+    user, others find. Sockets of a family with one network for all, as AF_VSOCK, by which a
+    virtual machine reaches its host; io_uring would open them past this.
     """
-    if os.uname().machine not in _CALLS_ON_KEYS:
+    if os.uname().machine not in _CALLS:
         return
-    machine, first, last = _CALLS_ON_KEYS[os.uname().machine]
+    machine, first_of_keys, last_of_keys, socket = _CALLS[os.uname().machine]
+    families = len(_FAMILIES)
     program = (  # code, how many lines to pass over if it is so, if not, number
         (_BPF_LOAD, 0, 0, _AT_MACHINE),
-        (_BPF_IF_EQUAL, 0, 5, machine),  # the calls of a 32-bit program have other numbers
+        (_BPF_IF_EQUAL, 0, 9 + families, machine),  # a 32-bit program's calls have other numbers
         (_BPF_LOAD, 0, 0, _AT_CALL),
-        (_BPF_IF_LEAST, 3, 0, _NO_CALL_FROM),
-        (_BPF_IF_LEAST, 1, 0, last + 1),
-        (_BPF_IF_LEAST, 1, 0, first),
+        (_BPF_IF_LEAST, 7 + families, 0, _NO_CALL_FROM),
+        (_BPF_IF_EQUAL, 6 + families, 0, _NR_IO_URING_SETUP),
+        (_BPF_IF_EQUAL, 2, 0, socket),
+        (_BPF_IF_LEAST, 3 + families, 0, last_of_keys + 1),
+        (_BPF_IF_LEAST, 3 + families, 2 + families, first_of_keys),
+        (_BPF_LOAD, 0, 0, _AT_FIRST_ARGUMENT),
+        *((_BPF_IF_EQUAL, families - n, 0, each) for n, each in enumerate(_FAMILIES)),
+        (_BPF_RETURN, 0, 0, _SECCOMP_ERRNO | errno.EAFNOSUPPORT),
         (_BPF_RETURN, 0, 0, _SECCOMP_ALLOW),
         (_BPF_RETURN, 0, 0, _SECCOMP_ERRNO | errno.ENOSYS),
     )
