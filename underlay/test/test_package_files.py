@@ -255,6 +255,11 @@ def test_colcon_and_ros2_run_say_it(
     ):
         assert reason in packages.why_missing(name)
 
+    told = [str(each) for each in workspaces.check_built_and_sourced(tmp_path)]
+    marked = 'marked: colcon cannot build it: setup.cfg begins with a byte order mark'
+    assert sum(line.startswith(marked) for line in told) == 1
+    assert not any('marked' in line for line in told if not line.startswith('marked: colcon'))
+
     prefix = tmp_path / 'install' / 'talk'
     monkeypatch.setenv(
         'AMENT_PREFIX_PATH', f'{prefix}{os.pathsep}{os.environ["AMENT_PREFIX_PATH"]}'

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
-from ros2_diagnosis import packages, setup_py
+from ros2_diagnosis import package_files, packages, setup_py
 from ros2_diagnosis.finding import Finding
 
 _SETTINGS = ('setup.py', 'setup.cfg', 'package.xml')
@@ -34,13 +34,20 @@ def print_hints(package: str) -> None:
 def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
     installed = packages.installed()
     setup = workspace / 'install' / 'setup.bash'
-    sources = sorted(packages.sources_in(workspace / 'src'))
+    found = sorted(packages.sources_in(workspace / 'src').items())
+    refused = {name: package_files.why_refused(path) for name, path in found}
+    for name in refused:
+        for why in refused[name]:
+            yield Finding(
+                name, f'colcon cannot build it: {why}', f'then {_build(workspace, setup)}'
+            )
+    sources = [name for name in refused if not refused[name]]
     unbuilt = [name for name in sources if packages.built_prefix(workspace, name) is None]
     if unbuilt:
         yield Finding(
             ', '.join(unbuilt),
             f'not built yet in {workspace}, so that `ros2 run` does not find it',
-            f'run `colcon build` in {workspace}, then `source {setup}`',
+            _build(workspace, setup),
         )
     unsourced = [name for name in sources if name not in unbuilt and name not in installed]
     if unsourced:
@@ -49,6 +56,10 @@ def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
             f'built in {workspace}, but not sourced in this terminal',
             f'`source {setup}`',
         )
+
+
+def _build(workspace: Path, setup: Path) -> str:
+    return f'run `colcon build` in {workspace}, then `source {setup}`'
 
 
 def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
