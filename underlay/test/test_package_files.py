@@ -149,6 +149,14 @@ def test_what_cannot_be_built_is_told(
     assert reason in told
 
 
+@pytest.mark.parametrize('letter', ':;"`${}')
+def test_a_folder_that_colcon_cannot_build_in_is_told(tmp_path: Path, letter: str) -> None:
+    folder = write_package(tmp_path / f'a{letter}b' / 'src' / 'talk')
+    assert package_files.why_refused(folder) == [
+        f'{folder}: colcon cannot build in a folder with {letter} in its name; rename it'
+    ]
+
+
 def test_a_missing_setup_file_is_told(folder: Path) -> None:
     (folder / 'setup.py').unlink()
     assert package_files.why_refused(folder) == [
@@ -255,10 +263,10 @@ def test_colcon_and_ros2_run_say_it(
     ):
         assert reason in packages.why_missing(name)
 
-    told = [str(each) for each in workspaces.check_built_and_sourced(tmp_path)]
+    findings = [str(each) for each in workspaces.check_built_and_sourced(tmp_path)]
     marked = 'marked: colcon cannot build it: setup.cfg begins with a byte order mark'
-    assert sum(line.startswith(marked) for line in told) == 1
-    assert not any('marked' in line for line in told if not line.startswith('marked: colcon'))
+    assert sum(line.startswith(marked) for line in findings) == 1
+    assert not any('marked' in line for line in findings if not line.startswith('marked: colcon'))
 
     prefix = tmp_path / 'install' / 'talk'
     monkeypatch.setenv(

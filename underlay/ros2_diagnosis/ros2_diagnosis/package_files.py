@@ -18,10 +18,15 @@ from ros2_diagnosis import setup_py
 # catkin is what colcon takes a package for that names none; its CMake modules are of ROS 1.
 _BUILD_TYPES = ('ament_python', 'ament_cmake', 'cmake')
 
+# A colon parts lists of folders: what is built goes to the Python that colcon runs by. The next
+# three are words of the shell in colcon's setup files, the last variables for setuptools.
+_NOT_IN_A_PLACE = ':;"`${}'
+
 
 def why_refused(folder: Path) -> list[str]:
     """Say, a line each, why colcon cannot build the package in a folder; [] where it can."""
     try:
+        _check_place(folder)
         build_type = _build_type(folder)
         if build_type != 'ament_python':
             return []
@@ -56,6 +61,15 @@ def why_not_run(folder: Path, package: str) -> str | None:
 
 class _RefusedError(Exception):
     pass
+
+
+def _check_place(folder: Path) -> None:
+    place = str(folder.resolve())
+    for letter in place:
+        if letter in _NOT_IN_A_PLACE:
+            raise _RefusedError(
+                f'{place}: colcon cannot build in a folder with {letter} in its name; rename it'
+            )
 
 
 def _build_type(folder: Path) -> str:
