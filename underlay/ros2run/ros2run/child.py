@@ -31,10 +31,11 @@ def run(command: Sequence[str]) -> int:
     """
     awaited = {*_PASSED_ON, signal.SIGCHLD}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, awaited)
+    # Before the program, which may be sent a signal as soon as it is there.
+    witness = Witness()
     try:
         mask = {*before, signal.SIGINT} if takes_blocked_interrupt(command[0]) else before
         process = subprocess.Popen(command, preexec_fn=_bound_to_this(mask))
-        witness = Witness()
         while process.poll() is None:
             number = signal.sigwait(awaited)
             if number == signal.SIGCHLD:
@@ -44,9 +45,9 @@ def run(command: Sequence[str]) -> int:
                 witness = Witness()
             else:
                 process.send_signal(number)
-        witness.end()
         return process.returncode
     finally:
+        witness.end()
         while signal.sigtimedwait(awaited, 0) is not None:
             pass  # what came while the program ended was meant for it
         signal.pthread_sigmask(signal.SIG_SETMASK, before)

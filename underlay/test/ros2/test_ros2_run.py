@@ -87,6 +87,23 @@ def test_a_signal_reaches_the_program_once_and_nothing_is_left(
     assert process.returncode == (-number if number is signal.SIGKILL else 10 + number)
 
 
+_AT_ONCE = """#!/bin/sh
+trap 'got=$((got + 1))' INT
+kill -INT 0
+for again in 1 2; do sleep 0.1; done  # for a second one
+exit $got
+"""
+
+
+def test_a_signal_at_the_start_of_the_program_reaches_it_once(
+    installed_package: Callable[..., Path],
+) -> None:
+    installed_package('demo', at_once=_AT_ONCE)
+    command = [sys.executable, '-m', 'ros2cli', 'run', 'demo', 'at_once']
+    ends = {subprocess.run(command, start_new_session=True).returncode for _ in range(5)}
+    assert ends == {1}
+
+
 @pytest.mark.parametrize(
     ('words', 'status', 'message'),
     [
