@@ -18,6 +18,8 @@ BUILD_WITHIN_SEC = 300.0
 SOURCE_WITHIN_SEC = 60.0
 NO_PROGRAM = 127  # as a shell says it
 MAX_VARIABLES = 30_000  # bytes, of all of them together; Linux starts no program with too many
+# The wheels' colcon refuses packages that another one builds: points are the same with both.
+_AS_ANYWHERE = {'COLCON_EXTENSION_BLOCKLIST': 'colcon_core.package_identification.refused'}
 _BEGUN = 'Starting >>>'  # is printed before anything of a student's runs
 _OF_THE_SHELL = ('HOME', 'PWD', 'OLDPWD', 'SHLVL', '_')  # each program has its own
 
@@ -38,7 +40,7 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
     command += ['--base-paths', str(workspace / 'src')]
     command += ['--build-base', str(jail.folder / 'build')]
     command += ['--install-base', str(jail.folder / 'install')]
-    with jail.started(command, log=log) as build:
+    with jail.started(command, _AS_ANYWHERE, log=log) as build:
         exit_code = build.exit_code if build.wait(BUILD_WITHIN_SEC) else None
     if build.stopped:
         return nothing(f'colcon build was ended: it {build.stopped}')
