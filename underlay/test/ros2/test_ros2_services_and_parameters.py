@@ -102,7 +102,7 @@ def test_a_parameter_is_shown(ros2: Callable[..., Any], name: str, shown: str) -
 
 def test_a_busy_node_is_waited_for(processes: Any, domain: int) -> None:
     may_go_on = threading.Event()
-    hint = 'gave no answer within 5 s; its node is busy or stopped; Ctrl-C ends the waiting'
+    hint = 'gave no answer within 5 s; its node is busy or stopped, .*; Ctrl-C ends the waiting'
     asked = (('set', '/busy', 'load', '1.0'), ('dump', '/busy'), ('list', '/busy'))
     with SpunNodes(domain) as nodes:
         node = nodes.start(Node, 'busy', load=0.5)
