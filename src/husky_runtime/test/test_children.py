@@ -66,7 +66,7 @@ FAMILY = """
 import os, time
 if os.fork() == 0:
     os.setsid()
-print(os.getpid(), flush=True)
+os.write(1, f'{os.getpid()}\\n'.encode())  # whole lines, of two at once
 time.sleep(60)
 """
 NOHUP = """

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import time
@@ -56,6 +57,7 @@ def test_a_goal_without_an_answer_is_canceled_too(processes: Any, kind: str, pri
     find_line(server.stdout, '^goal$')
     client.send_signal(signal.SIGINT)
     find_line(client.stdout, '^Canceling goal')
+    os.waitid(os.P_PID, server.pid, os.WSTOPPED)  # it stops itself, after that line
     server.send_signal(signal.SIGCONT)
     assert _rest(client).startswith(printed)
     assert client.returncode == signal.SIGINT
