@@ -3,7 +3,7 @@
 """
 What every test relies on.
 
-`./lab test` runs two tests at a time for each processor, six at least and eight at most: most
+`./lab test` runs two tests at a time for each processor, four at least and eight at most: most
 wait for a clock more than they compute. The tests of a file stay in one process. Each test that
 uses DDS has a domain of its own, see husky_runtime.domains.
 """
@@ -63,7 +63,7 @@ def pytest_sessionstart() -> Iterator[None]:
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """Tell how many tests run at a time where nobody says so."""
-    return min(max(6, 2 * usable_processors()), 8)
+    return min(max(4, 2 * usable_processors()), 8)
 
 
 # Files whose tests share what takes long: a browser that draws without a graphics processor, which
