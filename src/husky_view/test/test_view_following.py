@@ -79,6 +79,16 @@ def test_nor_does_it_where_a_turn_of_the_wheel_is_reported_in_parts() -> None:
     assert camera.offset is nearest
 
 
+def test_nor_does_it_where_the_page_has_reported_the_input_twice() -> None:
+    camera = zoomed_camera()
+    assert not camera.step(ROBOT, now_sec=0.2)
+    camera.report(1.001 * NEARER)  # the end of a smooth turn of the wheel
+    assert not camera.step(ROBOT, now_sec=0.25)
+    camera.report(BEHIND)  # the pose sent at 0.1 s
+    camera.step(ROBOT, now_sec=0.3)
+    assert camera.offset is NEARER
+
+
 def test_a_report_older_than_the_first_pose_is_not_input() -> None:
     behind, before = np.array([-3.0, 0.0, 1.9]), np.array([-9.0, -8.0, 9.0])
     camera = ChaseCamera(np.zeros(3), behind, now_sec=0.0)

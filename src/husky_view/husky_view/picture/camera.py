@@ -59,11 +59,13 @@ class ChaseCamera:
         self.at = robot.copy()
         self.offset = offset
         self._begun_sec = self._before_sec = now_sec
-        self._paused_until_sec = self._stale_until_sec = -math.inf
+        self._paused_until_sec = -math.inf
         self._confirmed = False  # the page has reported the first pose
         self._reported: Array | None = None
         self._sent_sec = -math.inf
-        self._sent = offset  # before a person changed it
+        self._is_sent = True  # a pose with this offset
+        # Offsets that a person has changed, and until when poses with them may come to the page.
+        self._stale: list[tuple[Array, float]] = []
         self._overridden = False
 
     def report(self, offset: Array) -> None:
@@ -81,10 +83,11 @@ class ChaseCamera:
         lag = robot - self.at
         distance_m = float(np.linalg.norm(lag))
         if distance_m < _STILL_M:
-            overridden, self._overridden = self._overridden, False
-            return overridden or not self._confirmed
+            moves = self._overridden or not self._confirmed
+            self._is_sent, self._overridden = self._is_sent or moves, False
+            return moves
         self._overridden = False
-        self._sent_sec = now_sec
+        self._is_sent, self._sent_sec = True, now_sec
         gain = 1.0 - math.exp(-elapsed_sec / TIME_CONSTANT_SEC)
         self.at = robot.copy() if distance_m > JUMP_M else self.at + gain * lag
         return True
@@ -98,16 +101,16 @@ class ChaseCamera:
         self._sent_sec = -math.inf
         if _same(offset, self.offset):
             self._confirmed = True
-            self._sent = self.offset
-        elif now_sec < self._stale_until_sec and _same(offset, self._sent):
+        elif any(now_sec < until and _same(offset, stale) for stale, until in self._stale):
             # A pose that was still on its way has overridden the person's input.
             self._overridden = True
         elif self._confirmed:  # else the report is older than the first pose
-            self.offset = offset
+            if self._is_sent:  # not amid a turn of the wheel, which is several reports
+                until_sec = now_sec + (DELIVERY_SEC if on_its_way else USER_PAUSE_SEC)
+                self._stale = [each for each in self._stale if now_sec < each[1]]
+                self._stale.append((self.offset, until_sec))
+            self._is_sent, self.offset = False, offset
             self._paused_until_sec = now_sec + USER_PAUSE_SEC
-            # One turn of the wheel is several reports; a pose may be on its way through all.
-            stale_until_sec = now_sec + (DELIVERY_SEC if on_its_way else USER_PAUSE_SEC)
-            self._stale_until_sec = max(self._stale_until_sec, stale_until_sec)
 
 
 def _same(one: Array, other: Array) -> bool:
