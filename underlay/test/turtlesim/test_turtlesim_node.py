@@ -161,6 +161,7 @@ def test_colours_are_those_of_the_pens(student: TurtleClient) -> None:
     assert student.colour() == PEN
     student.call(SetPen, 'turtle1/set_pen', r=10, g=200, b=30, width=9)
     student.call(TeleportAbsolute, 'turtle1/teleport_absolute', x=1.0, y=1.0, theta=0.0)
+    student.wait_for_pose(lambda pose: pose.y == 1.0, 'the end of the line')
     student.wait_for(lambda: student.colour() == (10, 200, 30), 'the colour of the new pen')
     student.call(SetPen, 'turtle1/set_pen', r=255, off=1)
     student.call(TeleportAbsolute, 'turtle1/teleport_absolute', x=9.0, y=2.0, theta=0.0)
