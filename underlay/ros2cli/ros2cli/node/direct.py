@@ -35,6 +35,12 @@ __all__ = ['DEFAULT_TIMEOUT', 'CommandNode', 'DirectNode', 'add_arguments', 'com
 DEFAULT_TIMEOUT = discovery.DEFAULT_SPIN_TIME_SEC
 
 
+class _Executor(SingleThreadedExecutor):
+    """An executor that lets go without a traceback, too, where a signal came amid its making."""
+
+    _sigint_gc = None  # rclpy's own, which it makes late and asks for in any case
+
+
 class CommandNode:
     """A node with its executor.
 
@@ -65,7 +71,7 @@ class CommandNode:
                     parameter_overrides=overrides,
                     **options,
                 )
-                self._executor = SingleThreadedExecutor()
+                self._executor = _Executor()
                 self._executor.add_node(self.node)
         except InvalidNodeNameException as error:
             rclpy.try_shutdown()
