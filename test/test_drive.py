@@ -188,26 +188,28 @@ def test_ground_truth_is_followed_from_the_start_wherever_it_is(
 ) -> None:
     world, course = str(ROOT / 'worlds' / 'empty.xml'), tmp_path / 'ahead.yaml'
     course.write_text('speed: 0.8\nwaypoints: [[2, 0], [3, 0]]\n')
-    nodes.start(
-        SimulatorNode,
-        world=world, x=3.0, y=0.0, yaw=math.pi / 2, lockstep=True,
-    )  # fmt: skip
-    topics = {'ground_truth/odom': Odometry, 'odometry/filtered': Odometry}
-    listener = nodes.start(Listener, topics)
+    # Slowly: while the driver, in the same process, stands still for a moment, the robot goes on.
+    nodes.start(SimulatorNode, world=world, x=3.0, y=-1.0, yaw=math.pi / 2, real_time_factor=0.5)
+    listener = nodes.start(Listener, {'ground_truth/odom': Odometry})
 
     def place() -> tuple[float, float]:
         position = listener.latest('ground_truth/odom').pose.pose.position
         return position.x, position.y
 
+    def is_ahead() -> bool:
+        listener.command(1.0)
+        return place()[1] > 0.0
+
+    wait_until(is_ahead, timeout_sec=10.0, what='a robot 1 m ahead of its start')
     driver = nodes.start(
         FollowPath,
         lambda *_: Drive(plan_route(load_course(course)), slip=False),
         odometry='ground_truth', start=[3.0, -1.0, math.pi / 2], progress='off',
     )  # fmt: skip
     if is_reset:
-        wait_until(lambda: place()[1] > 0.3, timeout_sec=20.0, what='a robot on its way')
+        wait_until(lambda: place()[1] > 0.8, timeout_sec=20.0, what='a robot on its way')
         listener.create_client(Empty, 'husky_sim/reset').call_async(Empty.Request())
-        wait_until(lambda: place()[1] < 0.1, timeout_sec=10.0, what='a robot at its start')
+        wait_until(lambda: place()[1] < -0.9, timeout_sec=10.0, what='a robot at its start')
     wait_until(driver.finished.done, timeout_sec=30.0, what='the end of the course')
     assert driver.finished.result() == 0
     assert place() == pytest.approx((3.0, 2.0), abs=0.1)
