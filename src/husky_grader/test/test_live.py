@@ -22,7 +22,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n'
-SHORT = 'speed: 0.5\nwaypoints: [[0, 0], [-0.3, 0]]\n'
+SHORT = 'speed: 0.5\nwaypoints: [[0, 0], [0.5, 0]]\n'
 FOLLOWS = """
 import sys
 from husky_driver.follow_path import main
