@@ -28,7 +28,7 @@ class Terminal:
 
     @property
     def busy(self) -> bool:
-        return self._typed > 0 and not self._is_done(self._typed)
+        return self._typed > 0 and not self._is_done()
 
     @property
     def statuses(self) -> list[int]:
@@ -62,5 +62,6 @@ class Terminal:
             what=lambda: f'the end of the command in the terminal, which shows:\n{self.screen}',
         )
 
-    def _is_done(self, number: int) -> bool:
-        return any(line.startswith(f'{_DONE} {number} ') for line in self._shell.lines)
+    def _is_done(self) -> bool:
+        mark = f'{_DONE} {self._typed} '
+        return any(line.startswith(mark) for line in self._shell.lines[self._first_line :])
