@@ -13,7 +13,6 @@ from rtps_graph import graph, names
 from rtps_graph import settings as rtps_settings
 from rtps_graph.observer import Observer
 
-from ros2cli import arguments
 from ros2cli.errors import UsageError
 
 DEFAULT_TIMEOUT_SEC = 8.0  # all have answered long before, but on a machine that stands still
@@ -45,15 +44,18 @@ def add_direct_arguments(parser: argparse.ArgumentParser) -> None:
         help='Spin time in seconds to wait for discovery of other hosts; the nodes of this host '
         'are counted, so that nothing has to be waited for',
     )
-    arguments.add_flags(parser, {'-s --use-sim-time': 'Enable ROS simulation time'})
+    parser.add_argument(
+        '-s', '--use-sim-time', action='store_true', help='Enable ROS simulation time'
+    )
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add upstream's options of a verb that looks at the graph."""
     add_direct_arguments(parser)
-    arguments.add_flags(
-        parser,
-        {'--no-daemon': 'Do not use the daemon, which only verbs of other packages do here'},
+    parser.add_argument(
+        '--no-daemon',
+        action='store_true',
+        help='Do not use the daemon, which only verbs of other packages do here',
     )
 
 
