@@ -41,11 +41,8 @@ BY_PACKAGE = {
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
     'joint_state_publisher_gui': _JOINTS,
-    **dict.fromkeys(
-        ('turtle_tf2_py', 'turtle_tf2_cpp'),
-        'the pages on tf2 make the same programs in a package of your own, `learning_tf2_py`, and '
-        'launch files may take them from there',
-    ),
+    'turtle_tf2_cpp': '`ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py` does the same, and '
+    '`ros2 pkg executables turtle_tf2_py` lists its programs',
     'demo_nodes_cpp': f'{_TALK}, and `ros2 pkg executables demo_nodes_py` lists more',
     **dict.fromkeys(
         ('lifecycle', 'lifecycle_py'),

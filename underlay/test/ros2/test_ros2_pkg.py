@@ -97,7 +97,7 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
         ('ros2 run ros_gz_sim create', 'husky_playpen.launch.py'),
         ('ros2 run teleop_twist_keyboard teleop_twist_keyboard', 'ros2 run husky_driver teleop'),
         ('ros2 run demo_nodes_cpp talker', 'ros2 run demo_nodes_py talker'),
-        ('ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py', '`learning_tf2_py`'),
+        ('ros2 launch turtle_tf2_cpp turtle_tf2_demo.launch.py', '`ros2 launch turtle_tf2_py '),
         ('ros2 run joint_state_publisher_gui joint_state_publisher_gui', '-p delta:=0.05'),
         ('ros2 run examples_rclpy_minimal_service service', 'demo_nodes_py add_two_ints_server'),
         ('ros2 run rqt_image_view rqt_image_view', 'shows what the camera sees'),
