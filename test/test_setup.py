@@ -16,6 +16,10 @@ from psutil import process_iter
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
+NO_PROC = (
+    'exec unshare --map-root-user --mount '
+    'bash -c \'mount -t tmpfs none /proc; exec "$0" exec true\' "$0"'
+)
 NOBODY = 'http://127.0.0.1:9/simple'  # an index of packages that does not answer
 
 
@@ -96,6 +100,9 @@ def test_a_folder_that_colcon_cannot_build_in_is_refused(clone: Path, char: str)
     ('before', 'said'),
     [
         ('ulimit -n 32', "a program may open only 32 files here: 'ulimit -n 256' allows more"),
+        # So few that the script itself cannot read in /proc whether SIGINT is blocked.
+        ('ulimit -n 6', "a program may open only 6 files here: 'ulimit -n 256' allows more"),
+        (NO_PROC, "/proc is not there, which programs need: 'mount -t proc"),
         ('ulimit -v 900000', "only 900 MB of addresses here, the simulator needs 1500: 'ulimit"),
         ('rmdir "$PWD"', 'is gone: cd to another'),
     ],
@@ -110,6 +117,7 @@ def test_a_terminal_in_which_no_program_can_run_is_refused(
         env=plain_environment(),
         capture_output=True,
         text=True,
+        timeout=20,
     )
     assert (done.returncode, said in done.stderr.splitlines()[-1]) == (2, True), done.stderr
 
