@@ -24,7 +24,7 @@ class Grade:
     report: dict[str, Any] | None
     text: str  # for the terminal
     refused: str = ''
-    unwritten: bool = False  # the report could not be written, which is no fault of the file
+    undone: bool = False  # for what this computer lacked, as room: no fault of the file
 
     @property
     def passed(self) -> bool:

@@ -36,4 +36,4 @@ class FileJob:
     def grade(self, outcome: Outcome) -> Grade:
         """Return an outcome as the result of the file."""
         content, refused = outcome.content, outcome.refused
-        return Grade(self.file, content, refused, refused=refused, unwritten=outcome.unwritten)
+        return Grade(self.file, content, refused, refused=refused, undone=outcome.undone)

@@ -91,7 +91,7 @@ def grade_files(options: argparse.Namespace) -> int:
         print(json.dumps(entries, indent=2))
     else:
         print(table([job.name for job in jobs], grades))
-    lost = [grade.refused for grade in grades if grade.unwritten]
+    lost = [grade.refused for grade in grades if grade.undone]
     try:
         write_csv(folder / 'grades.csv', grades)
     except OSError as error:
@@ -248,7 +248,7 @@ def _grade_labs(
         width = max((len(each.submission.id) for each in graded), default=0)
         for each in graded:
             print(each.line(width))
-    lost = [outcome.refused for outcome in outcomes if outcome.unwritten]
+    lost = [outcome.refused for outcome in outcomes if outcome.undone]
     try:
         outputs = write_outputs(folder, graded, title=rubric.title, gradebook=gradebook)
     except OSError as error:
@@ -313,11 +313,12 @@ def _places(given: Sequence[str], options: argparse.Namespace) -> list[str]:
 
 
 def _tell_lost(folder: Path, lost: Sequence[str], unsealed: str) -> bool:
-    """Say in one line what could not be written; tell whether anything could not."""
+    """Say in one line what could not be done; tell whether anything could not."""
     lost = [*lost, *([f'what was graded cannot be remembered: {unsealed}'] if unsealed else [])]
     if lost:
         more = f' (and {len(lost) - 1} more)' if len(lost) > 1 else ''
-        _tell(f'{folder}: {lost[0]}{more}; make room there, then the same command does the rest')
+        room = 'make room, on the disk or in memory, then the same command does the rest'
+        _tell(f'{folder}: {lost[0]}{more}; {room}')
     return bool(lost)
 
 

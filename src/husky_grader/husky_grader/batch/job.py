@@ -14,7 +14,7 @@ class Outcome:
 
     content: dict[str, Any] | None
     refused: str = ''
-    unwritten: bool = False  # its report could not be written, which is no fault of who handed in
+    undone: bool = False  # for what this computer lacked, as room: no fault of who handed in
     remembered: bool = False  # it was done before
 
 

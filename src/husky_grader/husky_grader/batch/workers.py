@@ -4,7 +4,8 @@
 Worker processes of this machine.
 
 One that crashes costs its job, and another takes its place. So does one that hangs, which its own
-processor time tells, however busy the machine is.
+processor time tells, however busy the machine is. The job of one that is ended from outside is
+undone.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,8 +23,12 @@ from threading import current_thread, Lock, main_thread
 from husky_runtime.parent_death import die_with_parent
 
 from husky_grader.batch.job import Job, Outcome
+from husky_grader.run.diagnosis import how_ended
 
 STALLED_CPU_SEC = 60.0
+
+_FROM_OUTSIDE = [-number for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)]
+"""Exit codes of a worker that has done nothing wrong."""
 
 _SPAWN = multiprocessing.get_context('spawn')
 _CHANGING = Lock()
@@ -81,14 +86,18 @@ class _Worker:
         try:
             process, pipe = self._living()
         except OSError as error:  # as where no more processes are allowed
-            return Outcome(None, f'the grader got no process for it: {error.strerror}')
+            why = f'the grader got no process for it: {error.strerror}'
+            return Outcome(None, why, undone=True)
         with suppress(EOFError, OSError):  # it dies while it reads or writes
             pipe.send((job, folder, stalled_cpu_sec))
             wait([pipe, process.sentinel])
             if pipe.poll():
                 outcome: Outcome = pipe.recv()
                 return outcome
-        if _end_of(process) == -signal.SIGPROF:
+        code = _end_of(process)
+        if code in _FROM_OUTSIDE:
+            return Outcome(None, f'its grading was ended by {how_ended(code)}', undone=True)
+        if code == -signal.SIGPROF:
             return Outcome(
                 None,
                 f'the grader hung: {stalled_cpu_sec:g} s of processor time without progress',
@@ -169,7 +178,7 @@ def _run(job: Job, folder: Path, stalled_cpu_sec: float) -> Outcome:
     try:
         return job.run(folder, alive)
     except OSError as error:
-        return Outcome(None, f'its report cannot be written: {error.strerror}', unwritten=True)
+        return Outcome(None, f'its report cannot be written: {error.strerror}', undone=True)
     except Exception as error:  # whatever it is, it must not stop the others
         return Outcome(None, f'{job.name}: the grader failed: {type(error).__name__}: {error}')
     finally:
