@@ -13,6 +13,7 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
+from tempfile import mkdtemp
 import time
 from typing import Any
 
@@ -338,15 +339,17 @@ def test_a_worker_that_dies_between_two_jobs_costs_none(tmp_path: Path) -> None:
 
 @dataclass(frozen=True)
 class Long(FileJob):
-    """A job that writes its process into its folder, and does not end."""
+    """A job that writes its process and a temporary folder into its folder, and does not end."""
 
     def run(self, folder: Path, _alive: Callable[[], object]) -> Outcome:
-        (folder / f'{self.name}.pid').write_text(f'{os.getpid()}\n')
+        (folder / f'{self.name}.pid').write_text(f'{os.getpid()} {mkdtemp()}\n')
         time.sleep(600.0)
         return Outcome(None)
 
 
-def test_a_second_ctrl_c_leaves_no_worker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_ctrl_c_leaves_no_worker_and_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     kill = multiprocessing.context.SpawnProcess.kill
 
     def kill_amid(process: Any) -> None:
@@ -366,7 +369,9 @@ def test_a_second_ctrl_c_leaves_no_worker(tmp_path: Path, monkeypatch: pytest.Mo
     files = [tmp_path / f'{number}.pid' for number in range(2)]
     with pytest.raises(KeyboardInterrupt):
         interrupted(files)
-    assert [file for file in files if Path('/proc', file.read_text().strip()).exists()] == []
+    told = [file.read_text().split() for file in files]
+    assert [process for process, _ in told if Path('/proc', process).exists()] == []
+    assert [folder for _, folder in told if Path(folder).exists()] == []
 
 
 def process_of(future: 'Future[Outcome]') -> int:

@@ -17,7 +17,9 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from pathlib import Path
 from queue import SimpleQueue
+import shutil
 import signal
+import tempfile
 from threading import current_thread, Lock, main_thread
 
 from husky_runtime.parent_death import die_with_parent
@@ -27,7 +29,7 @@ from husky_grader.run.diagnosis import how_ended
 
 STALLED_CPU_SEC = 60.0
 
-_FROM_OUTSIDE = [-number for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)]
+_FROM_OUTSIDE = (-signal.SIGKILL, -signal.SIGTERM, -signal.SIGINT, -signal.SIGHUP)
 """Exit codes of a worker that has done nothing wrong."""
 
 _SPAWN = multiprocessing.get_context('spawn')
@@ -40,13 +42,16 @@ def workers(
     count: int, stalled_cpu_sec: float = STALLED_CPU_SEC
 ) -> Iterator[Callable[[Job, Path], 'Future[Outcome]']]:
     """
-    Open workers that never see Ctrl-C; at the end none is left.
+    Open workers that never see Ctrl-C; at the end none is left, nor a temporary file of theirs.
 
     What it gives has a worker do a job, whose report goes to the folder.
 
     :param stalled_cpu_sec: how much processor time a job may take before it says that it is alive.
     """
-    all_workers = [_Worker() for _ in range(count)]
+    # Of multiprocessing: it starts with the first process otherwise, and unblocks SIGINT there.
+    resource_tracker.ensure_running()
+    place = tempfile.mkdtemp()
+    all_workers = [_Worker(place) for _ in range(count)]
     idle: SimpleQueue[_Worker] = SimpleQueue()
     for worker in all_workers:
         idle.put(worker)
@@ -58,8 +63,6 @@ def workers(
         finally:
             idle.put(worker)
 
-    # Of multiprocessing: it starts with the first process otherwise, and unblocks SIGINT there.
-    resource_tracker.ensure_running()
     threads = ThreadPoolExecutor(count, initializer=_block_interrupt)
     try:
         yield lambda job, folder: threads.submit(do, job, folder)
@@ -71,12 +74,18 @@ def workers(
             for worker in all_workers:
                 worker.reap()
             threads.shutdown()
+            shutil.rmtree(place, ignore_errors=True)
 
 
 class _Worker:
-    """A process that does one job after another, and the next process where it has died."""
+    """
+    A process that does one job after another, and the next process where it has died.
 
-    def __init__(self) -> None:
+    :param place: the folder for its temporary files.
+    """
+
+    def __init__(self, place: str) -> None:
+        self._place = place
         self._process: SpawnProcess | None = None
         self._pipe: Connection
         self._ended = False
@@ -124,7 +133,7 @@ class _Worker:
             if self._process is None or wait([self._process.sentinel], 0.0):
                 self._pipe, its = _SPAWN.Pipe()
                 with its:
-                    process = _SPAWN.Process(target=_serve, args=(its,), daemon=True)
+                    process = _SPAWN.Process(target=_serve, args=(its, self._place), daemon=True)
                     process.start()
                 self._process = process
             return self._process, self._pipe
@@ -159,10 +168,11 @@ def _interrupts_deferred() -> Iterator[None]:
             signal.raise_signal(signal.SIGINT)
 
 
-def _serve(pipe: Connection) -> None:
+def _serve(pipe: Connection, place: str) -> None:
     # A Python of the lab unblocks it at its start: see interrupt_while_loading in underlay.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent(signal.SIGKILL)
+    tempfile.tempdir = place
     with suppress(EOFError):  # the other end is closed
         while True:
             pipe.send(_run(*pipe.recv()))
