@@ -8,8 +8,8 @@ from collections.abc import Iterable
 import difflib
 
 
-def hint(name: str, known: Iterable[str], *, at_most: int = 12) -> str:
-    """Return a clause for an error message: near names, or all of them where they are few.
+def names(name: str, known: Iterable[str]) -> list[str]:
+    """Return up to three names that are near.
 
     Near is also what has the same last part: '/robot/cmd_vel' for '/cmd_vel'.
     """
@@ -18,7 +18,13 @@ def hint(name: str, known: Iterable[str], *, at_most: int = 12) -> str:
     if not near and '/' in name:
         last = name.rpartition('/')[2]
         near = [each for each in candidates if last and each.rpartition('/')[2] == last][:3]
-    if near:
+    return near
+
+
+def hint(name: str, known: Iterable[str], *, at_most: int = 12) -> str:
+    """Return a clause for an error message: near names, or all of them where they are few."""
+    candidates = sorted(set(known))
+    if near := names(name, candidates):
         return f'; did you mean {" or ".join(repr(n) for n in near)}?'
     if candidates and len(candidates) <= at_most:
         return f'; there is {", ".join(candidates)}'

@@ -13,7 +13,7 @@ from rtps_graph.graph import Graph, Node, Role
 from ros2_diagnosis.finding import Finding
 
 _CLOCK = '/clock'
-_COMMAND = 'a `ros2` command'
+COMMAND = 'a `ros2` command'
 # Topics of which one robot has one publisher: two would contradict each other.
 _SINGLE_PUBLISHER_ENDS = (
     'odometry/filtered',
@@ -69,7 +69,7 @@ def _competing_publishers(graph: Graph) -> Iterator[tuple[str, list[Node]]]:
 
 def shown_name(node: Node) -> str:
     is_command = node.full_name.startswith(f'/{names.COMMAND_NODE}')
-    return _COMMAND if is_command else node.full_name
+    return COMMAND if is_command else node.full_name
 
 
 def check_clock(graph: Graph) -> Iterator[Finding]:
@@ -86,7 +86,7 @@ def check_clock(graph: Graph) -> Iterator[Finding]:
 
 
 def _without_clock(name: str) -> str:
-    if name == _COMMAND:
+    if name == COMMAND:
         return 'leave out --use-sim-time'
     return f'run `ros2 param set {name} use_sim_time false`'
 

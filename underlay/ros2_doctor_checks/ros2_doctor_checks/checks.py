@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from ros2_diagnosis import connections, nodes, places, workspaces
+from ros2_diagnosis import connections, nodes, partners, places, workspaces
 from ros2_diagnosis.finding import Finding
 from ros2cli import discovery
 from ros2doctor.api import DoctorCheck, graph, Result
@@ -47,6 +47,10 @@ def _types() -> Iterable[Finding]:
     return [finding for finding in found if '/_action/' not in finding.where]
 
 
+def _partners() -> Iterable[Finding]:
+    return [*partners.check_topics(graph()), *partners.check_services(graph())]
+
+
 def _commands() -> Iterable[Finding]:
     from ros2_doctor_checks import commands  # rclpy is loaded for this check alone.
 
@@ -83,6 +87,7 @@ Names = partial(_Check, 'names', lambda: nodes.check_names(graph()))
 Publishers = partial(_Check, 'publishers', lambda: nodes.check_publishers(graph()))
 Types = partial(_Check, 'types', _types)
 QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')
+Partners = partial(_Check, 'partners', _partners)
 Clock = partial(_Check, 'clock', lambda: nodes.check_clock(graph()))
 Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))
 Commands = partial(_Check, 'commands', _commands)

@@ -1,0 +1,166 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Topics and services that only one side uses, while the other side uses another name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rtps_graph import names
+from rtps_graph.graph import Graph, Role
+
+from ros2_diagnosis import nearest
+from ros2_diagnosis.connections import SEND_GOAL
+from ros2_diagnosis.finding import Finding
+from ros2_diagnosis.nodes import COMMAND, shown_name
+
+# Types of so many uses that they tell nothing: with one of them the names must be near, too.
+_OF_ANY_USE = ('std_msgs/', 'std_srvs/', 'example_interfaces/')
+_SIMULATOR = 'husky_sim'
+_VIEW = '/husky_view'  # shows each sensor that there is
+_SHOWN = 3
+# What the simulator publishes only where it is asked to, by the end of the topic.
+_OFF_AT_FIRST = {
+    'front/scan': 'lidar_rate_hz:=10.0',
+    'lidar2d_0/scan': 'lidar_rate_hz:=10.0',
+    'camera/image_raw': 'camera_rate_hz:=5.0',
+    'camera/camera_info': 'camera_rate_hz:=5.0',
+    'camera_0/color/image': 'camera_rate_hz:=5.0',
+    'camera_0/color/camera_info': 'camera_rate_hz:=5.0',
+    'battery_state': 'battery:=true',
+    'platform/bms/state': 'battery:=true',
+}
+
+
+@dataclass(frozen=True)
+class _Use:
+    """That a node uses a topic or service, told once however often it does."""
+
+    node: str
+    name: str
+    type: str
+
+
+_Uses = tuple[_Use, ...]
+
+
+def check_topics(graph: Graph) -> Iterator[Finding]:
+    """Find publishers and subscriptions of one type that miss each other by their names.
+
+    It is no fault, but worth knowing, where the publisher is heard by others.
+    """
+    publishers = _uses(graph, Role.PUBLISHER)
+    subscriptions = _uses(graph, Role.SUBSCRIPTION)
+    heard = {each.name for each in subscriptions}
+    words = ('subscribes to', 'publishes', 'so that nothing arrives')
+    for waiting, found in _waiting(subscriptions, publishers):
+        unheard = tuple(each for each in found if each.name not in heard)
+        if found:
+            yield _apart(graph, waiting, unheard or found, words, serious=bool(unheard))
+        else:
+            yield from _sensors_that_are_off(graph, waiting)
+
+
+def check_services(graph: Graph) -> Iterator[Finding]:
+    """Find clients of services and actions that nobody offers."""
+    words = ('calls', 'offers', 'so that no call arrives')
+    for waiting, found in _waiting(_uses(graph, Role.CLIENT), _uses(graph, Role.SERVER)):
+        if found:
+            yield _apart(graph, waiting, found, words)
+            continue
+        for each in waiting:
+            yield Finding(
+                each.name,
+                f'{each.node} calls this, {each.type}, which nobody offers',
+                'start the node that offers it',
+                serious=False,
+            )
+
+
+def _uses(graph: Graph, role: Role) -> list[_Use]:
+    """List who uses what in a role; an action is what sends its goals, without the suffix."""
+    found = {
+        _Use(
+            shown_name(graph.node_of(endpoint)),
+            endpoint.name.removesuffix(SEND_GOAL),
+            endpoint.type.removesuffix('_SendGoal'),
+        )
+        for endpoint in graph.endpoints
+        if endpoint.role is role
+    }
+    return sorted(
+        (each for each in found if not names.is_hidden(each.name)),
+        key=lambda each: (each.name, each.node),
+    )
+
+
+def _waiting(uses: list[_Use], partners: list[_Use]) -> Iterator[tuple[_Uses, _Uses]]:
+    """Yield what has no partner, and what it may have been meant for.
+
+    What a node waits for in the same way for each of several robots comes together.
+    """
+    there = {each.name for each in partners}
+    together: dict[tuple[str, str, _Uses], list[_Use]] = {}
+    for each in uses:
+        if each.name not in there:
+            found = _meant(each, partners, uses)
+            together.setdefault((each.node, each.type, found), []).append(each)
+    for (_, _, found), waiting in together.items():
+        yield tuple(waiting), found
+
+
+def _meant(one: _Use, partners: list[_Use], same_side: list[_Use]) -> _Uses:
+    """Return what a use may have been meant for.
+
+    That is of the same type and another node, and this node does not use it already.
+    """
+    used = {each.name for each in same_side if each.node == one.node}
+    found = tuple(
+        each
+        for each in partners
+        if each.type == one.type and each.node != one.node and each.name not in used
+    )
+    near = nearest.names(one.name, {each.name for each in found})
+    if near or one.type.startswith(_OF_ANY_USE):
+        return tuple(each for each in found if each.name in near)
+    return found
+
+
+def _apart(
+    graph: Graph,
+    waiting: _Uses,
+    found: _Uses,
+    words: tuple[str, str, str],
+    *,
+    serious: bool = True,
+) -> Finding:
+    """Tell uses of a node from those that they may have been meant for.
+
+    :param words: what the one does, what the others do, what follows from it.
+    """
+    does, others_do, follows = words
+    others = ' and '.join(f'{each.node} {others_do} {each.name}' for each in found[:_SHOWN])
+    sizes = {shown_name(node): len(node.endpoints) for node in graph.nodes}
+    # A driver is rather to be told other names than the robot, which has more of them.
+    one, other = sorted((waiting[0], found[0]), key=lambda each: sizes.get(each.node, 0))
+    renamed = f'start {one.node} with `--ros-args -r {one.name}:={other.name}`'
+    return Finding(
+        ', '.join(each.name for each in waiting[:_SHOWN]),
+        f'{waiting[0].node} {does} this, but {others}, of one type, {waiting[0].type}, {follows}',
+        'use one name in both' if one.node == COMMAND else f'use one name in both, or {renamed}',
+        serious=serious,
+    )
+
+
+def _sensors_that_are_off(graph: Graph, waiting: _Uses) -> Iterator[Finding]:
+    if all(node.name != _SIMULATOR for node in graph.nodes) or waiting[0].node.endswith(_VIEW):
+        return
+    for each in waiting:
+        for option in (o for end, o in _OFF_AT_FIRST.items() if each.name.endswith(f'/{end}')):
+            yield Finding(
+                each.name,
+                f'{each.node} subscribes to this, but that sensor of the simulator is off',
+                f'start the simulator with `--ros-args -p {option}`, or `{option}` behind its '
+                'launch file',
+            )
