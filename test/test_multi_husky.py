@@ -4,6 +4,7 @@
 
 from functools import partial
 import math
+from pathlib import Path
 import signal
 
 from nav_msgs.msg import Odometry
@@ -12,7 +13,14 @@ from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
+from sensor_msgs.msg import LaserScan
 
+PARAMETERS = """
+/**:
+  ros__parameters:
+    real_time_factor: 3.0
+    lidar_rate_hz: 0.0
+"""
 # Of multi_husky_playpen.launch of the original, its 30 and 45 read as degrees.
 STARTS = {
     'husky_alpha': (0.0, 0.0, 0.0),
@@ -27,17 +35,26 @@ def pose(message: Odometry) -> tuple[float, float, float]:
 
 
 @pytest.mark.timeout(60)
-def test_one_of_three_huskies_is_driven_alone(processes: Processes, nodes: SpunNodes) -> None:
+def test_one_of_three_huskies_is_driven_alone(
+    processes: Processes, nodes: SpunNodes, tmp_path: Path
+) -> None:
+    parameters = tmp_path / 'parameters.yaml'
+    parameters.write_text(PARAMETERS)
     launch = processes.start(
-        *('ros2', 'launch', 'husky_sim', 'multi_husky_playpen.launch.py', 'real_time_factor:=3.0')
+        *('ros2', 'launch', 'husky_sim', 'multi_husky_playpen.launch.py'),
+        *(f'params_file:={parameters}', 'lidar_rate_hz:=5.0'),
     )
     launch.wait_for_text('obstacles')
+    launch.wait_for_text('; 3 x real time')  # of the file, for it is not given beside it
     topics = {f'/{name}/ground_truth/odom': Odometry for name in STARTS}
+    topics['/husky_beta/front/scan'] = LaserScan  # given, which counts more than the file
     listener = nodes.start(partial(Listener, topics, namespace='husky_beta'))
     for name, start in STARTS.items():
         first = listener.latest(f'/{name}/ground_truth/odom')
         assert pose(first) == pytest.approx(start, abs=0.001), name
         assert first.child_frame_id == 'base_link'
+
+    listener.latest('/husky_beta/front/scan')
 
     def pushed() -> bool:
         listener.command(0.5)

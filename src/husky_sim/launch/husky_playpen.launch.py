@@ -29,7 +29,7 @@ ARGUMENTS = (
     ('viewer_port', '8080', int, 'Port of the view; the next free one if it is taken'),
     ('viewer_names', '', str, 'More names of this machine that the view is served under'),
     ('world', PLAYPEN, str, 'World to simulate, an MJCF file'),
-    ('params_file', DEFAULTS, None, 'More parameters, as YAML'),
+    ('params_file', DEFAULTS, None, 'Parameters, as YAML; what is given beside it counts more'),
     ('robots', "['']", list[str], ROBOTS),
     ('x', '0.0', float, 'Where the robot starts in the frame world, m'),
     ('y', '0.0', float, 'Where the robot starts in the frame world, m'),
@@ -42,6 +42,8 @@ ARGUMENTS = (
     ('seed', '0', int, 'Seed of the noise; the same seed gives the same run'),
     ('battery', 'false', bool, 'true: motors with a limit of power, and a battery that runs down'),
     ('battery_charge', '1.0', float, 'How full the battery is at the start, from 0.0 to 1.0'),
+    ('lidar_rate_hz', '0.0', float, 'Rate of front/scan; 0.0: off'),
+    ('camera_rate_hz', '0.0', float, 'Rate of camera/image_raw; 0.0: off'),
     ('limit_sec', '0.0', float, 'End after so much simulated time, s; 0.0: never'),
     ('record', '', str, 'File for the record of the run, written as it goes; empty: none'),
 )
@@ -70,28 +72,48 @@ def _views(_context: LaunchContext, page: dict[str, ParameterValue]) -> list[Nod
     ]
 
 
-def generate_launch_description() -> LaunchDescription:
-    """Return the simulator and, if requested, its view in the browser."""
-    given = {
-        name: ParameterValue(LaunchConfiguration(name), value_type=kind)
-        for name, _, kind, _ in ARGUMENTS
-        if kind is not None
-    }
-    page = {name: given.pop(name) for name in ('viewer_host', 'viewer_names', 'viewer_port')}
-    return LaunchDescription(
-        [
-            *(
-                DeclareLaunchArgument(name, default_value=default, description=description)
-                for name, default, _, description in ARGUMENTS
-            ),
+class _Simulator:
+    """Starts the simulator; a default of an argument leaves what the file of parameters says."""
+
+    def __init__(self, parameters: dict[str, ParameterValue]) -> None:
+        self._parameters = parameters
+        self._given: dict[str, ParameterValue] = {}
+
+    def note_given(self, context: LaunchContext) -> None:
+        """Remember what is given; called before the defaults are set."""
+        known = context.launch_configurations
+        self._given = {name: self._parameters[name] for name in self._parameters if name in known}
+
+    def start(self, _context: LaunchContext) -> list[Node]:
+        return [
             Node(
                 package='husky_sim',
                 executable='husky_sim',
                 namespace=LaunchConfiguration('namespace'),
                 output='screen',
-                parameters=[LaunchConfiguration('params_file'), given],
+                parameters=[LaunchConfiguration('params_file'), self._given],
                 on_exit=_end_all,
+            )
+        ]
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Return the simulator and, if requested, its view in the browser."""
+    parameters = {
+        name: ParameterValue(LaunchConfiguration(name), value_type=kind)
+        for name, _, kind, _ in ARGUMENTS
+        if kind is not None
+    }
+    page = {name: parameters.pop(name) for name in ('viewer_host', 'viewer_names', 'viewer_port')}
+    simulator = _Simulator(parameters)
+    return LaunchDescription(
+        [
+            OpaqueFunction(function=simulator.note_given),
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, _, description in ARGUMENTS
             ),
+            OpaqueFunction(function=simulator.start),
             OpaqueFunction(
                 function=_views, args=[page], condition=IfCondition(LaunchConfiguration('viewer'))
             ),
