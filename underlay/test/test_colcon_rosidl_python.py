@@ -84,6 +84,7 @@ def refusal(folder: Path, name: str, text: str, dependencies: str = 'geometry_ms
         ('int8[0] a', "'int8[0]': allowed are TYPE, TYPE[], TYPE[3], TYPE[<=3], and string<=10"),
         ('int8<=3 a', "'int8<=3': allowed are TYPE"),
         ('int8[ a', "'int8[': allowed are TYPE"),
+        ('Header header', 'msg/Own.msg:1: Header alone is of ROS 1: use std_msgs/Header'),
         ('time t', 'time is of ROS 1: use builtin_interfaces/Time'),
         ('geometry_msgs/Pont p', 'Pont: geometry_msgs has no such message; it has Accel,'),
         ('nav_msgs/Path p', 'Path: of nav_msgs: add nav_msgs to DEPENDENCIES in CMakeLists.txt'),
@@ -166,6 +167,7 @@ def test_definitions_may_name_what_cmake_finds(
     ):
         (folder / name).parent.mkdir()
         (folder / name).write_text(text)
+    (folder / 'msg/Forgotten.msg').touch()
     write_cmake(
         folder,
         'rosidl_generate_interfaces(own_msgs "msg/Own.msg" "srv/Own.srv" "action/Own.action"\n'
@@ -173,8 +175,20 @@ def test_definitions_may_name_what_cmake_finds(
     )
     build(folder, folder / 'prefix', link=False)
     assert (folder / 'prefix/share/own_msgs/msg/Own.json').is_file()
-    hint = 'own_msgs: package.xml: add <depend>nav_msgs</depend>; CMakeLists.txt names it\n'
-    assert capsys.readouterr().err == hint
+    assert capsys.readouterr().err.splitlines() == [
+        'own_msgs: msg/Forgotten.msg: is not built: no rosidl_generate_interfaces of '
+        'CMakeLists.txt names it',
+        'own_msgs: package.xml: add <depend>nav_msgs</depend>; CMakeLists.txt names it',
+    ]
+
+
+def test_a_name_that_no_interfaces_can_have_is_refused(folder: Path) -> None:
+    manifest = folder / 'package.xml'
+    manifest.write_text(MANIFEST.replace('own_msgs', 'own-msgs'))
+    assert refusal(folder, 'msg/Own.msg', 'int8 a') == (
+        "package.xml: 'own-msgs' is no name of a package of interfaces: allowed are small "
+        'letters, digits and single underscores, beginning with a letter'
+    )
 
 
 @pytest.mark.parametrize(
@@ -209,6 +223,10 @@ def test_definitions_may_name_what_cmake_finds(
         ('install(FILES a', r':2: install\( has no'),
         ('set(a "b)', r":2: '\"' is not closed"),
         (')', r":2: '\)' closes nothing"),
+        (
+            'ament_package()\nrosidl_generate_interfaces(own_msgs "msg/Own.msg")',
+            r':3: rosidl_generate_interfaces\(\.\.\.\): stands behind ament_package\(\): move',
+        ),
     ],
 )
 def test_what_cannot_be_built_is_told_by_its_line(folder: Path, text: str, reason: str) -> None:

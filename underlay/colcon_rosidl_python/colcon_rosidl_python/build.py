@@ -22,10 +22,11 @@ import tempfile
 
 from ament_index_python import get_package_share_directory, PackageNotFoundError
 from catkin_pkg.package import InvalidPackage, Package, parse_package
+from rosidl_adapter.parser import is_valid_package_name
 
 from colcon_rosidl_python.cmake_commands import CMakeListsError
 from colcon_rosidl_python.cmake_package import CMakePackage, read_cmake_package
-from colcon_rosidl_python.definitions import mistakes
+from colcon_rosidl_python.definitions import mistakes, SEPARATORS
 from colcon_rosidl_python.files import install_files, install_interfaces, install_manifest
 
 GROUP = 'rosidl_interface_packages'
@@ -72,15 +73,34 @@ def build(folder: Path, prefix: Path, *, link: bool) -> None:
     """
     manifest = parse_package(folder)
     package = read_cmake_package(folder)
+    for path in _not_named(folder, package):
+        print(
+            f'{manifest.name}: {path}: is not built: no rosidl_generate_interfaces of '
+            'CMakeLists.txt names it',
+            file=sys.stderr,
+        )
     if package.interfaces:
         _build_interfaces(folder, prefix, manifest, package)
     install_files(folder, prefix, package, link=link)
     install_manifest(manifest, prefix)
 
 
+def _not_named(folder: Path, package: CMakePackage) -> Iterator[Path]:
+    """Yield the definitions where they usually are that CMakeLists.txt does not name."""
+    for suffix in SEPARATORS:
+        for path in sorted((folder / suffix[1:]).glob(f'*{suffix}')):
+            if path.relative_to(folder) not in package.interfaces:
+                yield path.relative_to(folder)
+
+
 def _build_interfaces(
     folder: Path, prefix: Path, manifest: Package, package: CMakePackage
 ) -> None:
+    if not is_valid_package_name(manifest.name):
+        raise BuildError(
+            f'package.xml: {manifest.name!r} is no name of a package of interfaces: allowed are '
+            'small letters, digits and single underscores, beginning with a letter'
+        )
     shares = _shares(manifest, package)
     known = _Known(manifest.name, package, shares)
     reasons = list(_wrong_in_manifest(manifest))

@@ -81,7 +81,11 @@ def read_cmake_package(folder: Path) -> CMakePackage:
     :raises CMakeListsError: if it asks for what cannot be done here.
     """
     package = CMakePackage()
+    complete = False  # ament_package() writes down what came before it
     for command in read_commands(folder / 'CMakeLists.txt'):
+        complete = complete or command.name == 'ament_package'
+        if complete and command.name == 'rosidl_generate_interfaces':
+            raise command.refused('stands behind ament_package(): move it before that')
         if 'BUILD_TESTING' in ' '.join(command.conditions) or command.name in _HARMLESS:
             continue
         if command.name in _COMPILED or command.arguments[:1] == ('TARGETS',):

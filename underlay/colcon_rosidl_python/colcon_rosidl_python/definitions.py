@@ -177,6 +177,8 @@ def _no_type(kind: str) -> str:
 def _check_type(kind: parser.Type, known: Known) -> None:
     if not kind.is_primitive_type():
         why = known(kind.pkg_name, kind.type)
+        if why and kind.type == 'Header' and kind.pkg_name != 'std_msgs':
+            raise ValueError('Header alone is of ROS 1: use std_msgs/Header')
         if why:
             close = get_close_matches(kind.type.lower(), NUMBERS, 1, 0.7)
             hint = f'; did you mean {close[0]}?' if close else ''
