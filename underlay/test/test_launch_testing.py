@@ -181,6 +181,24 @@ def test_pytest_names_the_failed_test_of_a_launch(
     assert 'test_good PASSED' in output
 
 
+def test_a_description_that_is_none_is_told_in_a_line(
+    run_pytest: Callable[..., tuple[int, str]],
+) -> None:
+    status, output = run_pytest(
+        test_none="""
+            import launch, pytest
+
+            @pytest.mark.launch_test
+            def generate_test_description():
+                launch.LaunchDescription([])
+        """
+    )
+    assert status == 1
+    assert 'generate_test_description has returned None: a LaunchDescription' in output
+    assert 'is a `return` missing?' in output
+    assert 'loader.py' not in output
+
+
 def test_launch_test_writes_which_tests_failed(tmp_path: Path, launch_environment: None) -> None:
     file, report = tmp_path / 'words.py', tmp_path / 'report.xml'
     file.write_text(textwrap.dedent(_UNITTEST.format(word='wrong')))

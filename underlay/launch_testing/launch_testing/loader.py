@@ -90,12 +90,16 @@ class TestRun:
         return f'[{", ".join(map(str, self.param_args.values()))}]' if self.param_args else ''
 
 
+class DescriptionError(ValueError):
+    """What generate_test_description returns cannot be launched and tested."""
+
+
 def _normalize_description(function: Callable[..., Any]) -> _Description:
     """Return a function that returns a description and a context.
 
     The ReadyToTest of the description calls ready_fn.
 
-    :raises ValueError: when called: the description has no ReadyToTest.
+    :raises DescriptionError: when called: there is no description, or it has no ReadyToTest.
     """
 
     def describe(
@@ -103,9 +107,15 @@ def _normalize_description(function: Callable[..., Any]) -> _Description:
     ) -> tuple[LaunchDescription, dict[str, Any]]:
         result = function(**kwargs)
         description, context = result if isinstance(result, tuple) else (result, {})
+        if not isinstance(description, LaunchDescription):
+            hint = '; is a `return` missing?' if description is None else ''
+            raise DescriptionError(
+                f'generate_test_description has returned {description!r}: a LaunchDescription '
+                f'with a ReadyToTest action is expected, alone or before a dictionary{hint}'
+            )
         ready = next(find_ready_to_test(description.entities), None)
         if ready is None:
-            raise ValueError(
+            raise DescriptionError(
                 'generate_test_description functions must return a LaunchDescription containing '
                 'a ReadyToTest action'
             )

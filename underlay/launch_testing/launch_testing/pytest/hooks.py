@@ -68,6 +68,10 @@ class LaunchTestItem(pytest.Item):
             raise LaunchTestFailure('some test cases have failed', results)
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        from ..loader import DescriptionError
+
+        if isinstance(excinfo.value, DescriptionError):
+            return str(excinfo.value)  # no line of the file is to blame, least of all one of ours
         if not isinstance(excinfo.value, LaunchTestFailure):
             return super().repr_failure(excinfo, style)
         from unittest import TestCase
