@@ -179,6 +179,7 @@ def test_two_nodes_of_one_name_are_warned_about(
             "'plain_nod' not found on the libexec dire",
         ),
         ("package='some_pkg', executable='plain_nod'", "is 'plain_node' meant?"),
+        ("package='some_pkg', executable='still'", 'still is not executable: `chmod +x '),
         ("package='some_pk', executable='x'", "package 'some_pk' not found, searching: ["),
         ("package='some_pk', executable='x'", "is 'some_pkg' meant?"),
         ("package='demo_nodes_cpp', executable='talker'", '`ros2 run demo_nodes_py talker`'),
@@ -219,7 +220,7 @@ def test_a_wrong_node_is_one_line_with_its_place(
     run_launch: Run,
     ros_package: Path,
 ) -> None:
-    del ros_package
+    (ros_package / 'lib/some_pkg/still').touch(0o644)
     path = python_launch_file(f'Node({arguments}),', before=BEFORE)
     launched = run_launch(path)
     assert launched.returncode == 1

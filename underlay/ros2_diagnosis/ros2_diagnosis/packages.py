@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 import re
 
-from ros2_diagnosis import nearest, package_files, PackageError, stand_ins
+from ros2_diagnosis import nearest, package_files, PackageError, programs, stand_ins
 
 LAUNCH_SUFFIXES = (
     '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
@@ -84,6 +84,8 @@ def find_executable(package: str, name: str) -> Path:
             f"Multiple executables named '{name}' in package '{package}': {choices}; "
             'call one of them by its path'
         )
+    if why := programs.why_not_executable(prefix_of(package, name) / 'lib' / package / name):
+        raise PackageError(f"No executable found: package '{package}' has '{name}', but {why}")
     source = source_of(package)
     if source is not None and _declares(source, name):
         why = package_files.why_not_run(source, package) or (

@@ -4,7 +4,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+
+NOTHING_RUNS_HERE = (
+    'lies on a disk from which nothing may be run (it is mounted noexec, as USB sticks often are)'
+)
+MOVE = 'move the workspace to your home folder, and build it there'
 
 
 def interpreter(program: Path) -> str:
@@ -23,6 +29,23 @@ def why_unrunnable(program: Path) -> str | None:
         f'its lines end as those of Windows (CRLF), so that it asks for {interpreter(program)!r} '
         "with a carriage return; run `sed -i 's/\\r$//'` on its source and build it again"
     )
+
+
+def why_not_executable(program: Path) -> str | None:
+    """Say why a file may not be executed, None where it may, or is not there."""
+    if not program.is_file() or os.access(program, os.X_OK):
+        return None
+    if nothing_runs_on(program):
+        return f'{program} {NOTHING_RUNS_HERE}: {MOVE}'
+    return (
+        f'{program} is not executable: `chmod +x {program}`, or, on a USB stick where that '
+        f'changes nothing, {MOVE}'
+    )
+
+
+def nothing_runs_on(path: Path) -> bool:
+    """Tell whether a file or folder lies on a disk from which nothing may be run."""
+    return bool(os.statvfs(path).f_flag & os.ST_NOEXEC)
 
 
 def _first_line(program: Path) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
-from ros2_diagnosis import package_files, packages, setup_py
+from ros2_diagnosis import package_files, packages, programs, setup_py
 from ros2_diagnosis.finding import Finding
 
 _SETTINGS = ('setup.py', 'setup.cfg', 'package.xml')
@@ -18,6 +18,12 @@ def check_workspaces(folder: Path) -> Iterator[Finding]:
     """Look at the workspace that a folder lies in, and at those that are sourced."""
     here = packages.workspace_of(folder)
     if here is not None:
+        if programs.nothing_runs_on(here):
+            yield Finding(
+                str(here),
+                f'{programs.NOTHING_RUNS_HERE}, so that `ros2 run` finds no program',
+                programs.MOVE,
+            )
         yield from check_built_and_sourced(here)
     for package, prefix in packages.installed().items():
         yield from check_changed(package, prefix)

@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 import pytest
+from ros2_diagnosis import programs
 
 _SHOW = '#!/bin/sh\necho "$$" "$@"\n'
 
@@ -114,6 +115,7 @@ def test_a_signal_at_the_start_of_the_program_reaches_it_once(
         (('--prefix', '"', 'demo', 'show'), 2, 'is refused: No closing quotation'),
         (('demo', 'broken'), 1, "its first line names '/no/python'"),
         (('demo', 'dos'), 1, "as those of Windows (CRLF), so that it asks for '/usr/bin/env sh' "),
+        (('demo', 'still'), 1, 'lib/demo/still is not executable: `chmod +x '),
         (('empty', 'x'), 1, "package 'empty' has none"),
     ],
 )  # fmt: skip
@@ -124,16 +126,30 @@ def test_what_cannot_run_is_explained(
     status: int,
     message: str,
 ) -> None:
-    programs = {'show': _SHOW}
+    scripts = {'show': _SHOW}
     if 'broken' in words:
-        programs['broken'] = '#!/no/python\n'
+        scripts['broken'] = '#!/no/python\n'
     if 'dos' in words:
-        programs['dos'] = '#!/usr/bin/env sh\r\necho\r\n'
-    installed_package('demo', **programs)
+        scripts['dos'] = '#!/usr/bin/env sh\r\necho\r\n'
+    if 'still' in words:
+        scripts['still'] = _SHOW
+    prefix = installed_package('demo', **scripts)
+    if 'still' in words:
+        (prefix / 'lib/demo/still').chmod(0o644)
     installed_package('empty')
     answer = ros2('run', *words)
     assert answer.status == status
     assert message in answer.err
+
+
+def test_a_disk_from_which_nothing_may_be_run_is_known() -> None:
+    options = {}
+    for line in Path('/proc/mounts').read_text().splitlines():
+        _, place, _, words, *_ = line.split()
+        options[place] = words.split(',')
+    places = {'/', '/proc', '/sys', '/dev', '/dev/shm', '/run', '/tmp'} & set(options)
+    told = {place: programs.nothing_runs_on(Path(place)) for place in places}
+    assert told == {place: 'noexec' in options[place] for place in places}
 
 
 def test_executables_of_one_name_are_all_named(

@@ -49,7 +49,9 @@ class ExecutableInPackage(FindPackagePrefix):
             return str(path)
         known = _executables(folder)
         near = difflib.get_close_matches(executable, known, 1)
-        if instead := stand_ins.hint_of_missing_part(package, executable):
+        if why := programs.why_not_executable(path):
+            hint = why
+        elif instead := stand_ins.hint_of_missing_part(package, executable):
             hint = instead
         elif not folder.is_dir():
             hint = 'the package has none (is it built? does its setup.cfg name the folder?)'
