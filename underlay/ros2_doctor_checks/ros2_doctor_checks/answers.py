@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from rcl_interfaces.srv import ListParameters
 from ros2_diagnosis import nodes
@@ -22,18 +23,35 @@ def check_answers(graph: Graph) -> Iterator[Finding]:
         name for finding in nodes.check_vendors(graph) for name in finding.where.split(', ')
     }
     names = {node.full_name for node in graph.nodes if params.has_parameters(node)} - unheard
+    for name, answer in _ask(names).items():
+        if isinstance(answer, CommandError) and not isinstance(answer, ServiceTimeout):
+            yield Finding(
+                name,
+                'answers nothing: it does not spin, or one of its callbacks does not return, as '
+                'one that waits by call(), spin...() or sleep() for what another callback does',
+                'spin it; in a callback use call_async() and a timer in the place of waiting',
+            )
+
+
+def parameter_names(graph: Graph) -> dict[str, set[str] | None]:
+    """Map the nodes to the names of their parameters; to None where these are not told."""
+    shown = [node for node in graph.nodes if not node.is_hidden]
+    answers = _ask({node.full_name for node in shown if params.has_parameters(node)})
+    told = {
+        name: set(answer.result.names)
+        for name, answer in answers.items()
+        if not isinstance(answer, Exception)
+    }
+    return {node.full_name: told.get(node.full_name) for node in shown}
+
+
+def _ask(names: set[str]) -> dict[str, Any]:
+    """Map each node to its answer, or to why there is none."""
     if not names:
-        return
+        return {}
     request = ListParameters.Request()
     with command_node() as node:
         answers = calls.call_all(
             node, ListParameters, {f'{name}/list_parameters': request for name in sorted(names)}
         )
-    for service, answer in answers.items():
-        if isinstance(answer, CommandError) and not isinstance(answer, ServiceTimeout):
-            yield Finding(
-                service.removesuffix('/list_parameters'),
-                'answers nothing: it does not spin, or one of its callbacks does not return, as '
-                'one that waits by call(), spin...() or sleep() for what another callback does',
-                'spin it; in a callback use call_async() and a timer in the place of waiting',
-            )
+    return {name.removesuffix('/list_parameters'): each for name, each in answers.items()}

@@ -63,6 +63,12 @@ def _answers() -> Iterable[Finding]:
     return answers.check_answers(graph())
 
 
+def _parameters() -> Iterable[Finding]:
+    from ros2_doctor_checks import parameters
+
+    return parameters.check_parameters(graph(), discovery.settings_from_environment().domain_id)
+
+
 # What the entry points name: called, each makes its check.
 Environment = partial(
     _Check,
@@ -92,3 +98,4 @@ Clock = partial(_Check, 'clock', lambda: nodes.check_clock(graph()))
 Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))
 Commands = partial(_Check, 'commands', _commands)
 Answers = partial(_Check, 'answers', _answers)
+Parameters = partial(_Check, 'parameters', _parameters)

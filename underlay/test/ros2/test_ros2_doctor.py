@@ -16,7 +16,7 @@ from husky_runtime.domains import OwnDomain
 from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
-from ros2_diagnosis import nodes, partners
+from ros2_diagnosis import nodes
 from ros2doctor import api
 from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
 
@@ -36,7 +36,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 15 checks passed' in answer.lines
+    assert 'All 16 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -96,90 +96,39 @@ def test_two_names_for_one_service(processes: Any, ros2: Callable[..., Any]) -> 
     assert line.endswith('use one name in both')
 
 
-_USUAL = Qos(True, False, None, None, False, None)
-
-
-def _graph(**nodes_by_name: list[tuple[Role, str, str]]) -> Graph:
-    made = [
-        Node(
-            name,
-            '/',
-            [
-                Endpoint(f'{name}{at}'.encode(), role, topic, kind, '', _USUAL)
-                for at, (role, topic, kind) in enumerate(uses)
-            ],
-        )
-        for name, uses in nodes_by_name.items()
-    ]
-    return Graph(made, [endpoint for node in made for endpoint in node.endpoints])
-
-
-def test_partners_that_nobody_misses_are_not_told_of() -> None:
-    twist, text, scan = (
-        'geometry_msgs/msg/Twist',
-        'std_msgs/msg/String',
-        'sensor_msgs/msg/LaserScan',
-    )
-    assert not [
-        *partners.check_topics(
-            _graph(
-                husky_sim=[
-                    (Role.SUBSCRIPTION, '/a/cmd_vel', twist),
-                    (Role.SUBSCRIPTION, '/b/cmd_vel', twist),
-                    (Role.PUBLISHER, '/a/cmd_vel_out', twist),
-                    (Role.SUBSCRIPTION, '/note', text),
-                ],
-                driver=[(Role.PUBLISHER, '/a/cmd_vel', twist), (Role.PUBLISHER, '/x', text)],
-                husky_view=[(Role.SUBSCRIPTION, '/front/scan', scan)],
-            )
-        )
-    ]
-
-
-def test_what_several_robots_wait_for_is_one_line() -> None:
-    twist = 'geometry_msgs/msg/Twist'
-    waits = [(Role.SUBSCRIPTION, f'/{name}/cmd_vel', twist) for name in 'abcd']
-    (found,) = partners.check_topics(
-        _graph(husky_sim=waits, driver=[(Role.PUBLISHER, '/cmd_vel', twist)])
-    )
-    assert str(found).startswith('/a/cmd_vel, /b/cmd_vel, /c/cmd_vel: /husky_sim subscribes to')
-    assert str(found).endswith('start /driver with `--ros-args -r /cmd_vel:=/a/cmd_vel`')
-
-
-def test_a_name_that_others_hear_is_only_noted() -> None:
-    scan = 'sensor_msgs/msg/LaserScan'
-    (found,) = partners.check_topics(
-        _graph(
-            husky_sim=[(Role.PUBLISHER, '/front/scan', scan)],
-            view=[(Role.SUBSCRIPTION, '/front/scan', scan)],
-            follower=[(Role.SUBSCRIPTION, '/scan', scan)],
-        )
-    )
-    assert not found.serious
-    assert '/follower subscribes to this, but /husky_sim publishes /front/scan' in str(found)
-
-
-def test_a_sensor_that_is_off_is_named_with_what_turns_it_on() -> None:
-    scan = 'sensor_msgs/msg/LaserScan'
-    (found,) = partners.check_topics(
-        _graph(husky_sim=[], follower=[(Role.SUBSCRIPTION, '/front/scan', scan)])
-    )
-    assert str(found).startswith('/front/scan: /follower subscribes to this, but that sensor of')
-    assert '`--ros-args -p lidar_rate_hz:=10.0`' in str(found)
-
-
-def test_a_service_that_nobody_offers_is_noted() -> None:
-    client = (Role.CLIENT, '/count/_action/send_goal', 'my_msgs/action/Count_SendGoal')
-    (found,) = partners.check_services(_graph(asks=[client]))
-    assert not found.serious
-    assert str(found).startswith('/count: /asks calls this, my_msgs/action/Count, which nobody')
-
-
 def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('plain', 'waits', '--ros-args', '-p', 'use_sim_time:=true')
     line = _line(ros2('wtf'), 'clock')
     assert '/waits: use_sim_time is true, but nobody publishes /clock' in line
     assert '`ros2 param set /waits use_sim_time false`' in line
+
+
+def test_parameters_that_set_nothing(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    file = tmp_path / 'parameters.yaml'
+    file.write_text(
+        '/**: {ros__parameters: {command_timeout_sec: 0.5, use_sim_time: false, deep: {er: 1}}}\n'
+        'robots: {husk: {ros__parameters: {a: 1, b: 2}}}\n'
+    )
+    processes.node(
+        *('robot', 'husky', '--ros-args', '-p', 'command_timeot_sec:=1.0'),
+        *('-p', 'husky:command_timeout_sec:=1.0', '--params-file', str(file)),
+    )
+    answer = ros2('doctor')
+    found = [line for line in answer.lines if ' (parameters): ' in line]
+    assert found == [
+        f'problem (parameters): nodes.py --params-file {file}: deep.er sets nothing: no node that '
+        "it is for has such a parameter; call declare_parameter('deep.er', ...) in the node, or "
+        'mend the name',
+        'problem (parameters): nodes.py -p command_timeot_sec:=1.0: command_timeot_sec sets '
+        'nothing: no node that it is for has such a parameter; call '
+        "declare_parameter('command_timeot_sec', ...) in the node, or mend the name; did you mean "
+        "'command_timeout_sec'?",
+        f'note (parameters): nodes.py --params-file {file}: what it gives to /robots/husk sets '
+        "nothing, because no such node runs; name one that does, or '/**' for all; there is "
+        '/husky',
+    ], answer
 
 
 def test_a_command_that_waits_for_the_clock_is_told_its_option() -> None:

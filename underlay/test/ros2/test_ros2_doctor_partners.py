@@ -1,0 +1,86 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What misses its partner in a graph by its name, and what only seems to."""
+
+from __future__ import annotations
+
+from ros2_diagnosis import partners
+from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
+
+_USUAL = Qos(True, False, None, None, False, None)
+
+
+def _graph(**nodes_by_name: list[tuple[Role, str, str]]) -> Graph:
+    made = [
+        Node(
+            name,
+            '/',
+            [
+                Endpoint(f'{name}{at}'.encode(), role, topic, kind, '', _USUAL)
+                for at, (role, topic, kind) in enumerate(uses)
+            ],
+        )
+        for name, uses in nodes_by_name.items()
+    ]
+    return Graph(made, [endpoint for node in made for endpoint in node.endpoints])
+
+
+def test_partners_that_nobody_misses_are_not_told_of() -> None:
+    twist, text, scan = (
+        'geometry_msgs/msg/Twist',
+        'std_msgs/msg/String',
+        'sensor_msgs/msg/LaserScan',
+    )
+    assert not [
+        *partners.check_topics(
+            _graph(
+                husky_sim=[
+                    (Role.SUBSCRIPTION, '/a/cmd_vel', twist),
+                    (Role.SUBSCRIPTION, '/b/cmd_vel', twist),
+                    (Role.PUBLISHER, '/a/cmd_vel_out', twist),
+                    (Role.SUBSCRIPTION, '/note', text),
+                ],
+                driver=[(Role.PUBLISHER, '/a/cmd_vel', twist), (Role.PUBLISHER, '/x', text)],
+                husky_view=[(Role.SUBSCRIPTION, '/front/scan', scan)],
+            )
+        )
+    ]
+
+
+def test_what_several_robots_wait_for_is_one_line() -> None:
+    twist = 'geometry_msgs/msg/Twist'
+    waits = [(Role.SUBSCRIPTION, f'/{name}/cmd_vel', twist) for name in 'abcd']
+    (found,) = partners.check_topics(
+        _graph(husky_sim=waits, driver=[(Role.PUBLISHER, '/cmd_vel', twist)])
+    )
+    assert str(found).startswith('/a/cmd_vel, /b/cmd_vel, /c/cmd_vel: /husky_sim subscribes to')
+    assert str(found).endswith('start /driver with `--ros-args -r /cmd_vel:=/a/cmd_vel`')
+
+
+def test_a_name_that_others_hear_is_only_noted() -> None:
+    scan = 'sensor_msgs/msg/LaserScan'
+    (found,) = partners.check_topics(
+        _graph(
+            husky_sim=[(Role.PUBLISHER, '/front/scan', scan)],
+            view=[(Role.SUBSCRIPTION, '/front/scan', scan)],
+            follower=[(Role.SUBSCRIPTION, '/scan', scan)],
+        )
+    )
+    assert not found.serious
+    assert '/follower subscribes to this, but /husky_sim publishes /front/scan' in str(found)
+
+
+def test_a_sensor_that_is_off_is_named_with_what_turns_it_on() -> None:
+    scan = 'sensor_msgs/msg/LaserScan'
+    (found,) = partners.check_topics(
+        _graph(husky_sim=[], follower=[(Role.SUBSCRIPTION, '/front/scan', scan)])
+    )
+    assert str(found).startswith('/front/scan: /follower subscribes to this, but that sensor of')
+    assert '`--ros-args -p lidar_rate_hz:=10.0`' in str(found)
+
+
+def test_a_service_that_nobody_offers_is_noted() -> None:
+    client = (Role.CLIENT, '/count/_action/send_goal', 'my_msgs/action/Count_SendGoal')
+    (found,) = partners.check_services(_graph(asks=[client]))
+    assert not found.serious
+    assert str(found).startswith('/count: /asks calls this, my_msgs/action/Count, which nobody')
