@@ -100,6 +100,15 @@ def test_a_goal_that_takes_too_long_is_canceled(processes: Any, ros2: Any) -> No
     assert answer.status == 1
 
 
+def test_a_server_that_ends_before_its_goal_is_told(processes: Any) -> None:
+    server = processes.node('count', 'server')
+    client = processes.ros2(*GOAL, ready='Goal accepted')
+    server.send_signal(signal.SIGINT)
+    find_line(client.stdout, '^hint: /count: its server has ended, so that no result comes')
+    client.send_signal(signal.SIGINT)
+    assert 'Failed to cancel goal: the server does not answer' in _rest(client)
+
+
 def test_a_goal_for_a_name_that_nobody_has_gets_a_hint(processes: Any) -> None:
     processes.node('count', 'server')
     hint = "hint: nobody offers '/cont'; did you mean '/count'?"

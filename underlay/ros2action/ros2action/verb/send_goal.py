@@ -79,7 +79,7 @@ def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Nam
     print(f'Sending goal:\n     {message_to_yaml(goal)}')
     sending = client.send_goal_async(goal, _print_feedback if args.feedback else None)
     try:
-        done = _follow(node, sending, args)
+        done = _follow(node, client, sending, args)
     except KeyboardInterrupt:
         _cancel(node, sending)
         raise
@@ -100,7 +100,9 @@ def _is_offered(
     return node.spin_until(client.server_is_ready, left_sec)
 
 
-def _follow(node: CommandNode, sending: Any, args: argparse.Namespace) -> bool:
+def _follow(
+    node: CommandNode, client: ActionClient, sending: Any, args: argparse.Namespace
+) -> bool:
     """Print the goal's way to its end; False where the time is over before."""
     action = topics.checked_name(args.action_name)
     node.spin_until_answered(sending, f'{action}{SEND_GOAL}')
@@ -110,10 +112,28 @@ def _follow(node: CommandNode, sending: Any, args: argparse.Namespace) -> bool:
         return True
     print(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
     getting = handle.get_result_async()
-    if not node.spin_until(getting.done, args.timeout):
-        return False
+    end = None if args.timeout is None else time.monotonic() + args.timeout
+    node.spin_until(lambda: getting.done() or not client.server_is_ready(), args.timeout)
+    # A server may end just after its result, which is on its way then.
+    if not node.spin_until(getting.done, _left(end, at_most=_SOON_SEC)):
+        if not client.server_is_ready():
+            print(
+                f'hint: {action}: its server has ended, so that no result '
+                'comes; Ctrl-C ends the waiting',
+                file=sys.stderr,
+            )
+        if not node.spin_until(getting.done, _left(end)):
+            return False
     _print_result(getting.result())
     return True
+
+
+def _left(end: float | None, *, at_most: float | None = None) -> float | None:
+    """Return the time until an end, None where there is none."""
+    if end is None:
+        return at_most
+    left_sec = max(0.0, end - time.monotonic())
+    return left_sec if at_most is None else min(left_sec, at_most)
 
 
 def _cancel(node: CommandNode, sending: Any) -> None:
