@@ -42,10 +42,11 @@ def test_one_of_three_huskies_is_driven_alone(
     parameters.write_text(PARAMETERS)
     launch = processes.start(
         *('ros2', 'launch', 'husky_sim', 'multi_husky_playpen.launch.py'),
-        *(f'params_file:={parameters}', 'lidar_rate_hz:=5.0'),
+        *(f'params_file:={parameters}', 'lidar_rate_hz:=5.0', 'x:=1.5'),
     )
     launch.wait_for_text('obstacles')
     launch.wait_for_text('; 3 x real time')  # of the file, for it is not given beside it
+    assert 'x=1.5 changes nothing, because robots say where they start' in launch.output
     topics = {f'/{name}/ground_truth/odom': Odometry for name in STARTS}
     topics['/husky_beta/front/scan'] = LaserScan  # given, which counts more than the file
     listener = nodes.start(partial(Listener, topics, namespace='husky_beta'))

@@ -125,12 +125,20 @@ def test_a_world_and_a_record_are_named_by_absolute_paths(
     assert list(here.iterdir()) == [world], 'no folder is called ~'
 
 
-def test_an_empty_list_of_robots_is_one_robot(domain_id: int) -> None:
+def test_no_robots_are_one_and_what_counts_for_nothing_is_told(domain_id: int) -> None:
     del domain_id
-    process = run_process('-p', 'robots:=[]')
+    process = run_process(
+        *('-p', 'robots:=[]', '-p', 'yaw:=90.0', '-p', 'seed:=2', '-p', 'battery_charge:=0.5')
+    )
     assert process.stderr is not None
     try:
-        find_line(process.stderr, '34 obstacles, husky; 1 x real time')
+        for said in (
+            'battery_charge=0.5 changes nothing without battery:=true',
+            'seed=2 changes nothing without noise:=true or realistic:=true',
+            r'yaw=90\.0 is taken for radians, more than a turn; 90 degrees are 1\.5708',
+            '34 obstacles, husky; 1 x real time',
+        ):
+            find_line(process.stderr, said)
     finally:
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20.0)

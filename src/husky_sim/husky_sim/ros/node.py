@@ -29,6 +29,7 @@ from husky_sim.ros.interference import Interference, InterferenceWatch
 from husky_sim.ros.pace import FreePace, Lockstep, Pace, Periods
 from husky_sim.ros.parameters import (
     FACTOR,
+    passed_over,
     read_factor,
     read_run,
     read_simulation,
@@ -70,6 +71,8 @@ class SimulatorNode(SettingsNode):
         super().__init__('husky_sim', **arguments)
         self._run = read_run(self)
         config = read_simulation(self, self._run)
+        for hint in passed_over(self, config) if trial is None else ():
+            self.get_logger().warning(hint)
         self.simulation = Simulation(config, visual=config.sensors.see)
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         self.over: Future[None] = Future()

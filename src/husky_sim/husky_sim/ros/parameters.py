@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator's settings as ROS parameters."""
 
+from collections.abc import Iterator
 from dataclasses import replace
+import math
 from typing import Any
 
 from husky_course.robot import RobotStart
@@ -96,6 +98,25 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
         body=body,
         power=power,
     )
+
+
+def passed_over(node: Node, config: SimulationConfig) -> Iterator[str]:
+    """Yield what is given and changes nothing, or is hardly meant so."""
+    power, sensors = config.power, config.sensors
+    if not power.battery and power.battery_charge != PowerConfig().battery_charge:
+        yield f'battery_charge={power.battery_charge} changes nothing without battery:=true'
+    if not config.has_noise and sensors.seed != SensorConfig().seed:
+        yield f'seed={sensors.seed} changes nothing without noise:=true or realistic:=true'
+    if config.robots[0].name != RobotStart().name:
+        for name in names_of(StartConfig):
+            if value := node.get_parameter(name).value:
+                yield f'{name}={value} changes nothing, because robots say where they start'
+    for robot in config.robots:
+        if abs(robot.yaw) > 2.0 * math.pi:
+            yield (
+                f'{robot.name}: yaw={robot.yaw} is taken for radians, more than a turn; '
+                f'{robot.yaw:g} degrees are {math.radians(robot.yaw):.4f}'
+            )
 
 
 def read_factor(given: Any) -> float:
