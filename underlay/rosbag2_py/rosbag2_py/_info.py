@@ -8,9 +8,9 @@ from pathlib import Path
 
 from rosbag2_py import bag_files
 from rosbag2_py._metadata import BagMetadata
-from rosbag2_py._metadata_io import MetadataIo
-from rosbag2_py.errors import BagError
-from rosbag2_py.storages import storage_of
+from rosbag2_py._options import StorageOptions
+from rosbag2_py.info_text import describe, services_of
+from rosbag2_py.service_calls import count
 
 
 class Info:
@@ -22,19 +22,14 @@ class Info:
 
         :raises BagError: there is no bag, or it is stored in another way.
         """
-        return read_metadata(Path(uri), storage_id)
+        return bag_files.read_metadata(Path(uri), storage_id)
 
     def read_metadata_and_output_service_verbose(self, uri: str, storage_id: str, /) -> None:
-        raise BagError(
-            f'Requests and responses of services are not counted here; `ros2 bag info {uri}` '
-            'counts their messages'
-        )
+        """
+        Print what a bag holds, and of its services how many requests and responses.
 
-
-def read_metadata(path: Path, storage_id: str) -> BagMetadata:
-    if storage_id:
-        storage_of(storage_id)
-    metadata_io = MetadataIo()
-    if metadata_io.metadata_file_exists(str(path)):
-        return metadata_io.read_metadata(str(path))
-    return bag_files.describe(path, storage_id)
+        :raises BagError: it cannot be read, or holds something else than events there.
+        """
+        bag = self.read_metadata(uri, storage_id)
+        options = StorageOptions(uri, storage_id)
+        print(describe(bag, count(options, services_of(bag))))

@@ -181,6 +181,6 @@ class BagMetadata(_Begun):
         self._duration_ns = nanoseconds(value)
 
     def __repr__(self) -> str:
-        from rosbag2_py._info_text import describe
+        from rosbag2_py.info_text import describe
 
         return describe(self)

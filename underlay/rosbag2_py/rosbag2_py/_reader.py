@@ -11,7 +11,6 @@ import weakref
 
 from rosbag2_py import bag_files
 from rosbag2_py._fields import check_kind, nanoseconds_of
-from rosbag2_py._info import read_metadata
 from rosbag2_py._log import warn
 from rosbag2_py._metadata import BagMetadata, MessageDefinition, TopicMetadata
 from rosbag2_py._options import (
@@ -61,7 +60,7 @@ class SequentialReader:
         check_kind(converter_options, ConverterOptions)
         path = Path(storage_options.uri)
         storage, files = bag_files.find(path, storage_options.storage_id)
-        metadata = read_metadata(path, storage.id)
+        metadata = bag_files.read_metadata(path, storage.id)
         if metadata.compression_mode.lower() == 'message':
             raise BagError(
                 f"'{path}' has messages that are compressed one by one, which are not read here: "

@@ -51,6 +51,20 @@ def find(path: Path, storage_id: str = '') -> Files:
     return files
 
 
+def read_metadata(path: Path, storage_id: str = '') -> BagMetadata:
+    """
+    Read the metadata.yaml of a bag, or the files themselves where there is none.
+
+    :raises BagError: there is no bag, or it is stored in another way.
+    """
+    if storage_id:
+        storage_of(storage_id)
+    metadata_io = MetadataIo()
+    if metadata_io.metadata_file_exists(str(path)):
+        return metadata_io.read_metadata(str(path))
+    return describe(path, storage_id)
+
+
 def describe(path: Path, storage_id: str = '') -> BagMetadata:
     """
     Tell what a bag holds from its files alone, whatever its metadata.yaml says.

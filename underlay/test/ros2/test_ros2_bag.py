@@ -18,14 +18,19 @@ from typing import Any
 
 from mcap.reader import make_reader
 from mcap.writer import Writer
+from playpen_testing.bags import opened_writer, string
 from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 import pytest
-from rclpy.serialization import deserialize_message
-from rosbag2_py import bag_files, SequentialReader
+from rclpy.serialization import deserialize_message, serialize_message
+from rosbag2_py import bag_files, Info, SequentialReader, TopicMetadata
 from rosbag2_py.errors import BagError
+from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
+from std_srvs.srv import SetBool
 import yaml
+
+CHATTER, FLIPS = '/chatter', '/flip/_service_event'
 
 
 def _record(processes: Any, folder: Path, *words: str, until: str) -> str:
@@ -241,6 +246,50 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
                 refused += 1
                 assert 'cannot be read as MCAP' in str(error)
     assert refused > 10
+
+
+def test_requests_and_responses_are_counted(tmp_path: Path) -> None:
+    folder = tmp_path / 'calls'
+    with closing(opened_writer(folder)) as writer:
+        writer.create_topic(TopicMetadata(0, CHATTER, 'std_msgs/msg/String', 'cdr'))
+        writer.create_topic(TopicMetadata(0, FLIPS, 'std_srvs/srv/SetBool_Event', 'cdr'))
+        # Both sides name the clients alike, as over Cyclone DDS; the fourth call is not answered.
+        for client, number in ((1, 1), (1, 2), (2, 1), (2, 3)):
+            kinds = (ServiceEventInfo.REQUEST_SENT,) if number == 3 else range(4)
+            for kind in kinds:
+                event = SetBool.Event()
+                event.info.event_type = kind
+                event.info.client_gid = [client] * 16
+                event.info.sequence_number = number
+                writer.write(FLIPS, serialize_message(event), number)
+        writer.write(CHATTER, string(1), 5)
+    with closing(opened_writer(tmp_path / 'broken')) as writer:
+        writer.create_topic(TopicMetadata(0, FLIPS, 'std_srvs/srv/SetBool_Event', 'cdr'))
+        writer.write(FLIPS, b'no event', 0)
+    calls = [
+        *((str(folder), '--verbose'), (str(folder), '-t'), (str(folder), '-t', '-v')),
+        (str(tmp_path / 'broken'), '-v'),
+    ]
+    verbose, names, both, broken = run_forked(
+        *(('ros2cli.cli', 'bag', 'info', *words) for words in calls), preload=('rosbag2_py',)
+    )
+    line = (
+        'Service information: Service: /flip | Type: std_srvs/srv/SetBool | Request Count: 4 | '
+        'Response Count: 3 | Serialization Format: cdr\n'
+    )
+    assert f'\nMessages:          1\nTopic information: Topic: {CHATTER} | ' in verbose.out
+    assert f'\nService:           1\n{line}' in verbose.out
+    assert names.out == f'{CHATTER}\n'
+    assert both.out == verbose.out
+    assert both.err == 'hint: with --verbose, --topic-name is ignored\n'
+    assert broken.status == 1
+    assert broken.err == f"'{FLIPS}' holds 8 bytes that are no event of a service\n"
+
+
+def test_the_class_counts_them_as_well(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    opened_writer(tmp_path / 'empty').close()
+    Info().read_metadata_and_output_service_verbose(str(tmp_path / 'empty'), '')
+    assert 'Service:           0\nService information: \n' in capsys.readouterr().out
 
 
 def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: Path) -> None:

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
 from ros2cli import arguments
 from ros2cli.verb import VerbExtension
-from rosbag2_py import bag_files
+from rosbag2_py import bag_files, info_text, service_calls, StorageOptions
 
 from ros2bag.bag_argument import add_bag_argument
 from ros2bag.refusals import refused_in_one_line
@@ -25,7 +26,13 @@ class InfoVerb(VerbExtension):
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         add_bag_argument(parser)
-        arguments.add_flags(parser, {'-t --topic-name': 'Only display topic names.'})
+        arguments.add_flags(
+            parser,
+            {
+                '-t --topic-name': 'Only display topic names.',
+                '-v --verbose': 'Count the requests and responses of services.',
+            },
+        )
         parser.add_argument(
             '--sort',
             choices=list(_KEYS),
@@ -37,9 +44,16 @@ class InfoVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> None:
         bag = bag_files.describe(args.bag_path, args.storage)
         topics = sorted(bag.topics_with_message_count, key=_KEYS[args.sort])
-        if args.topic_name:
+        if args.topic_name and args.verbose:
+            print('hint: with --verbose, --topic-name is ignored', file=sys.stderr)
+        elif args.topic_name:
             for topic in topics:
-                print(topic.topic_metadata.name)
+                if not info_text.is_service(topic):
+                    print(topic.topic_metadata.name)
             return
         bag.topics_with_message_count = topics
-        print(bag)
+        calls = None
+        if args.verbose:
+            options = StorageOptions(str(args.bag_path), args.storage)
+            calls = service_calls.count(options, info_text.services_of(bag))
+        print(info_text.describe(bag, calls))

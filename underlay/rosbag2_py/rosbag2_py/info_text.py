@@ -6,17 +6,28 @@ from __future__ import annotations
 
 from datetime import datetime
 import math
+from typing import TYPE_CHECKING
 
 from rosbag2_py._metadata import BagMetadata, TopicInformation
+
+if TYPE_CHECKING:
+    from rosbag2_py.service_calls import Calls
 
 _INDENT = '\n' + ' ' * 19
 _EVENTS = '/_service_event'
 
 
-def describe(bag: BagMetadata) -> str:
+def describe(bag: BagMetadata, calls: list[Calls] | None = None) -> str:
+    """Describe a bag; with the calls of its services in the place of their events."""
     start_ns, duration_ns = bag._starting_time_ns, bag._duration_ns
-    services = [each for each in bag.topics_with_message_count if _is_service(each)]
-    topics = [each for each in bag.topics_with_message_count if not _is_service(each)]
+    services = services_of(bag)
+    topics = [each for each in bag.topics_with_message_count if not is_service(each)]
+    counts = [f'Event Count: {each.message_count}' for each in services]
+    if calls is not None:
+        counts = [
+            f'Request Count: {len(each.requests)} | Response Count: {len(each.responses)}'
+            for each in calls
+        ]
     messages = bag.message_count - sum(each.message_count for each in services)
     return (
         f'\nFiles:             {_INDENT.join(bag.relative_file_paths)}\n'
@@ -29,11 +40,16 @@ def describe(bag: BagMetadata) -> str:
         f'Messages:          {messages}\n'
         f'Topic information: {_INDENT.join(map(_topic, topics))}\n'
         f'Service:           {len(services)}\n'
-        f'Service information: {f"{_INDENT}  ".join(map(_service, services))}\n'
+        f'Service information: {f"{_INDENT}  ".join(map(_service, services, counts))}\n'
     )
 
 
-def _is_service(each: TopicInformation) -> bool:
+def services_of(bag: BagMetadata) -> list[TopicInformation]:
+    return [each for each in bag.topics_with_message_count if is_service(each)]
+
+
+def is_service(each: TopicInformation) -> bool:
+    """Return whether it is the topic of the events of a service."""
     topic = each.topic_metadata
     return topic.name.endswith(_EVENTS) and topic.type.endswith('_Event')
 
@@ -46,12 +62,11 @@ def _topic(each: TopicInformation) -> str:
     )
 
 
-def _service(each: TopicInformation) -> str:
+def _service(each: TopicInformation, count: str) -> str:
     topic = each.topic_metadata
     return (
         f'Service: {topic.name.removesuffix(_EVENTS)} | Type: {topic.type.removesuffix("_Event")} '
-        f'| Event Count: {each.message_count} | '
-        f'Serialization Format: {topic.serialization_format}'
+        f'| {count} | Serialization Format: {topic.serialization_format}'
     )
 
 
