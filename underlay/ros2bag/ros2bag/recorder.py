@@ -29,8 +29,18 @@ class Recorder:
         overrides: dict[str, QoSProfile],
         *,
         is_paused: bool = False,
+        include_unpublished: bool = False,
+        ignore_leaves: bool = False,
     ) -> None:
+        """
+        Subscribe to nothing yet.
+
+        :param include_unpublished: also to topics that are only subscribed to.
+        :param ignore_leaves: not to topics before somebody else subscribes to them.
+        """
         self.is_paused = is_paused  # what comes meanwhile is not written
+        self._include_unpublished = include_unpublished
+        self._ignore_leaves = ignore_leaves
         self._node = node
         self._writer = writer
         self._selection = selection
@@ -64,29 +74,34 @@ class Recorder:
             if name in self._seen or not self._wants(name, types[0]):
                 continue
             publishers = graph.with_role(Role.PUBLISHER, name)
-            if not publishers:
+            if not (publishers or self._include_unpublished):
+                continue
+            subscriptions = graph.with_role(Role.SUBSCRIPTION, name)
+            if self._ignore_leaves and not subscriptions:
                 continue
             self._seen.add(name)
             if len(types) > 1:
                 self._log(f"Topic '{name}' has several types and is left out: {types}")
                 continue
-            self._subscribe(name, types[0], publishers)
+            type_hash = (publishers or subscriptions)[0].type_hash
+            self._subscribe(name, types[0], type_hash, publishers)
 
     def _wants(self, name: str, type_name: str) -> bool:
         # Who names a hidden topic need not ask for all of them.
         is_named = name in self._selection.topics
         return self._selection.wants(name, type_name, also_hidden=is_named)
 
-    def _subscribe(self, name: str, type_name: str, publishers: list[Endpoint]) -> None:
+    def _subscribe(
+        self, name: str, type_name: str, type_hash: str, publishers: list[Endpoint]
+    ) -> None:
         try:
             message_class = interfaces.message(type_name)
         except CommandError as error:
             self._log(f"Topic '{name}' is left out: {error}")
             return
         reliable = all(p.qos.reliable for p in publishers)
-        transient_local = all(p.qos.transient_local for p in publishers)
+        transient_local = bool(publishers) and all(p.qos.transient_local for p in publishers)
         offered = offered_qos(reliable=reliable, transient_local=transient_local)
-        type_hash = publishers[0].type_hash
         self._writer.add_topic(TopicMetadata(0, name, type_name, 'cdr', [offered], type_hash))
         qos = QoSProfile(depth=DEFAULT_DEPTH)
         if not reliable:

@@ -261,8 +261,8 @@ def test_play_ends_where_it_should(
     bag = write_bag({'/chatter': STRING})
     words = (*words, '--read-ahead-queue-size', '1', '--disable-keyboard-controls')
     words = (*words, *full_at_the_end(tmp_path, {'/chatter': len(expected) or 1}))
-    played = ros2('bag', 'play', str(bag), *words)
-    assert (played.status, played.err.count('\n')) == (0, 1)
+    played = ros2('bag', 'play', str(bag), *words, '--log-level', 'warn')
+    assert (played.status, played.err) == (0, '')
     wait_until(
         lambda: len(heard) >= len(expected), timeout_sec=10.0, what=lambda: f'more than {heard}'
     )

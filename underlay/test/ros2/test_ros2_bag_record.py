@@ -108,6 +108,27 @@ def test_what_is_chosen_is_recorded(
     assert recording.end() & {CHATTER, FLIPS, SUMS} == expected
 
 
+def test_it_counts_who_else_uses_a_topic(graph: Any, shared_domain: int, tmp_path: Path) -> None:
+    with SpunNodes(shared_domain) as nodes:
+        node = nodes.start(Node, 'student')
+        node.create_subscription(String, '/wanted', lambda _: None, 10)
+
+        def is_heard_by_tape() -> bool:
+            found = node.get_subscriptions_info_by_topic('/wanted')
+            return 'tape' in {each.node_name for each in found}
+
+        words = ('--include-unpublished-topics', '--node-name', 'tape', '-f', 'cdr')
+        recording = Recording(graph, tmp_path / 'unpublished', '--all-topics', *words)
+        wait_until(is_heard_by_tape, timeout_sec=10.0, what='a subscription of the recorder')
+        publisher = node.create_publisher(String, '/wanted', 10)
+        node.create_timer(0.05, lambda: publisher.publish(String(data='here')))
+        recording.wait_for('/wanted', CHATTER)
+        recording.end()
+        recording = Recording(graph, tmp_path / 'leaf', '--all-topics', '--ignore-leaf-topics')
+        recording.wait_for('/wanted')
+    assert CHATTER not in recording.end()
+
+
 @pytest.mark.parametrize('words', [('-d', '1'), ('-s', 'mcap', '--max-bag-size', '2000')])
 def test_a_limit_begins_new_files(processes: Any, tmp_path: Path, words: tuple[str, ...]) -> None:
     # MCAP is written by the megabyte.
@@ -190,10 +211,17 @@ def test_a_service_that_does_not_tell_is_waited_for(processes: Any, tmp_path: Pa
     processes.ros2(*words, ready=f'Waiting for /mute{EVENTS}; a service tells of its calls only')
 
 
-def test_custom_data_without_a_key_is_refused(ros2: Callable[..., Any]) -> None:
-    answer = ros2('bag', 'record', '-a', '--custom-data', 'husky')
-    assert answer.status == 2
-    assert "'husky' is no KEY=VALUE" in answer.err
+def test_a_wrong_value_is_refused() -> None:
+    bad = {
+        ('--custom-data', 'husky'): "'husky' is no KEY=VALUE",
+        ('--node-name', '1 tape'): "'1 tape' is no name of a node: letters, digits and _, ",
+        ('--log-level', 'loud'): "invalid choice: 'loud'",
+        ('-f', 'json'): "invalid choice: 'json'",
+    }
+    calls = [('ros2cli.cli', 'bag', 'record', '-a', *words) for words in bad]
+    for message, answer in zip(bad.values(), run_forked(*calls, preload=VERB), strict=True):
+        assert answer.status == 2
+        assert message in answer.err
 
 
 def test_a_file_sets_the_quality_of_service(
@@ -249,6 +277,8 @@ def test_options_that_make_no_sense_are_refused(
         ('-a', '--qos-profile-overrides-path', 'none'): "'none' cannot be read: No such file",
         ('-a', '--compression-mode', 'file'): '--storage-preset-profile zstd_fast',
         ('-a', '--compression-format', 'zstd'): '--storage-preset-profile zstd_fast',
+        ('-a', '--snapshot-mode'): '--snapshot-mode is not offered here: --max-bag-duration',
+        ('-a', '--storage-config-file', 'x'): 'here: it is for plugins in C++; --storage-preset',
         ('-a', '-b', '1023'): '--max-bag-size 1023: it is 1024 bytes at least for mcap',
         ('-a', '--use-sim-time', '--no-discovery'): 'not --no-discovery',
     }

@@ -17,7 +17,7 @@ from rosbag2_py.selection import EVENTS
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
 
-from ros2bag import choice, player, qos_overrides, service_requests, without_effect
+from ros2bag import choice, node_options, player, qos_overrides, service_requests, without_effect
 from ros2bag.bag_argument import add_bag_argument
 from ros2bag.keyboard import controls
 from ros2bag.playback import Playback
@@ -84,6 +84,7 @@ class PlayVerb(VerbExtension):
         without_effect.add_numbers(parser, '--read-ahead-queue-size')
         without_effect.add_flags(parser, '--disable-loan-message')
         qos_overrides.add_argument(parser)
+        node_options.add_log_level(parser)
 
     @refused_in_one_line()
     def main(self, *, args: argparse.Namespace) -> None:
@@ -92,6 +93,7 @@ class PlayVerb(VerbExtension):
         remaps = _remaps(args.remap)
         overrides = qos_overrides.read(args.qos_profile_overrides_path)
         with command_node(args, name='rosbag2_player') as node:
+            node_options.set_log_level(node, args.log_level)
             requests = service_requests.players_of(node, args, chosen, remaps)
             topics = [topic for topic in chosen if topic.name not in requests]
             publishers = player.publishers_of(node, topics, remaps, overrides)

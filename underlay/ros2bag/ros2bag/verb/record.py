@@ -17,12 +17,14 @@ from rosbag2_py.selection import EVENTS
 from rosbag2_py.storages import DEFAULT_ID, STORAGES
 from rosbag2_py.storages.interface import Storage
 
-from ros2bag import choice, qos_overrides, without_effect
+from ros2bag import choice, node_options, qos_overrides, without_effect
 from ros2bag.keyboard import controls, Keyboard
 from ros2bag.recorder import Recorder
 from ros2bag.refusals import refused_in_one_line
 from ros2bag.services import control_recorder
 
+_PRESETS = 'it is for plugins in C++; --storage-preset-profile says how a bag is stored'
+_LAST_FILES = '--max-bag-duration begins new files, of which the last may be kept'
 _COMPRESS = '--storage-preset-profile zstd_fast compresses an MCAP bag'
 
 
@@ -36,6 +38,8 @@ class RecordVerb(VerbExtension):
             {
                 '--no-discovery': 'Disables topic auto discovery during recording: only topics '
                 'present at startup will be recorded.',
+                '--include-unpublished-topics': 'Subscribe to topics without a publisher as well.',
+                '--ignore-leaf-topics': 'Leave out topics that nobody else subscribes to.',
             },
         )
         parser.add_argument(
@@ -52,9 +56,12 @@ class RecordVerb(VerbExtension):
             help='Look for new topics every so many milliseconds (default: %(default)s).',
         )
         qos_overrides.add_argument(parser)
+        node_options.add_node_name(parser, 'rosbag2_recorder')
+        node_options.add_log_level(parser)
         _add_bag(parser)
         _add_limits(parser)
         _add_compression(parser)
+        _add_refused(parser)
         without_effect.add_numbers(
             parser,
             '--max-cache-size',
@@ -87,10 +94,19 @@ class RecordVerb(VerbExtension):
                 custom_data=dict(args.custom_data),
             ) as writer,
             # Interrupted while it is written or closed, a bag would not be whole.
-            command_node(args, name='rosbag2_recorder', may_spin_when_interrupted=True) as node,
+            command_node(args, name=args.node_name, may_spin_when_interrupted=True) as node,
         ):
             _end_with_the_terminal()
-            recorder = Recorder(node, writer, selection, overrides, is_paused=args.start_paused)
+            node_options.set_log_level(node, args.log_level)
+            recorder = Recorder(
+                node,
+                writer,
+                selection,
+                overrides,
+                is_paused=args.start_paused,
+                include_unpublished=args.include_unpublished_topics,
+                ignore_leaves=args.ignore_leaf_topics,
+            )
             control_recorder(node, recorder)
             keys = {'SPACE': recorder.toggle_paused}
             with controls(keys, disabled=args.disable_keyboard_controls) as keyboard:
@@ -151,6 +167,13 @@ def _add_bag(parser: argparse.ArgumentParser) -> None:
         help=f'Select a preset of the storage ({_presets()}).',
     )
     parser.add_argument(
+        '-f',
+        '--serialization-format',
+        default='',
+        choices=('cdr',),
+        help='How messages are serialized: as they come, which is cdr.',
+    )
+    parser.add_argument(
         '--custom-data',
         type=_key_and_value,
         nargs='*',
@@ -189,6 +212,11 @@ def _add_compression(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--compression-format', help=f'Refused: {_COMPRESS}.')
 
 
+def _add_refused(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument('--storage-config-file', metavar='FILE', help=f'Refused: {_PRESETS}.')
+    arguments.add_flags(parser, {'--snapshot-mode': f'Refused: {_LAST_FILES}.'})
+
+
 def _storage(args: argparse.Namespace) -> Storage:
     """
     Return the storage that the options choose.
@@ -209,6 +237,10 @@ def _storage(args: argparse.Namespace) -> Storage:
     if args.compression_mode != 'none' or args.compression_format:
         option = 'format' if args.compression_mode == 'none' else 'mode'
         raise UsageError(f'--compression-{option} is not offered here: {_COMPRESS}')
+    if args.storage_config_file:
+        raise UsageError(f'--storage-config-file is not offered here: {_PRESETS}')
+    if args.snapshot_mode:
+        raise UsageError(f'--snapshot-mode is not offered here: {_LAST_FILES}')
     return storage
 
 
