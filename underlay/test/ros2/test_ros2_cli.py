@@ -103,6 +103,11 @@ def test_the_help_imports_nothing_that_takes_long() -> None:
         (('topic', 'list', '--all'), 'is not in Jazzy; use --include-hidden-topics'),
         (('security',), 'is part of a full ROS 2 and left out here'),
         (('bag', 'burst'), 'is part of a full ROS 2 and left out here'),
+        (
+            ('action', 'find', 'x'),
+            'ros2 action find came after Jazzy; `ros2 action list -t` shows',
+        ),
+        (('action', 'echo', 'x'), 'came after Jazzy; `ros2 topic echo ACTION/_action/feedback`'),
         (('topic', 'echo'), 'the following arguments are required: topic_name'),
     ],
 )

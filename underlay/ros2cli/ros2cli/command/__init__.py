@@ -17,9 +17,15 @@ from ros2cli.verb import VerbExtension
 # What a full ROS 2 has besides; each is refused with a line that says so.
 _LEFT_OUT = {
     'ros2cli.command': ('control', 'plugin', 'security', 'test', 'trace'),
-    'ros2bag.verb': ('burst', 'list'),
-    'ros2action.verb': ('echo', 'find'),
+    'ros2bag.verb': ('burst',),
 }  # fmt: skip
+# What pages on newer releases show, and what does it in Jazzy.
+_AFTER_JAZZY = {
+    'ros2action.verb': {
+        'echo': '`ros2 topic echo ACTION/_action/feedback` shows what a server tells',
+        'find': '`ros2 action list -t` shows each action with its type',
+    },
+}
 
 
 class CommandExtension(Extension):
@@ -124,6 +130,8 @@ def _refuse(
 ) -> None:
     if chosen in _LEFT_OUT.get(group, ()):
         parser.exit(2, f'{cli_name} {chosen} is part of a full ROS 2 and left out here\n')
+    if instead := _AFTER_JAZZY.get(group, {}).get(chosen):
+        parser.exit(2, f'{cli_name} {chosen} came after Jazzy; {instead}\n')
     from ros2_diagnosis import nearest
 
     kind = 'command' if group == 'ros2cli.command' else 'verb'
