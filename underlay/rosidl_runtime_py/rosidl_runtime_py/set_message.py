@@ -167,6 +167,8 @@ def _scalar(value: Any, typename: str, path: str) -> Any:
     if typename in ('float', 'double', 'long double'):
         return _float(value, typename, path)
     if typename == 'octet':
+        if isinstance(value, (list, tuple)) and len(value) == 1:
+            value = value[0]  # upstream takes a byte as [5], and 5 for the one that is 0
         if isinstance(value, (bytes, str)) and len(value) == 1 and ord(value) < 256:
             return bytes((ord(value),))
         return bytes((_integer(value, 'uint8', path),))

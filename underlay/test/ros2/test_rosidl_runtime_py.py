@@ -92,6 +92,8 @@ def test_arrays_of_messages_bytes_and_numbers_are_filled() -> None:
     status = DiagnosticStatus()
     set_message_fields(status, {'level': 2, 'values': [{'key': 'a', 'value': 1}]})
     assert status.level == b'\x02'
+    set_message_fields(status, {'level': [3]})  # as upstream takes a byte
+    assert status.level == b'\x03'
     assert status.values == [KeyValue(key='a', value='1')]
     joints = JointState()
     set_message_fields(joints, {'name': ['a', 'b'], 'position': [1, '2.5']})
@@ -142,6 +144,8 @@ def test_a_value_that_does_not_fit_is_refused(
 def test_the_length_of_an_array_is_checked() -> None:
     with pytest.raises(ValueError, match='2 elements, expected exactly 9'):
         set_message_fields(Imu(), {'orientation_covariance': [1, 2]})
+    with pytest.raises(TypeError, match=r"level: '\[1, 2\]' is refused"):
+        set_message_fields(DiagnosticStatus(), {'level': [1, 2]})
     with pytest.raises(ValueError, match=r'data\[1\]: 300 does not fit uint8'):
         set_message_fields(UInt8MultiArray(), {'data': [1, 300]})
 
