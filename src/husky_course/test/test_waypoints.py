@@ -166,7 +166,7 @@ SAME = 'write both in the same column'
         (f'{COURSE}speed:0.5\n', "4, column 7: a space is missing; write 'speed: 0.5'"),
         (
             f'frame: odom speed: 1\n{COURSE}',
-            '1, column 13: speed is a second field in this line; ',
+            '1, column 13: speed is a second field in this line; give it a line of its own, or',
         ),
         (
             f'frame: odom\n  speed: 0.5\n{COURSE}',

@@ -17,6 +17,8 @@ from husky_course.checked_yaml.yaml_tree import FileRefused, Problem, Value
 _NUMBER = re.compile(r'[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?', re.ASCII)
 _MOST_OF_A_NUMBER = 40
 """Characters; to look for what a longer text may mean takes time by the square of its length."""
+_MEASURED = re.compile(r'([-+]?\d*\.?\d+)\s*(?!(?<=0)[xob])([a-zA-Z%°][a-zA-Z/%°]*\d?)', re.ASCII)
+_SAME_UNIT = {'%': 'percent', 'sec': 's', 'hz': 'Hz'}
 _WHOLE = re.compile(r'[-+]?\d{1,18}', re.ASCII)
 
 
@@ -128,7 +130,7 @@ class FieldReader:
         low, high = field.schema['minimum'], field.schema['maximum']
         allowed = f'allowed is {low:g} to {high:g} {field.unit}'.rstrip()
         if value.kind != 'scalar' or value.quoted or not _NUMBER.fullmatch(value.text):
-            why = ' (a number without quotes)' if value.quoted else _number_hint(value)
+            why = ' (a number without quotes)' if value.quoted else _number_hint(value, field.unit)
             self.wrong(value, name, f'{value} is not a number{why}; {allowed}')
             return None
         number = float(value.text)
@@ -166,7 +168,7 @@ class FieldReader:
 
     def _text(self, field: Field, value: Value, name: str) -> object:
         if value.kind != 'scalar' or value.text == '':
-            self.wrong(value, name, f'{value} instead of a text; {field.description}')
+            self.wrong(value, name, f'{value} instead of a text; {_text_hint(value, field)}')
             return None
         if field.parse is None:
             return value.text
@@ -208,11 +210,23 @@ def choice(value: Value, allowed: Iterable[str]) -> str:
     return (f'did you mean {near[0]}? ' if near else '') + f'allowed: {names}'
 
 
-def _number_hint(value: Value) -> str:
+def _text_hint(value: Value, field: Field) -> str:
+    """Return how a placeholder in braces is written, which YAML takes for a mapping."""
+    if len(value.pairs) == 1 and str(value.pairs[0][1]) == 'nothing':
+        return f"write '{{{value.pairs[0][0].text}}}' in quotes"
+    return field.description
+
+
+def _number_hint(value: Value, unit: str) -> str:
+    """Return what to write in the place of what is no number; the field has this unit."""
     text = value.text if value.kind == 'scalar' and len(value.text) <= _MOST_OF_A_NUMBER else ''
     if re.fullmatch(r'[-+]?\d+,\d+', text, re.ASCII):
         return f' (write {text.replace(",", ".")})'
     if re.fullmatch(r'[\u2010-\u2015\u2212]\d*\.?\d+', text, re.ASCII):
         return f' (write -{text[1:]}, with the minus sign of the keyboard)'
-    unit = re.fullmatch(r'([-+]?\d*\.?\d+)\s*(?!(?<=0)[xob])[a-zA-Z/%°]+\d?', text, re.ASCII)
-    return f' (write {unit[1]}, without the unit)' if unit else ''
+    measured = _MEASURED.fullmatch(text)
+    if measured is None:
+        return ''
+    if unit and _SAME_UNIT.get(measured[2], measured[2]) != unit:
+        return f' (write it in {unit}, without the unit)'
+    return f' (write {measured[1]}, without the unit)'

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import takewhile
 import re
 
 import yaml
@@ -31,6 +32,7 @@ _LINE_BREAK = re.compile('\r\n|[\n\r\x85\u2028\u2029]')  # YAML 1.1, 4.2: as the
 _FIELD = re.compile(r'([A-Za-z_]\w*)\s*:(?:\s|$)')
 _NO_SPACE = re.compile(r'([A-Za-z_]\w*):([^\s:/][^:]*)$')
 _NO_COLON = re.compile(r'([A-Za-z_]\w*)(?: *= *| +)([^\s:=][^:=]*)$')
+_COLON_IN_TEXT = re.compile(r'[A-Za-z_]\w*:\s.*:(\s|$)')
 _NO_ITEM = re.compile(r'-[\[{]')
 
 Found = tuple[int, int, str]
@@ -158,9 +160,24 @@ def _two_fields(error: yaml.MarkedYAMLError, near: list[Line]) -> Found | None:
     for line in near:
         keys = list(re.finditer(r'(?<!\S)[A-Za-z_]\w*(?=:(?:\s|$))', line.text))
         if line.number == place.line + 1 and len(keys) > 1:
-            message = f'{keys[1][0]} is a second field in this line; give it a line of its own'
+            message = (
+                f'{keys[1][0]} is a second field in this line; give it a line of its own, or put '
+                f'the text after {keys[0][0]}: in quotes'
+            )
             return line.number, line.column + keys[1].start(), message
+        if line.number == place.line + 1 and _COLON_IN_TEXT.match(line.inner[1]):
+            message = f'a text with a colon in it; put all that stands after {line.key}: in quotes'
+            return line.number, place.column + 1, message
     return None
+
+
+def _first_dash(item: Line, above: list[Line]) -> Found | None:
+    """Tell of fields before the first item of a list, which lack its dash."""
+    before = list(takewhile(lambda line: line.column >= item.column, reversed(above)))
+    if not before or before[-1].column != item.column:
+        return None
+    first = before[-1]
+    return first.number, first.column, f"a dash is missing; write '- {first.text}'"
 
 
 def _column(lines: list[Line], problem: int) -> Found | None:
@@ -180,6 +197,8 @@ def _column(lines: list[Line], problem: int) -> Found | None:
     else:
         what = line.key
         columns = [(other, other.inner[0]) for other in above if other.key]
+    if line.is_item and not columns:
+        return _first_dash(line, above)
     if not what or not columns:
         return None
     # The nearest column is meant, of several lines there the last.

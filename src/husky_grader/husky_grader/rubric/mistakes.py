@@ -24,6 +24,7 @@ from husky_grader.rubric.steps import (
 
 A_TOKEN = '12345678'
 _ENTRY = re.compile(r'(sequence<)?([\w/]+).*')  # the type of what is in sequence<string<9>, 3>
+_PARAMETER = re.compile(r'[A-Za-z_]\w*([./][A-Za-z_]\w*)*', re.ASCII)
 _INTEGER = re.compile(r'(u?)int(\d+)')
 _NUMBER = re.compile(rf'{_INTEGER.pattern}|float|double')
 _A_NUMBER = (int, float), 'a number'
@@ -39,6 +40,8 @@ def mistakes_of(step: Step) -> _Mistakes:
         step.package_with
     ):
         yield 'package', 'give package or package_with, one of the two'
+    if isinstance(step, ProgramStep):
+        yield from _parameters(step.parameters)
     if isinstance(step, PublisherStep):
         yield from _checks('content', get_message(step.type)(), step.content)
         if step.call is not None:
@@ -51,6 +54,21 @@ def mistakes_of(step: Step) -> _Mistakes:
         yield from _checks('response', kind.Response(), step.response)
     elif isinstance(step, DriveStep):
         yield from _drive(step)
+
+
+def _parameters(parameters: Mapping[str, Any]) -> _Mistakes:
+    """Yield what ROS would refuse, for which a program would not even start."""
+    for name, value in parameters.items():
+        if not _PARAMETER.fullmatch(name):
+            yield 'parameters', f'{name} is no name of a parameter; write it as rate_hz'
+        entries = value if isinstance(value, list) else [value]
+        kinds = {type(entry) for entry in entries}
+        if len(kinds) != 1 or not kinds <= {bool, int, float, str}:
+            yield (
+                'parameters',
+                f'{name} is a number, a text, true or false, or a list of one kind of these; '
+                '1 and 2.0 are two kinds',
+            )
 
 
 def _subscriber(step: SubscriberStep) -> _Mistakes:
@@ -98,6 +116,9 @@ def _checks(field: str, message: Any, checks: Sequence[FieldCheck]) -> _Mistakes
             yield field, f'{check.field} equals a text, a number, true or false, and nothing else'
         if (check.form, check.equals, check.least, check.most) == (None, None, None, None):
             yield field, f'{check.field}: say what it must hold: form, equals, least or most'
+        least, most = check.least, check.most
+        if least is not None and most is not None and least > most:
+            yield field, f'{check.field}: least {least:g} is above most {most:g}'
 
 
 def _unfit(check: FieldCheck, entry: str) -> Iterator[str]:
