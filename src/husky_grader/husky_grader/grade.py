@@ -179,6 +179,10 @@ def main(args: Sequence[str] | None = None) -> int:
         parser.error('--rubric needs --lab SUBMISSION, the workspace to grade by it')
     if options.lab and (options.waypoints or options.answers):
         parser.error('--lab takes courses and answers from the rubric; see --rubric FILE')
+    if options.world and (options.lab or zipped):
+        parser.error(f'--world {options.world}: write it into the rubric, as `world: FILE`')
+    if options.interface != INTERFACES[0] and not options.controller:
+        parser.error(f'--interface {options.interface} is for a controller: give --controller')
     if options.jobs < 0:
         parser.error(f'--jobs {options.jobs}: give a number above 0')
     if wrong := wrong_of_class(options):
@@ -239,10 +243,14 @@ def _waypoint_files(given: str) -> list[str]:
 
 def _make_gradescope(options: argparse.Namespace) -> int:
     from husky_grader.autograder.gradescope_zip import make_gradescope
+    from husky_grader.rubric.impossible import impossible_courses
     from husky_grader.rubric.rubric_file import load_rubric
 
     file = Path(options.make_gradescope)
-    make_gradescope(file, load_rubric(options.rubric or default_rubric()))
+    rubric = load_rubric(options.rubric or default_rubric())
+    make_gradescope(file, rubric)
+    for line in impossible_courses(rubric):
+        print(printable(line), file=sys.stderr)
     print(printable(f'{file}: for Configure Autograder of Gradescope; see docs/autograders.md'))
     return PASSED
 

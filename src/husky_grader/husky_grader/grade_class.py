@@ -107,10 +107,13 @@ def grade_labs(options: argparse.Namespace) -> int:
     """Grade what was handed in for a lab; return the exit code."""
     from husky_grader.jail import find_sandbox
     from husky_grader.outputs import OUTPUT_FILES, read_gradebook
+    from husky_grader.rubric.impossible import impossible_courses
     from husky_grader.rubric.rubric_file import load_rubric
     from husky_grader.submission import find_submissions
 
     rubric = load_rubric(options.rubric or default_rubric())
+    for line in impossible_courses(rubric):
+        _tell(line)
     submissions = find_submissions(_places(options.lab, options), taken=OUTPUT_FILES)
     submissions = _without_report(submissions, options)
     gradebook = None

@@ -51,7 +51,7 @@ class LabJob:
                 'handed in': digest_of(self.submission),
                 'jailed': jailed,
                 'real_time_factor': self.real_time_factor,
-                'world': world_digest(''),
+                'world': world_digest(self.rubric.world),
             },
         )
 

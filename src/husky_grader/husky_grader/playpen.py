@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The playpen: the courses that come with the lab, and routes checked against its obstacles."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from husky_course.frames import Pose
+from husky_course.outline import Outline
 from husky_course.robot import RobotStart
 from husky_course.route import Route, Survey, survey_route
 
@@ -36,13 +38,22 @@ def check_route(route: Route, *, world: str = '', start: Pose = (0.0, 0.0, 0.0))
     :param world: MJCF file; empty: the playpen.
     :raises ValueError: when the world cannot be used.
     """
+    return survey_route(route, obstacles_of(world, start), start=start)
+
+
+def obstacles_of(world: str, start: Pose = (0.0, 0.0, 0.0)) -> Sequence[Outline]:
+    """
+    Return the obstacles of a world in which a robot starts there.
+
+    :param world: MJCF file; empty: the playpen.
+    :raises ValueError: when the world cannot be used.
+    """
     from husky_sim.errors import SimulatorError
     from husky_sim.world import default_worlds, load_world  # MuJoCo takes its time
 
     file = world or str(default_worlds() / 'playpen.xml')
     x, y, yaw = start
     try:
-        obstacles = load_world(file, (RobotStart(x=x, y=y, yaw=yaw),)).obstacles
+        return load_world(file, (RobotStart(x=x, y=y, yaw=yaw),)).obstacles
     except SimulatorError as error:
         raise ValueError(str(error)) from None
-    return survey_route(route, obstacles, start=start)

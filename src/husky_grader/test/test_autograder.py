@@ -14,6 +14,7 @@ import tarfile
 from typing import Any
 import zipfile
 
+from husky_course.record import FILE_NAME, read_record
 from husky_grader.autograder.gradescope_zip import make_gradescope
 from husky_grader.autograder.packed_lab import packed_lab
 from husky_grader.playpen import default_rubric
@@ -29,6 +30,7 @@ DOCS = ROOT / 'docs'
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [1.5, -1.0]]\n'
 DRIVING = """
 title: Driving
+world: worlds/yard.xml
 steps:
   - kind: build
     points: 10
@@ -39,6 +41,8 @@ steps:
     courses:
       - file: courses/short.yaml
 """
+YARD = '<mujoco><option timestep="0.004"/><include file="ground.xml"/></mujoco>'
+GROUND = '<mujoco><worldbody><geom type="plane" size="9 9 1"/></worldbody></mujoco>'
 LOOKING = """
 title: Looking
 steps:
@@ -57,6 +61,9 @@ def rubric_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp('rubric')
     (folder / 'courses').mkdir()
     (folder / 'courses' / 'short.yaml').write_text(COURSE)
+    (folder / 'worlds').mkdir()
+    (folder / 'worlds' / 'yard.xml').write_text(YARD)
+    (folder / 'worlds' / 'ground.xml').write_text(GROUND)
     (folder / 'driving.yaml').write_text(DRIVING)
     return folder / 'driving.yaml'
 
@@ -183,6 +190,8 @@ def test_a_good_driver_gets_every_point_on_gradescope(autograder: Path, rubric_f
     assert (time['name'], error['name']) == ('time', 'tracking error')
     assert 1.5 < time['value'] < 10.0
     assert 0.0 <= error['value'] < 0.1
+    record = read_record(autograder / 'report' / 'drive' / FILE_NAME)
+    assert Path(record.world).name == 'yard.xml'
     if is_root:
         assert 'in the sandbox "user"' in results['output']
         assert (autograder / 'report' / 'drive').stat().st_mode & 0o77 == 0

@@ -187,6 +187,11 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
             'give waypoint files, --record FILE, --controller COMMAND, --lab SUBMISSION or --make',
         ),
         (['--rubric', 'rubric.yaml', 'a.yaml'], '--rubric needs --lab SUBMISSION'),
+        (
+            ['--lab', '.', '--world', '/w.xml'],
+            '--world /w.xml: write it into the rubric, as `world: FILE`',
+        ),
+        (['--lab', '.', '--interface', 'clearpath'], '--interface clearpath is for a controller'),
         (['--lab', '.', '--answers', '1'], '--lab takes courses and answers from the rubric'),
         (['--record', 'x.record'], '--record needs --waypoints FILE'),
         (['missing.yaml'], 'missing.yaml: no such file'),

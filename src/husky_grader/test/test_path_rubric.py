@@ -9,6 +9,7 @@ import shutil
 from husky_grader.grade import main as grade
 from husky_grader.playpen import config_folder, default_course
 from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
+from husky_sim.world import default_worlds
 import pytest
 
 RUBRIC = config_folder() / 'rubrics' / 'path.yaml'
@@ -89,6 +90,21 @@ def test_points_count_in_their_order(tmp_path: Path, course: str, points: float)
     command = ['--lab', str(tmp_path / 'handed_in.yaml'), '--report', str(report)]
     grade([*command, '--rubric', str(tmp_path / 'rubric.yaml')])
     assert json.loads((report / 'lab.json').read_text())['score'] == pytest.approx(points)
+
+
+def test_a_path_is_driven_in_the_world_of_the_rubric(tmp_path: Path) -> None:
+    world = shutil.copyfile(default_worlds() / 'empty.xml', tmp_path / 'yard.xml')
+    rubric, report = tmp_path / 'rubric.yaml', tmp_path / 'report'
+    rubric.write_text(f'world: yard.xml\n{THERE_AND_BACK}'.replace('x: 1', 'x: 4'))
+    (tmp_path / 'ann.yaml').write_text('waypoints: [[0, 0], [4, 0], [0, 0]]')
+    command = ['--lab', str(tmp_path / 'ann.yaml'), '--rubric', str(rubric)]
+    command += ['--report', str(report), '--shard', '1/1']
+    assert grade(command) == 0  # in the playpen there is a barrier
+    block = '<body name="shed" pos="2 0 0.5"><geom type="box" size="0.3 0.3 0.5"/></body>'
+    world.write_text(world.read_text().replace('</worldbody>', f'{block}</worldbody>'))
+    assert grade(command) == 1  # nothing of the former world is kept
+    (ann,) = json.loads((report / 'grades.json').read_text())['submissions']
+    assert 'touched shed' in ann['steps'][0]['why']
 
 
 def test_a_rubric_is_for_files_or_for_workspaces() -> None:

@@ -107,6 +107,36 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
             "steps[1].request: data: 'maybe' is refused",
         ),
         ('kind: package, points: 1', 'steps[1].package: give package or package_with'),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, rate_hz: 200 ms',
+            '200 ms is not a number (write it in Hz, without the unit); allowed is',
+        ),
+        ('kind: workspace, points: 25/3', '25/3 is not a number; allowed is 0 to 1000 points'),
+        (
+            f'kind: publisher, {TOPIC}, type: std_msgs/msg/Int8, '
+            'content: [{field: data, least: 9, most: 3}]',
+            'steps[1].content: data: least 9 is above most 3',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, parameters: {{a: [1, 2.0]}}',
+            'steps[1].parameters: a is a number, a text, true or false, or a list of one kind',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, parameters: {{a: {{b: 1}}}}',
+            'steps[1].parameters: a is a number, a text, true or false, or a list of one kind',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, parameters: {{my rate: 1}}',
+            'steps[1].parameters: my rate is no name of a parameter; write it as rate_hz',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, arguments: [{{course}}]',
+            "steps[1].arguments[0]: a mapping of 1 instead of a text; write '{course}' in quotes",
+        ),
+        (
+            f"kind: drive, {PROGRAM}, courses: [{{file: 'courses\\no.yaml'}}]",
+            'no.yaml: no such file; write / between folders',
+        ),
         (f'kind: publisher, {PROGRAM}, topic: 7up, {STRING}', '7up is no topic or service'),
         (
             f'kind: drive, {PROGRAM}, courses: [{{file: nowhere.yaml}}]',
@@ -222,6 +252,34 @@ def test_a_program_must_be_told_which_course_it_is(hidden: str) -> None:
     step = f'kind: drive, {PROGRAM}, courses: [{{file: straight.yaml, {hidden}}}]'
     file = str(CONFIG / 'waypoints' / 'rubric.yaml')
     assert 'put {course} into arguments' in problems(step, file=file)[0]
+
+
+@pytest.mark.parametrize(
+    ('text', 'told'),
+    [
+        ('steps: [{kind: build, points: 0}]', 'line 2, column 8: steps: no step gives points; '),
+        (
+            'world: no.xml\nsteps: [{kind: build, points: 1}]',
+            r"line 2, column 8: world: '.*no\.xml': no such file; give the path of an MJCF file",
+        ),
+        (
+            'steps:\n  kind: build\n  - kind: build',
+            "line 3, column 3: a dash is missing; write '-",
+        ),
+        ('title: Lab 8: T', 'line 2, column 13: a text with a colon in it; put all that stands '),
+    ],
+)
+def test_a_mistake_that_concerns_all_steps_is_told(text: str, told: str) -> None:
+    with pytest.raises(FileRefused, match=told) as refused:
+        parse_rubric(f'title: T\n{text}')
+    assert len(str(refused.value).splitlines()) == 1
+
+
+def test_a_list_is_no_rubric_and_names_no_interfaces() -> None:
+    with pytest.raises(FileRefused) as refused:
+        parse_rubric('- a\n')
+    (line,) = str(refused.value).splitlines()
+    assert line.endswith('a list of 1 instead of a rubric; write a mapping: title, steps')
 
 
 def test_a_program_cannot_run_before_the_build() -> None:

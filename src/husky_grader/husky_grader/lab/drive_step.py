@@ -46,6 +46,7 @@ class DriveRunner:
                 str(course.file),
                 folder,
                 jail,
+                world=self.programs.world,
                 answers=''.join(f'{answer.replace(COURSE, given)}\n' for answer in step.answers),
                 environment=self.programs.environment,
                 real_time_factor=self.real_time_factor,

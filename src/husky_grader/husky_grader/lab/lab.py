@@ -62,7 +62,7 @@ def grade_lab(
     remove(folder / BUILT)
     remove_running(folder)
     findings = {}
-    grading = _Grading(workspace, folder, sandbox, rubric.interfaces, real_time_factor)
+    grading = _Grading(workspace, folder, sandbox, rubric, real_time_factor)
     try:
         for step in rubric.steps:
             findings[step.name] = grading.find(step)
@@ -83,7 +83,7 @@ def grade_path(
     """
     folder.mkdir(parents=True, exist_ok=True)
     findings = {
-        step.name: path_step(step, file, folder, alive=done)
+        step.name: path_step(step, file, folder, world=rubric.world, alive=done)
         for step in rubric.steps
         if isinstance(step, PathStep)
     }
@@ -98,13 +98,13 @@ class _Grading:
         workspace: Path,
         folder: Path,
         sandbox: Sandbox,
-        interfaces: Sequence[Path],
+        rubric: Rubric,
         real_time_factor: float,
     ) -> None:
         self._workspace = workspace
         self._folder = folder
         self._sandbox = sandbox
-        self._interfaces = interfaces
+        self._rubric = rubric
         self._real_time_factor = real_time_factor
         self._programs: Programs | None = None
         self._not_sourced = 'nothing was built'
@@ -146,7 +146,12 @@ class _Grading:
             found = build_step(self._workspace, jail, log)
             try:
                 self._programs = Programs(
-                    self._workspace, built, sourced(jail), self._sandbox, self._interfaces
+                    self._workspace,
+                    built,
+                    sourced(jail),
+                    self._sandbox,
+                    self._rubric.interfaces,
+                    self._rubric.world,
                 )
             except ValueError as error:
                 self._programs, self._not_sourced = None, str(error)

@@ -46,7 +46,7 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         # The check of fields would refuse the largest float32, which may be sent.
         ours = {**os.environ, **jail.graph, CHECK_FIELDS: '0'}
         ours = with_types(ours, programs.interfaces)
-        found = _observe(step, jail.beside, ours, program, log)
+        found = _observe(step, jail.beside, ours, program, log, programs.world)
         exit_code = program.exit_code
     if exit_code == NO_PROGRAM:
         return nothing(
@@ -63,16 +63,18 @@ def _observe(
     environment: Mapping[str, str],
     program: JailedProcess,
     log: Path,
+    world: str,
 ) -> Finding:
     """
     Let the grader's own node find it out, a process in the network of the program.
 
     :param beside: makes a command one that runs there.
+    :param world: of a Husky beside the program, an MJCF file; empty: the playpen.
     """
     with TemporaryDirectory() as name:
         place = Path(name)
         (place / STEP_FILE).write_bytes(pickle.dumps(step))
-        command = trusted('husky_grader.lab.observer', name, str(log.absolute()))
+        command = trusted('husky_grader.lab.observer', name, str(log.absolute()), world)
         observer_log = place / 'log'
         with (
             observer_log.open('w') as stream,

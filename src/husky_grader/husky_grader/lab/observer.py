@@ -4,7 +4,7 @@
 The grader's own node in the graph of a student's program: it listens, sends and calls.
 
 A process of its own, in the network of the program: `python3 -m husky_grader.lab.observer FOLDER
-LOG`. The files in the folder are those of `observed`; the log is what the program prints.
+LOG WORLD`. The files in the folder are those of `observed`; the log is what the program prints.
 """
 
 from __future__ import annotations
@@ -72,17 +72,18 @@ Over = Callable[[], bool]
 """Tells whether the student's program has ended."""
 
 
-def observe(step: ProgramStep, over: Over, log: Path, folder: Path) -> Finding:
+def observe(step: ProgramStep, over: Over, log: Path, folder: Path, world: str = '') -> Finding:
     """
     Find out what a running program does of what a step asks.
 
     :param log: what it prints.
     :param folder: for what the grader's own programs print.
+    :param world: of a Husky beside the program, an MJCF file; empty: the playpen.
     :raises TypeError: when the step is of another kind.
     """
     with _observer(over) as observer:
         if isinstance(step, PublisherStep):
-            return _publisher(step, observer, folder)
+            return _publisher(step, observer, folder, world)
         if isinstance(step, SubscriberStep):
             return _subscriber(step, observer, log)
         if isinstance(step, ServiceStep):
@@ -126,10 +127,10 @@ def _observer(over: Over) -> Iterator[_Observer]:
         rclpy.shutdown(context=context)
 
 
-def _publisher(step: PublisherStep, observer: _Observer, folder: Path) -> Finding:
+def _publisher(step: PublisherStep, observer: _Observer, folder: Path, world: str) -> Finding:
     if step.after_drive is None:
         return _published(step, observer)
-    with Robot(step.after_drive, folder) as robot:
+    with Robot(step.after_drive, folder, world) as robot:
         return _published(step, observer, robot)
 
 
@@ -325,10 +326,10 @@ def _why_no_service(call: ServiceCall, offered: Mapping[str, Sequence[str]]) -> 
 
 def main() -> int:
     """Find it out, and write down the finding."""
-    folder, log = map(Path, sys.argv[1:])
+    folder, log = map(Path, sys.argv[1:3])
     limit_memory()
     step = pickle.loads((folder / STEP_FILE).read_bytes())  # noqa: S301  # the grader's own
-    found = observe(step, (folder / OVER_FILE).exists, log, folder)
+    found = observe(step, (folder / OVER_FILE).exists, log, folder, sys.argv[3])
     part = folder / 'part'
     part.write_text(json.dumps(asdict(found)), encoding='utf-8')
     part.replace(folder / FINDING_FILE)

@@ -15,14 +15,17 @@ from husky_grader.lab.finding import Finding, nothing
 from husky_grader.rubric.steps import PathStep, Place
 
 
-def path_step(step: PathStep, file: Path, folder: Path, *, alive: Callable[[], object]) -> Finding:
+def path_step(
+    step: PathStep, file: Path, folder: Path, *, world: str, alive: Callable[[], object]
+) -> Finding:
     """
     Drive the course of a file in the simulator.
 
     :param folder: of the whole report; the drive gets a folder of its own in it.
+    :param world: MJCF file; empty: the playpen.
     :param alive: called with every second of simulated time.
     """
-    grade = grade_file(str(file), folder / step.file_name, each_second=alive)
+    grade = grade_file(str(file), folder / step.file_name, world=world, each_second=alive)
     if grade.report is None:
         return nothing(grade.refused.replace(f'{file}: ', '').replace('\n', '; '))
     report = grade.report

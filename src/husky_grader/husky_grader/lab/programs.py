@@ -42,6 +42,7 @@ class Programs:
     :param built: where the workspace was built.
     :param environment: that of a terminal in which it was sourced.
     :param interfaces: packages of the types that the grader needs.
+    :param world: in which a Husky drives, an MJCF file; empty: the playpen.
     """
 
     workspace: Path
@@ -49,6 +50,7 @@ class Programs:
     environment: Mapping[str, str]
     sandbox: Sandbox
     interfaces: Sequence[Path] = ()
+    world: str = ''
 
     @contextmanager
     def jail(self) -> Iterator[Jail]:

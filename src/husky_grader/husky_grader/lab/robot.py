@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
+import json
 import os
 from pathlib import Path
 
@@ -23,17 +24,21 @@ class Robot:
 
     Simulator and driver are processes of their own, with this one's environment. What they print
     is in files of a folder.
+
+    :param world: in which it drives, an MJCF file; empty: the playpen.
     """
 
-    def __init__(self, course: Path, folder: Path) -> None:
+    def __init__(self, course: Path, folder: Path, world: str = '') -> None:
         self._course = course
         self._folder = folder
+        # JSON is YAML, as rcl reads it.
+        self._in_world = ['--ros-args', '-p', f'world:={json.dumps(world)}'] if world else []
         self.limit_sec = STARTED_SEC + plan_route(load_course(course)).limit_sec
 
     def __enter__(self) -> Robot:
         with ExitStack() as stack:
             self._running = stack
-            self._simulator = self._start('simulator.log', 'husky_sim.programs')
+            self._simulator = self._start('simulator.log', 'husky_sim.programs', *self._in_world)
             self._running = stack.pop_all()
         return self
 
@@ -43,7 +48,9 @@ class Robot:
     def drive(self) -> None:
         """Let the driver follow the course."""
         course = str(self._course.absolute())
-        self._driver = self._start('driver.log', 'husky_driver.follow_path', '--waypoints', course)
+        self._driver = self._start(
+            'driver.log', 'husky_driver.follow_path', '--waypoints', course, *self._in_world
+        )
 
     @property
     def stands(self) -> bool:

@@ -19,6 +19,7 @@ from husky_course.checked_yaml import (
 )
 from husky_course.waypoints import load_course
 
+from husky_grader.playpen import obstacles_of
 from husky_grader.rubric.mistakes import mistakes_of
 from husky_grader.rubric.own_types import find_types
 from husky_grader.rubric.steps import (
@@ -53,17 +54,22 @@ class _RubricReader(FieldReader):
         self._path = path
 
     def rubric(self, root: Value) -> Rubric:
-        interfaces = self._interfaces(_at(root, 'interfaces'))  # the steps name their types
+        interfaces = self._interfaces(root)  # the steps name their types
         rubric: Rubric | None = self.mapping(RUBRIC, root, '')
         if rubric is not None:
             steps = next(value for key, value in root.pairs if key.text == 'steps')
             self._check_together(rubric.steps, steps.items)
+            if rubric.points <= 0.0:
+                self.wrong(steps, 'steps', 'no step gives points; give one of them more than 0')
         if rubric is None or self.problems:
             raise FileRefused(self.file, self.problems)
         return replace(rubric, file=self._path, interfaces=interfaces)
 
-    def _interfaces(self, given: Value) -> tuple[Path, ...]:
+    def _interfaces(self, root: Value) -> tuple[Path, ...]:
         """Make the types of a list of packages known; return their folders."""
+        given = next(
+            (value for key, value in root.pairs if key.text == 'interfaces'), Value(1, 1, '')
+        )
         folders = tuple(
             (self._path.parent / item.text).absolute() for item in given.items if item.text
         )
@@ -84,6 +90,8 @@ class _RubricReader(FieldReader):
         found = super().value(field, value, name)
         if field.attribute in ('file', 'after_drive') and isinstance(found, str):
             return self._course_file(found, value, name)
+        if field.attribute == 'world' and isinstance(found, str):
+            return self._world_file(found, value, name)
         return found
 
     def _step(self, value: Value, name: str) -> Step | None:
@@ -109,12 +117,25 @@ class _RubricReader(FieldReader):
 
     def _course_file(self, given: str, value: Value, name: str) -> Path:
         """Return a waypoint file; a mistake in it is one of the rubric, too."""
-        path = (self._path.parent / given).absolute()  # programs elsewhere read it, too
+        path = self._beside(given)
         try:
             load_course(path)
         except ValueError as error:
-            self.wrong(value, name, str(error).splitlines()[0])
+            self.wrong(value, name, _slashes(given, path) or str(error).splitlines()[0])
         return path
+
+    def _world_file(self, given: str, value: Value, name: str) -> str:
+        """Return the path of a world; a mistake in it is one of the rubric, too."""
+        path = self._beside(given)
+        try:
+            obstacles_of(str(path))
+        except ValueError as error:
+            told = str(error).removeprefix('world=')
+            self.wrong(value, name, _slashes(given, path) or told)
+        return str(path)
+
+    def _beside(self, given: str) -> Path:
+        return (self._path.parent / given).absolute()  # programs elsewhere read it, too
 
     def _check_together(self, steps: Sequence[Step], places: Sequence[Value]) -> None:
         """Check what the steps say of each other."""
@@ -133,6 +154,13 @@ class _RubricReader(FieldReader):
             built = built or isinstance(step, BuildStep)
             for key, message in _wrong_needs(step, steps):
                 self.wrong(_at(place, key), f'{name}.{key}', message)
+
+
+def _slashes(given: str, path: Path) -> str:
+    """Return what to write where folders are written as on Windows."""
+    if '\\' not in given or path.exists():
+        return ''
+    return f'{given}: no such file; write / between folders'
 
 
 def _at(mapping: Value, field: str) -> Value:

@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 from husky_grader.rubric.forms import Form
 from husky_grader.rubric.own_types import files_of
+from husky_grader.rubric.world_files import files_of_world
 
 COURSE = '{course}'
 """Stands for the waypoint file of the course that is driven."""
@@ -241,6 +242,7 @@ class Rubric:
     title: str
     steps: tuple[Step, ...]
     interfaces: tuple[Path, ...] = ()  # packages of the types that are not installed
+    world: str = ''  # MJCF file; empty: the playpen
     file: Path = field(default=Path(), compare=False)
 
     @property
@@ -263,7 +265,8 @@ class Rubric:
     def files(self) -> tuple[Path, ...]:
         """All that the rubric is read from, itself first."""
         interfaces = (path for package in self.interfaces for path in files_of(package))
-        return (self.file, *self.courses, *interfaces)
+        world = files_of_world(Path(self.world)) if self.world else ()
+        return (self.file, *self.courses, *world, *interfaces)
 
     @property
     def points(self) -> float:

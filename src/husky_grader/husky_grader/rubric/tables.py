@@ -332,6 +332,11 @@ RUBRIC = Table(
             'Folders of packages with the types that are not installed; as seen from the rubric.',
             _texts(1),
         ),
+        'world': Field(
+            'world',
+            'An MJCF file in the place of the playpen; its place is told from that of the rubric.',
+            _TEXT,
+        ),
         'steps': Field('steps', 'The steps of the lab.', _list(), example='- kind: ...'),
     },
     ('title', 'steps'),
