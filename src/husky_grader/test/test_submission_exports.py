@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Moodle, Canvas and Gradescope give, and folders of many, become a list with names."""
 
+from collections.abc import Mapping
 import io
 from pathlib import Path
 import zipfile
@@ -291,6 +292,35 @@ def test_a_workspace_is_one_submission_and_not_a_class(tmp_path: Path, inside: s
     place = export(tmp_path / 'ws', files, as_zip=False)
     (found,) = find_submissions([str(place)])
     assert (found.id, found.source) == ('ws', place)
+
+
+def packages(names: Mapping[str, str], file: str = 'package.xml') -> dict[str, bytes]:
+    return {
+        f'{folder}/{file}': f'<package><name>{name}</name></package>'.encode()
+        for folder, name in names.items()
+    }
+
+
+@pytest.mark.parametrize(
+    ('files', 'expected'),
+    [
+        (packages({'ann': 'patrol', 'bob': 'patrol'}), ['ann', 'bob']),
+        (packages({'ann': 'patrol'}) | {'bob.zip': packed()}, ['ann', 'bob']),
+        (
+            packages({'ann': 'a', 'bob': 'b'}) | packages({'ann': '', 'bob': ''}, '.git/HEAD'),
+            ['ann', 'bob'],
+        ),
+        (packages({'a': 'patrol', 'b': 'yard'}), ['ws']),
+        (packages({'a': 'patrol'}) | {'rosgraph.png': b'\x89PNG', 'README.md': b''}, ['ws']),
+    ],
+    ids=['one name', 'an archive', 'clones', 'two names', 'a picture'],
+)
+def test_a_class_that_hands_in_nothing_but_packages_is_a_class(
+    tmp_path: Path, files: dict[str, bytes], expected: list[str]
+) -> None:
+    found = find_submissions([str(export(tmp_path / 'ws', files, as_zip=False))])
+    assert [one.id for one in found] == expected
+    assert [one.refused for one in found] == [''] * len(expected)
 
 
 @pytest.mark.parametrize('given', ['.', '../link', '../ws/../ws/.'])

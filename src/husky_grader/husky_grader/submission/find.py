@@ -3,6 +3,7 @@
 """Find the submissions in what a teaching assistant has: files, folders and exports of an LMS."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 import re
@@ -15,6 +16,7 @@ from husky_grader.submission.gradescope import gradescope_submissions
 from husky_grader.submission.limits import FOLDERS_OF_COLCON, Refused
 from husky_grader.submission.listing import (
     FolderListing,
+    head_of,
     listed_zip,
     Listing,
     submission_at,
@@ -25,6 +27,8 @@ from husky_grader.submission.names import folder_names, without_ending
 from husky_grader.submission.submission import Submission
 
 # Also what ssh takes: user@host:path.
+_NAME = re.compile(rb'<name>\s*([^<\s]+)')
+_MOST_OF_A_MANIFEST = 100_000  # bytes
 _URL = re.compile(r'[a-z][a-z0-9+.-]*://.*|[\w.-]+@[\w.-]+:.*', re.IGNORECASE)
 
 
@@ -118,7 +122,13 @@ def _is_workspace(children: Sequence[Path]) -> bool:
     folders = [
         child for child in children if child.is_dir() and child.name not in FOLDERS_OF_COLCON
     ]
-    return bool(folders) and all(map(_is_package, folders))
+    if not folders or not all(map(_is_package, folders)):
+        return False
+    # In a workspace no two packages have one name. A class may hand in nothing but packages.
+    names = {_package_name(folder) for folder in folders}
+    clones = len(folders) > 1 and all((folder / '.git').exists() for folder in folders)
+    archives = any(submission_at(child).kind in ('zip', 'tar') for child in children)
+    return len(names) == len(folders) and not clones and not archives
 
 
 def _is_package(folder: Path) -> bool:
@@ -126,6 +136,15 @@ def _is_package(folder: Path) -> bool:
         return (folder / 'package.xml').exists()
     except PermissionError:  # unpacking it says why
         return False
+
+
+def _package_name(folder: Path) -> str:
+    """Return the name of a package; that of its folder where the manifest does not say it."""
+    manifest, found = folder / 'package.xml', None
+    if manifest.is_file():  # to read a pipe may take for ever
+        with suppress(Refused):
+            found = _NAME.search(head_of(manifest, _MOST_OF_A_MANIFEST))
+    return found[1].decode(errors='replace') if found else folder.name
 
 
 def _in_export(listing: Listing) -> list[Submission]:

@@ -63,7 +63,7 @@ class FolderListing:
         return FolderListing(path) if path.is_dir() and not path.is_symlink() else None
 
     def read(self, name: str, most: int) -> bytes:
-        return _head(self._folder / name, most)
+        return head_of(self._folder / name, most)
 
     def submission(self, files: Sequence[tuple[str, str]], name: str) -> Submission:
         if len(files) > 1:
@@ -158,11 +158,12 @@ def _kind_at(path: Path) -> tuple[Kind, str]:
         return 'git' if (path / '.git').exists() or is_bare(path) else 'folder', ''
     if not path.is_file():
         return 'unknown', 'no file and no folder'
-    head = _head(path, HEAD_BYTES)
+    head = head_of(path, HEAD_BYTES)
     kind = kind_of(head, path.name)
     return kind, why_not(head) if kind == 'unknown' else ''
 
 
-def _head(path: Path, most: int) -> bytes:
+def head_of(path: Path, most: int) -> bytes:
+    """Return the first bytes of a file; Refused where it cannot be read."""
     with refusing_what_is_broken(), path.open('rb') as file:
         return file.read(most)
