@@ -303,11 +303,21 @@ def _done(
         done=lambda number, outcome: tally.add(
             said(jobs[number], outcome), is_new=not outcome.remembered
         ),
+        not_taken=_tell_not_taken,
     )
     try:
         return batch.run(), batch.unsealed
     finally:
         tally.close()
+
+
+def _tell_not_taken(names: Sequence[str]) -> None:
+    shown = ', '.join([*names[:FEW_FILES], *(['...'] if len(names) > FEW_FILES else [])])
+    _tell(
+        f'--collect: {len(names)} results are not taken, and graded here again ({shown}): they '
+        'were sealed with another HUSKY_GRADING_SECRET, or for other submissions, another rubric, '
+        'lab, Python, MuJoCo or numpy'
+    )
 
 
 def _places(given: Sequence[str], options: argparse.Namespace) -> list[str]:

@@ -167,9 +167,12 @@ def test_a_secret_that_is_too_short_is_refused(
 
 
 def test_machines_that_share_a_secret_take_results_of_each_other(
-    serial: Serial, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    serial: Serial,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    times, files = {}, serial.files
+    times, told, files = {}, {}, serial.files
     for secret in ('a' * 32, 'b' * 32):
         monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of one'))
         monkeypatch.setenv('HUSKY_GRADING_SECRET', 'a' * 32)
@@ -179,9 +182,15 @@ def test_machines_that_share_a_secret_take_results_of_each_other(
         monkeypatch.setenv('HUSKY_GRADING_SECRET', secret)
         grade([*files[:2], *ONE, '--report', str(here), '--collect', str(there)])
         written = [folder / 's0' / 'report.json' for folder in (there, here)]
+        told[secret[0]] = capsys.readouterr().err
         times[secret[0]] = [path.stat().st_mtime_ns for path in written]
     assert times['a'][0] == times['a'][1]
     assert times['b'][0] != times['b'][1]
+    assert 'not taken' not in told['a']
+    line = (
+        '--collect: 2 results are not taken, and graded here again (s0, s1): they were sealed with'
+    )
+    assert line in told['b']
 
 
 def test_a_grader_killed_at_ten_moments_comes_to_the_same_table(

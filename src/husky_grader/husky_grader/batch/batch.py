@@ -23,7 +23,7 @@ from husky_grader.batch.dask_cluster import (
     start_in_cluster,
 )
 from husky_grader.batch.job import Job, Outcome
-from husky_grader.batch.sealed import Seals
+from husky_grader.batch.sealed import SEAL_FILE, Seals
 from husky_grader.batch.workers import STALLED_CPU_SEC, workers
 
 Start = Callable[[Job, Path, str], 'Future[Outcome]']
@@ -50,11 +50,14 @@ class Batch:
         *,
         how: How = How(),  # noqa: B008  # frozen
         done: Callable[[int, Outcome], None] = lambda _number, _outcome: None,
+        not_taken: Callable[[Sequence[str]], None] = lambda _names: None,
     ) -> None:
         """
         Prepare it; see `run`.
 
         :param folder: of all reports.
+        :param not_taken: called with the names of those that another call has done, but whose
+            seal is not right, before they are done here.
         :raises ValueError: if the secret for seals cannot be one.
         """
         self.unsealed = ''  # why a result could not be sealed
@@ -62,6 +65,7 @@ class Batch:
         self._folder = folder
         self._how = how
         self._done = done
+        self._not_taken = not_taken
         self._seals = Seals()
         self._outcomes: dict[int, Outcome] = {}
         self._elsewhere: dict[str, list[Path]] = defaultdict(list)  # reports by their names
@@ -83,6 +87,9 @@ class Batch:
                 waiting.append(number)
             else:
                 self._finish(number, before)
+        names = [self._jobs[number].name for number in waiting]
+        if done_there := [name for name in names if self._is_done_there(name)]:
+            self._not_taken(done_there)
         if waiting:
             with self._executor(len(waiting)) as (begin, result):
                 futures: dict[Future[Outcome], int] = {}
@@ -106,6 +113,9 @@ class Batch:
                 _copy_report(there, own)
                 return Outcome(content, remembered=True)
         return None
+
+    def _is_done_there(self, name: str) -> bool:
+        return any((there / SEAL_FILE).exists() for there in self._elsewhere.get(name, ()))
 
     @contextmanager
     def _executor(self, most: int) -> Iterator[tuple[Start, Result]]:
