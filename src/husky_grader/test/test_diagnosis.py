@@ -314,6 +314,10 @@ def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
 def test_what_the_grader_has_killed_is_not_told_of_the_kernel() -> None:
     killed = 'it ended by itself (SIGKILL, as by the kernel where memory runs out): here'
     assert how_it_ended(-9, 'here\n') == killed
+    launch = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
+    told = "package 'patrool' not found"
+    assert how_it_ended(1, launch + told) == f'it ended by itself (exit code 1): {told}'
+    assert reasons(launch + told, '', [], 1)[0] == f'it crashed (exit code 1): {told}'
     note = '[ended by the grader: it had 501 processes and threads; 500 are allowed]'
     assert how_it_ended(-9, f'here\n\n{note}\n') == f'it ended by itself (SIGKILL): {note}'
     assert reasons(f'here\n{note}', '', [], -9)[0] == f'it crashed (SIGKILL): {note}'

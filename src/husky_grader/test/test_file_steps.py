@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which packages of a workspace are looked at, and what their manifests say."""
 
+from dataclasses import replace
 from pathlib import Path
 import subprocess
 import sys
@@ -99,6 +100,26 @@ def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path
         'it was put into install/my_driver/bin; its setup.cfg lacks: [install] '
         'install_scripts=$base/lib/my_driver'
     )
+
+
+def test_a_launch_file_is_found_where_it_was_installed_or_told(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'my_driver')
+    step = replace(DRIVE, executable='', launch='go.launch.py', arguments=('speed:=0.5',))
+    command_of = programs_of(workspace).command_of
+    with pytest.raises(ProgramMissing, match=r'go\.launch\.py finds nothing: package my_driver'):
+        command_of(step)
+    launch = install(workspace, 'my_driver', 'share/my_driver/launch').with_name('go.launch.py')
+    told = 'has installed: no launch files; put it into share/my_driver/launch, by data_files in'
+    with pytest.raises(ProgramMissing, match=told):
+        command_of(step)
+    launch.touch()
+    assert command_of(step) == ['ros2', 'launch', str(launch), 'speed:=0.5']
+    (launch.parents[1] / launch.name).touch()
+    with pytest.raises(ProgramMissing, match=r'finds two: go\.launch\.py and launch/go\.'):
+        command_of(step)
+    with pytest.raises(ProgramMissing, match=r'has installed: go\.launch\.py, go\.launch\.py; '):
+        command_of(replace(step, launch='stop.launch.py'))
 
 
 def test_links_in_a_circle_are_no_programs(tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ RUBRICS = [
 PROGRAM = 'points: 1, package: p, executable: e'
 TOPIC = f'{PROGRAM}, topic: t'
 STRING = 'type: std_msgs/msg/String'
+LAUNCH = f'points: 1, package: p, topic: t, {STRING}'
 
 
 def problems(*steps: str, file: str = 'rubric.yaml') -> list[str]:
@@ -63,8 +64,8 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         'installed here; did you mean std_msgs/msg/String?',
         'rubric.yaml: line 5, column 97: steps[2]: rate is no field; did you mean rate_hz? '
         'allowed: kind, name, points, needs, needs_one_of, package, package_with, executable, '
-        'arguments, parameters, topic, type, rate_hz, rate_tolerance, content, after_drive, call, '
-        'within_sec, listen_sec, costs',
+        'launch, arguments, parameters, topic, type, rate_hz, rate_tolerance, content, '
+        'after_drive, call, within_sec, listen_sec, costs',
         'rubric.yaml: line 6, column 31: steps[3].points: many is not a number; '
         'allowed is 0 to 1000 points',
         'rubric.yaml: line 6, column 45: steps[3].forms[0]: <numbr> is no placeholder; did you '
@@ -110,6 +111,22 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         (
             f'kind: publisher, {TOPIC}, {STRING}, rate_hz: 200 ms',
             '200 ms is not a number (write it in Hz, without the unit); allowed is',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, launch: a.launch.py',
+            'give executable or launch, ',
+        ),
+        (
+            f'kind: publisher, {LAUNCH}, launch: a.launch',
+            'a.launch is no launch file, as patrol.launch.py, .xml or .yaml',
+        ),
+        (
+            f'kind: publisher, {LAUNCH}, launch: a.launch.py, parameters: {{a: 1}}',
+            'steps[1].parameters: they are for an executable; write arguments: [NAME:=VALUE]',
+        ),
+        (
+            f"kind: publisher, {LAUNCH}, launch: a.launch.py, arguments: ['a=1']",
+            'steps[1].arguments: a=1: a launch file takes arguments as NAME:=VALUE',
         ),
         ('kind: workspace, points: 25/3', '25/3 is not a number; allowed is 0 to 1000 points'),
         (

@@ -19,7 +19,7 @@ from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.lab.programs import Programs
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
-from husky_grader.run.diagnosis import crash, how_ended, shortened
+from husky_grader.run.diagnosis import crash, how_ended, last_line, shortened
 from husky_grader.run.live import CHECK_FIELDS
 from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import trusted
@@ -50,7 +50,8 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         exit_code = program.exit_code
     if exit_code == NO_PROGRAM:
         return nothing(
-            f'{step.executable} cannot be started: there is no such program as its first line says'
+            f'{step.executable or step.launch} cannot be started: there is no such program as its '
+            'first line says'
         )
     if exit_code is not None:  # what was heard may be of a daemon that it has left behind
         return nothing(how_it_ended(exit_code, read_printed(log)))
@@ -94,7 +95,6 @@ def how_it_ended(exit_code: int, printed: str) -> str:
     """Return why a program has ended, by its own error if it tells of one."""
     if error := crash(printed):
         return error
-    lines = printed.split('\n')
-    last = next((line for line in reversed(lines) if line.strip()), '').strip()
+    last = last_line(printed)
     how = f'it ended by itself ({how_ended(exit_code, last)})'
     return shortened(how + (f': {last}' if last else ''))

@@ -69,13 +69,13 @@ class Programs:
 
     def command_of(self, step: ProgramStep) -> list[str]:
         """
-        Return the command that `ros2 run` would run, with the arguments of the step.
+        Return what `ros2 run` would run, or `ros2 launch`, with the arguments of the step.
 
         :raises PackageMissing: when the package is not there.
         :raises ProgramMissing: when the program is not there.
         """
-        program = self._program_of(step)
-        command = [str(program), *step.arguments]
+        program = str(self._program_of(step))
+        command = [*(('ros2', 'launch') if step.launch else ()), program, *step.arguments]
         if step.parameters:
             command.append('--ros-args')
             for name, value in step.parameters.items():
@@ -87,10 +87,50 @@ class Programs:
         missing: list[ProgramMissing] = []
         for package in find_packages(self.workspace, step.package, step.package_with):
             try:
+                if step.launch:
+                    return find_launch_file(self.built, package, step.launch)
                 return find_executable(self.built, package, step.executable)
             except ProgramMissing as error:
                 missing.append(error)
         raise missing[0]
+
+
+def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
+    """
+    Return a launch file that `ros2 launch` would find.
+
+    :param folder: where the workspace was built.
+    :param manifest: of its package.
+    :raises ProgramMissing: when there is none.
+    """
+    share = folder / 'install' / manifest.name / 'share' / manifest.name
+    command = f'ros2 launch {manifest.name} {name}'
+    _check_installed(folder, manifest, share, command)
+    files = sorted(path for path in share.rglob('*') if is_there(path) and path.is_file())
+    found = [path for path in files if path.name == name]
+    if len(found) > 1:
+        places = ' and '.join(path.relative_to(share).as_posix() for path in found)
+        raise ProgramMissing(f'{command} finds two: {places}; install one')
+    if found:
+        return found[0]
+    have = ', '.join(path.name for path in files if '.launch' in path.name) or 'no launch files'
+    raise ProgramMissing(
+        f'{command} finds nothing; {manifest.name} has installed: {have}; put it into '
+        f'share/{manifest.name}/launch, by data_files in its setup.py or install in CMakeLists.txt'
+    )
+
+
+def _check_installed(folder: Path, manifest: Manifest, place: Path, command: str) -> None:
+    """Check that a package was built, and that a folder of it lies in what was built."""
+    if not is_there(folder / 'install' / manifest.name):
+        raise ProgramMissing(f'{command} finds nothing: package {manifest.name} was not built')
+    # What is listed is told: nobody may point it at a folder of the grader's.
+    # By os.path: Path.resolve fails where links lead in a circle.
+    if not Path(os.path.realpath(place)).is_relative_to(os.path.realpath(folder)):
+        raise ProgramMissing(
+            f'{command}: {place.relative_to(folder)} leads out of the workspace; let the build '
+            'put the files there'
+        )
 
 
 def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
@@ -103,17 +143,7 @@ def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
     """
     package = manifest.name
     programs = folder / 'install' / package / 'lib' / package
-    if not is_there(folder / 'install' / package):
-        raise ProgramMissing(
-            f'ros2 run {package} {name} finds nothing: package {package} was not built'
-        )
-    # What is listed is told: nobody may point it at a folder of the grader's.
-    # By os.path: Path.resolve fails where links lead in a circle.
-    if not Path(os.path.realpath(programs)).is_relative_to(os.path.realpath(folder)):
-        raise ProgramMissing(
-            f'ros2 run {package} {name}: install/{package}/lib/{package} leads out of the '
-            'workspace; let the build put the programs there'
-        )
+    _check_installed(folder, manifest, programs, f'ros2 run {package} {name}')
     for candidate in (programs / name, programs / f'{name}.py'):
         if os.access(candidate, os.X_OK) and candidate.is_file():
             return candidate

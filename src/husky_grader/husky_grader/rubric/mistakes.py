@@ -22,6 +22,7 @@ from husky_grader.rubric.steps import (
     SubscriberStep,
 )
 
+LAUNCH_ENDINGS = ('.py', '.xml', '.yaml', '.yml')
 A_TOKEN = '12345678'
 _ENTRY = re.compile(r'(sequence<)?([\w/]+).*')  # the type of what is in sequence<string<9>, 3>
 _PARAMETER = re.compile(r'[A-Za-z_]\w*([./][A-Za-z_]\w*)*', re.ASCII)
@@ -41,6 +42,7 @@ def mistakes_of(step: Step) -> _Mistakes:
     ):
         yield 'package', 'give package or package_with, one of the two'
     if isinstance(step, ProgramStep):
+        yield from _program(step)
         yield from _parameters(step.parameters)
     if isinstance(step, PublisherStep):
         yield from _checks('content', get_message(step.type)(), step.content)
@@ -54,6 +56,19 @@ def mistakes_of(step: Step) -> _Mistakes:
         yield from _checks('response', kind.Response(), step.response)
     elif isinstance(step, DriveStep):
         yield from _drive(step)
+
+
+def _program(step: ProgramStep) -> _Mistakes:
+    if bool(step.executable) == bool(step.launch):
+        yield 'executable', 'give executable or launch, one of the two'
+    elif step.launch:
+        if not step.launch.endswith(LAUNCH_ENDINGS):
+            yield 'launch', f'{step.launch} is no launch file, as patrol.launch.py, .xml or .yaml'
+        if step.parameters:
+            yield 'parameters', 'they are for an executable; write arguments: [NAME:=VALUE]'
+        for given in step.arguments:
+            if ':=' not in given:
+                yield 'arguments', f'{given}: a launch file takes arguments as NAME:=VALUE'
 
 
 def _parameters(parameters: Mapping[str, Any]) -> _Mistakes:

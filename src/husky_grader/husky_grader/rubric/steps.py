@@ -88,7 +88,8 @@ class BuildStep(Step):
 class ProgramStep(Step):
     """What every step has that runs one of the student's programs."""
 
-    executable: str
+    executable: str = ''
+    launch: str = ''  # a launch file, in the place of an executable
     package: str = ''
     package_with: str = ''
     arguments: tuple[str, ...] = ()

@@ -101,7 +101,17 @@ _PROGRAM = {
     **_STEP,
     **_WHOSE,
     'executable': Field('executable', 'As after `ros2 run PACKAGE`.', _TEXT, parse=_name),
-    'arguments': Field('arguments', f'Its arguments; {COURSE}: the waypoint file.', _texts()),
+    'launch': Field(
+        'launch',
+        'In the place of executable: a launch file, as after `ros2 launch PACKAGE`.',
+        _TEXT,
+        parse=_name,
+    ),
+    'arguments': Field(
+        'arguments',
+        f'Its arguments; {COURSE}: the waypoint file. Of a launch file as NAME:=VALUE.',
+        _texts(),
+    ),
     'parameters': Field('parameters', 'Parameters of its nodes by name.', _MAPPING),
 }
 _WITHIN = Field('within_sec', 's of the clock: so long is waited for it.', number(1, 300), 's')
@@ -252,7 +262,7 @@ STEPS = {
                     PublisherCosts, rate='another rate', content='a field holds something else'
                 ),
             },
-            *('executable', 'topic', 'type'),
+            *('topic', 'type'),
         ),
         _table(
             SubscriberStep,
@@ -272,7 +282,7 @@ STEPS = {
                 'within_sec': _WITHIN,
                 'costs': _costs(SubscriberCosts, printed=f'the line holds {TOKEN}, but not all'),
             },
-            *('executable', 'topic', 'type', 'sent', 'printed'),
+            *('topic', 'type', 'sent', 'printed'),
         ),
         _table(
             ServiceStep,
@@ -285,7 +295,7 @@ STEPS = {
                 'within_sec': _WITHIN,
                 'costs': _costs(ServiceCosts, response='a field holds something else'),
             },
-            *('executable', 'service', 'type'),
+            *('service', 'type'),
         ),
         _table(
             DriveStep,
@@ -298,7 +308,7 @@ STEPS = {
                 **_LIMITED,
                 'costs': _costs(DriveCosts, **_EXCEEDED),
             },
-            *('executable', 'courses'),
+            'courses',
         ),
         _table(
             PathStep,

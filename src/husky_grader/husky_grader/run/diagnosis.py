@@ -36,6 +36,7 @@ LIBRARIES = tuple(
 )
 
 _LAUNCHED = re.compile(r'\[[\w.-]+-\d+\] ')  # what `ros2 launch` puts before each line
+_LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
 _FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _ERROR = re.compile(r'(?P<name>[A-Za-z_][\w.]*)(: .*)?')
 _ENDED = ('KeyboardInterrupt', 'ExternalShutdownException')  # whoever asked it to end
@@ -81,7 +82,7 @@ def reasons(
     """
     crashed = crash(printed)
     if exit_code:
-        last = crashed or shortened(printed.strip().rpartition('\n')[2])
+        last = crashed or shortened(last_line(printed))
         crashed = f'it crashed ({how_ended(exit_code, last)})' + (f': {last}' if last else '')
     found = [crashed] if crashed else []
     if refused := _NOT_FINITE.search(simulator_log):
@@ -92,6 +93,11 @@ def reasons(
     found += graph_reasons
     found = found or list(unsent)
     return tuple(dict.fromkeys(map(printable, found)))
+
+
+def last_line(printed: str) -> str:
+    """Return the last line that says something; of launch only what has ended it."""
+    return printed.strip().rpartition('\n')[2].strip().removeprefix(_LAUNCH_FAILED)
 
 
 def how_ended(exit_code: int, last: str = '') -> str:
