@@ -75,6 +75,20 @@ def test_an_export_of_moodle_keeps_names_and_numbers(
         unpack(dan, tmp_path / 'out')
 
 
+def test_names_in_utf8_are_read_also_where_a_zip_does_not_say_so(tmp_path: Path) -> None:
+    files = {
+        f'??em_102_assignsubmission_file/??/{MANIFEST}': b'',
+        'caf%_3_assignsubmission_file/a.zip': packed(),
+    }
+    place = export(tmp_path / 'down.zip', files, as_zip=True)
+    # As macOS has packed it; and a name that is in code page 437 indeed.
+    place.write_bytes(place.read_bytes().replace(b'??', 'Ç'.encode()).replace(b'%', b'\x82'))
+    cafe, cem = find_submissions([str(place)])
+    assert facts([cem, cafe]) == [('Çem_102', 'Çem', '102'), ('café_3', 'café', '3')]
+    assert unpack(cem, tmp_path / 'out').path.name == 'Ç'
+    assert unpack(cafe, tmp_path / 'out').path.name == 'a'
+
+
 @AS_ZIP
 def test_files_that_moodle_keeps_in_folders_stay_there(tmp_path: Path, as_zip: bool) -> None:
     folder = 'Ann_101_assignsubmission_file_'

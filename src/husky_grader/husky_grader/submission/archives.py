@@ -37,6 +37,7 @@ _ZIP_AT_ONCE = 8 << 20
 # A header with long names needs 2 kB. What tarfile does on one can take time that grows with the
 # square of its size (CVE-2024-6232).
 _TAR_AT_ONCE = CHUNK_BYTES
+_UTF_8 = 1 << 11  # APPNOTE.TXT 6.3.10, section 4.4.4: else the name is in code page 437
 _ENCRYPTED = 0x1  # APPNOTE.TXT 6.3.10, section 4.4.4
 _PLAIN_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 
@@ -101,7 +102,20 @@ def opened_zip(file: io.FileIO) -> Iterator[zipfile.ZipFile]:
             begins = [info.header_offset for info in archive.infolist()]
             if len(set(begins)) < len(begins):  # newer Pythons print a warning, and read them all
                 raise zipfile.BadZipFile('several of its files lie at one place')
+            for info in archive.infolist():
+                info.filename = _name_of(info)
+                archive.NameToInfo[info.filename] = info
         yield archive
+
+
+def _name_of(info: zipfile.ZipInfo) -> str:
+    """Return a name; macOS, and zip without a locale, write UTF-8 and do not say so."""
+    if info.flag_bits & _UTF_8:
+        return info.filename
+    try:
+        return info.filename.encode('cp437').decode()
+    except UnicodeError:
+        return info.filename
 
 
 def zip_entries(
