@@ -160,7 +160,8 @@ def test_one_that_takes_no_parameters_gets_its_service_only(graded: dict[str, St
     }
     assert graded['wrench unset'].why == (
         'wrench.force.z is 0.0; the lab asks for 7.49 or more and 7.51 or less; '
-        'about 10 messages a second; the lab asks for 20'
+        'about 10 messages a second; the lab asks for 20; '
+        'it was run with --ros-args -p rate_hz:=20.0 -p load_n:=7.5'
     )
     assert graded['tared unset'].why.startswith('counts only with points for wrench unset; ')
 
@@ -170,4 +171,6 @@ def test_one_with_another_type_of_service_is_told_the_right(graded: dict[str, St
     points = points_of(graded, 'other_type')
     assert points == {'package force_sensor': 10, 'build': 10, 'wrench': 40, 'tare': 0, 'tared': 0}
     wrong = 'it offers /tare as std_srvs/srv/SetBool; the lab asks for std_srvs/srv/Trigger'
-    assert graded['tare other_type'].why == graded['tared other_type'].why == wrong
+    for name, load in (('tare', '2.5'), ('tared', '7.5')):
+        told = f'{wrong}; it was run with --ros-args -p load_n:={load}'
+        assert graded[f'{name} other_type'].why == told

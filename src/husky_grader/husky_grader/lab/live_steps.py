@@ -3,10 +3,12 @@
 """The steps that are judged on a running program: publisher, subscriber and service."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 import json
 import os
 from pathlib import Path
 import pickle
+import shlex
 from tempfile import TemporaryDirectory
 import time
 
@@ -16,7 +18,7 @@ from husky_grader.jail import JailedProcess
 from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
-from husky_grader.lab.programs import Programs
+from husky_grader.lab.programs import given_words, Programs
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
 from husky_grader.run.diagnosis import crash, how_ended, last_line, shortened
@@ -54,8 +56,19 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
             'first line says'
         )
     if exit_code is not None:  # what was heard may be of a daemon that it has left behind
-        return nothing(how_it_ended(exit_code, read_printed(log)))
-    return found
+        found = nothing(how_it_ended(exit_code, read_printed(log)))
+    return _with_words(found, given_words(step))
+
+
+def _with_words(found: Finding, words: Sequence[str]) -> Finding:
+    """Tell with what a program was run that lost points, so that its student can do the same."""
+    if not words or (found.score >= 100.0 and not found.defects):
+        return found
+    told = f'it was run with {shlex.join(words)}'
+    if not found.defects:
+        return replace(found, why=f'{found.why}; {told}')
+    last = list(found.defects)[-1]
+    return replace(found, defects={**found.defects, last: f'{found.defects[last]}; {told}'})
 
 
 def _observe(

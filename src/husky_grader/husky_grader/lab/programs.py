@@ -75,12 +75,7 @@ class Programs:
         :raises ProgramMissing: when the program is not there.
         """
         program = str(self._program_of(step))
-        command = [*(('ros2', 'launch') if step.launch else ()), program, *step.arguments]
-        if step.parameters:
-            command.append('--ros-args')
-            for name, value in step.parameters.items():
-                command += ['-p', f'{name}:={json.dumps(value)}']  # JSON is YAML, as rcl reads it
-        return command
+        return [*(('ros2', 'launch') if step.launch else ()), program, *given_words(step)]
 
     def _program_of(self, step: ProgramStep) -> Path:
         """Return the program; where several packages may be meant, that of the first with it."""
@@ -93,6 +88,16 @@ class Programs:
             except ProgramMissing as error:
                 missing.append(error)
         raise missing[0]
+
+
+def given_words(step: ProgramStep) -> list[str]:
+    """Return what a program of a step is started with: its arguments and parameters."""
+    words = [*step.arguments]
+    if step.parameters:
+        words.append('--ros-args')
+        for name, value in step.parameters.items():
+            words += ['-p', f'{name}:={json.dumps(value)}']  # JSON is YAML, as rcl reads it
+    return words
 
 
 def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
