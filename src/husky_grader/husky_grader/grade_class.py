@@ -314,7 +314,7 @@ def _done(
 def _tell_not_taken(names: Sequence[str]) -> None:
     shown = ', '.join([*names[:FEW_FILES], *(['...'] if len(names) > FEW_FILES else [])])
     _tell(
-        f'--collect: {len(names)} results are not taken, and graded here again ({shown}): they '
+        f'--collect: not taken, and graded here again ({len(names)}): {shown}: their results '
         'were sealed with another HUSKY_GRADING_SECRET, or for other submissions, another rubric, '
         'lab, Python, MuJoCo or numpy'
     )

@@ -8,7 +8,9 @@ import time
 from typing import Any
 
 from husky_course.checked_yaml import FileRefused
+from husky_grader.grade import main as grade
 from husky_grader.rubric.forms import Form
+from husky_grader.rubric.impossible import impossible_courses
 from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
 from husky_grader.rubric.schema import schema_text
 from husky_grader.rubric.steps import DriveStep, PublisherStep
@@ -297,6 +299,24 @@ def test_a_list_is_no_rubric_and_names_no_interfaces() -> None:
         parse_rubric('- a\n')
     (line,) = str(refused.value).splitlines()
     assert line.endswith('a list of 1 instead of a rubric; write a mapping: title, steps')
+
+
+def test_a_course_through_an_obstacle_is_told_before_anything(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rubric = tmp_path / 'rubric.yaml'
+    (tmp_path / 'short.yaml').write_text('waypoints: [[0, 0], [4, 0]]\n')
+    drive = f'kind: drive, {PROGRAM}, courses: [{{file: short.yaml}}]'
+    rubric.write_text(f'title: T\nsteps: [{{kind: build, points: 1}}, {{{drive}}}]\n')
+    command = ['--lab', str(tmp_path / 'none'), '--rubric', str(rubric)]
+    assert grade([*command, '--report', str(tmp_path / 'report')]) == 2
+    told, _ = capsys.readouterr().err.splitlines()
+    start = (
+        f'{rubric}: the course short.yaml goes through jersey_barrier_15 in the playpen, so that'
+    )
+    assert told.startswith(start)
+    rubric.write_text(f'world: {ROOT}/worlds/empty.xml\n{rubric.read_text()}')
+    assert list(impossible_courses(load_rubric(rubric))) == []
 
 
 def test_a_program_cannot_run_before_the_build() -> None:

@@ -187,9 +187,7 @@ def test_machines_that_share_a_secret_take_results_of_each_other(
     assert times['a'][0] == times['a'][1]
     assert times['b'][0] != times['b'][1]
     assert 'not taken' not in told['a']
-    line = (
-        '--collect: 2 results are not taken, and graded here again (s0, s1): they were sealed with'
-    )
+    line = '--collect: not taken, and graded here again (2): s0, s1: their results were sealed '
     assert line in told['b']
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What no student could get all points for: courses that go through something."""
+"""Courses of a rubric that go through something."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +13,7 @@ from husky_grader.rubric.steps import Rubric
 
 
 def impossible_courses(rubric: Rubric) -> Iterator[str]:
-    """Yield a line on each course on which whoever keeps to it touches something."""
+    """Yield a line on each course on which a robot that keeps to it touches something."""
     if not rubric.courses:
         return
     obstacles = obstacles_of(rubric.world)
@@ -22,6 +22,6 @@ def impossible_courses(rubric: Rubric) -> Iterator[str]:
             where = Path(rubric.world).name if rubric.world else 'the playpen'
             yield (
                 f'{rubric.file}: the course {course.name} goes through {" and ".join(touched)} in '
-                f'{where}, so that nobody can get all points for it; change the course, or name '
-                'another world by `world: FILE` in the rubric'
+                f'{where}, so that a robot that keeps to it touches that; change the course, or '
+                'name another world by `world: FILE` in the rubric'
             )
