@@ -14,7 +14,8 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     Give the name of a file to write; it takes the place of `path`, unless something fails.
 
-    :raises OSError: also where a device is: root would put the file in the place of /dev/null.
+    :raises OSError: with the name of a file, which Python leaves out where a write fails; also
+        where a device is: root would put the file in the place of /dev/null.
     """
     if _is_device(path):
         raise OSError(errno.EEXIST, 'a device, no file', str(path))
@@ -22,6 +23,9 @@ def replacing(path: Path) -> Iterator[Path]:
     try:
         yield part
         part.replace(path)
+    except OSError as error:
+        error.filename = error.filename or str(path)
+        raise
     finally:
         part.unlink(missing_ok=True)
 

@@ -3,6 +3,7 @@
 """Files that are written whole or not at all."""
 
 from pathlib import Path
+import resource
 
 from husky_course.files import replacing
 import pytest
@@ -25,3 +26,14 @@ def test_a_file_takes_its_place_when_it_is_whole(tmp_path: Path) -> None:
     with pytest.raises(KeyError), replacing(file) as part:
         part.write_text({'half': ''}['other half'])
     assert [each.read_text() for each in tmp_path.iterdir()] == ['whole']
+
+
+def test_a_file_for_which_there_is_no_room_is_named(tmp_path: Path) -> None:
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))  # as on a full disk
+    try:
+        with pytest.raises(OSError) as caught, replacing(tmp_path / 'file') as part:
+            part.write_text('more than nothing')
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert caught.value.filename == str(tmp_path / 'file')
