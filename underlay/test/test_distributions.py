@@ -73,6 +73,9 @@ def test_dependencies_are_what_is_imported(name: str) -> None:
     if name == 'ros2launch':
         # as upstream: it launches files of each kind
         expected |= {'launch_ros', 'launch_xml', 'launch_yaml'}
+    if name == 'demo_nodes_cpp':
+        # its launch files, one of each kind, lie in `prefix`
+        expected |= {'demo_nodes_py', 'launch', 'launch_ros', 'launch_xml', 'launch_yaml'}
     if name == 'launch_ros':
         assert 'launch.frontend.launch_extension' in entry_point_groups_of(name)
     assert dependencies_of(name) == expected
