@@ -81,11 +81,7 @@ _BY_PROGRAM = {
     **{
         ('demo_nodes_cpp', program): '`ros2 run demo_nodes_py introspection` is the service and '
         'its client in one, with the same parameters'
-        for program in (
-            'introspection_service',
-            'introspection_client',
-            'introspect_services_launch.py',
-        )
+        for program in ('introspection_service', 'introspection_client')
     },
     **dict.fromkeys(
         (('demo_nodes_cpp', 'add_two_ints_server'), ('demo_nodes_cpp', 'add_two_ints_client')),

@@ -11,7 +11,6 @@ import subprocess
 import sys
 from typing import Any
 
-from ament_index_python import get_package_share_directory
 from example_interfaces.srv import AddTwoInts
 from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
@@ -113,13 +112,14 @@ def generate_launch_description():
     find_line(launch.stdout, r'\[listener-2\] \[INFO\].*\[listener\]: I heard: \[Hello World: ')
 
 
-def test_pages_on_launch_include_a_talker_in_each_format() -> None:
-    share = Path(get_package_share_directory('demo_nodes_cpp'), 'launch', 'topics')
-    files = [share / f'talker_listener_launch.{suffix}' for suffix in ('py', 'xml', 'yaml')]
-    calls = [('ros2cli.cli', 'launch', str(file), '--print-description') for file in files]
-    for file, printed in zip(files, run_forked(*calls, preload=('launch_ros',)), strict=True):
+def test_launch_files_that_pages_use_start_those_in_python() -> None:
+    talk = [('demo_nodes_py', 'talker'), ('demo_nodes_py', 'listener')]
+    files = {f'talker_listener_launch.{suffix}': talk for suffix in ('py', 'xml', 'yaml')}
+    files['introspect_services_launch.py'] = [('demo_nodes_py', 'introspection')]
+    words = [('ros2cli.cli', 'launch', 'demo_nodes_cpp', file, '-p') for file in files]
+    for file, printed in zip(files, run_forked(*words, preload=('launch_ros',)), strict=True):
         started = re.findall(r"ExecInPkg\(pkg='(\w+)', exec='(\w+)'\)", printed.out)
-        assert started == [('demo_nodes_py', 'talker'), ('demo_nodes_py', 'listener')], file
+        assert started == files[file], (file, printed.err)
 
 
 def test_each_quality_of_service_has_as_many_messages_as_asked(processes: Any) -> None:

@@ -90,9 +90,10 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
         ('rviz2', 'viewer:=true'),
         ('rqt', 'here `ros2 service call` calls a service, `ros2 run rqt_graph rqt_graph` shows'),
         ('ros2 run rqt_console rqt_console', '`ros2 topic echo /rosout`'),
+        ('ros2 run demo_nodes_cpp introspection_service', 'ros2 run demo_nodes_py introspection'),
         (
-            'ros2 launch demo_nodes_cpp introspect_services_launch.py',
-            'demo_nodes_py introspection',
+            'ros2 launch demo_nodes_cpp add_two_ints_launch.py',
+            'ros2 pkg executables demo_nodes_py',
         ),
         ('ros2 run ros_gz_sim create', 'husky_playpen.launch.py'),
         ('ros2 run teleop_twist_keyboard teleop_twist_keyboard', 'ros2 run husky_driver teleop'),
