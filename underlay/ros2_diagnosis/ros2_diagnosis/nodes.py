@@ -13,6 +13,7 @@ from rtps_graph.graph import Graph, Node, Role
 from ros2_diagnosis.finding import Finding
 
 _CLOCK = '/clock'
+_TRANSFORMS = '/tf'
 COMMAND = 'a `ros2` command'
 # Topics of which one robot has one publisher: two would contradict each other.
 _SINGLE_PUBLISHER_ENDS = (
@@ -82,6 +83,22 @@ def check_clock(graph: Graph) -> Iterator[Finding]:
             f'use_sim_time is true, but nobody publishes {_CLOCK}, so that its time stands still '
             'at 0 and its timers never fire',
             f'start the simulator, or {_without_clock(waiting[0])}',
+        )
+
+
+def check_wall_clock(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that hear transforms of simulated time, but go by the clock of the wall."""
+    told = {id(graph.node_of(each)) for each in graph.with_role(Role.PUBLISHER, _CLOCK)}
+    heeding = {id(graph.node_of(each)) for each in graph.with_role(Role.SUBSCRIPTION, _CLOCK)}
+    hearing = map(graph.node_of, graph.with_role(Role.SUBSCRIPTION, _TRANSFORMS))
+    found = sorted({shown_name(node) for node in hearing if id(node) not in told | heeding})
+    if told and (found := [name for name in found if name != COMMAND]):
+        yield Finding(
+            ', '.join(found),
+            f'use_sim_time is false, while {_TRANSFORMS} has the time of {_CLOCK}, so that '
+            'transforms at get_clock().now() are never there',
+            'start it with `--ros-args -p use_sim_time:=true`, or look up at `Time()`, the newest',
+            serious=False,
         )
 
 

@@ -47,6 +47,10 @@ def _types() -> Iterable[Finding]:
     return [finding for finding in found if '/_action/' not in finding.where]
 
 
+def _clock() -> Iterable[Finding]:
+    return [*nodes.check_clock(graph()), *nodes.check_wall_clock(graph())]
+
+
 def _partners() -> Iterable[Finding]:
     return [*partners.check_topics(graph()), *partners.check_services(graph())]
 
@@ -94,7 +98,7 @@ Publishers = partial(_Check, 'publishers', lambda: nodes.check_publishers(graph(
 Types = partial(_Check, 'types', _types)
 QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')
 Partners = partial(_Check, 'partners', _partners)
-Clock = partial(_Check, 'clock', lambda: nodes.check_clock(graph()))
+Clock = partial(_Check, 'clock', _clock)
 Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))
 Commands = partial(_Check, 'commands', _commands)
 Answers = partial(_Check, 'answers', _answers)

@@ -25,6 +25,7 @@ from rclpy.service_introspection import ServiceIntrospectionState
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float32, String
 from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
 
 BEST_EFFORT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -178,6 +179,10 @@ def count_that_rejects(node: Node) -> None:
 
 def count_that_goes_on(node: Node) -> None:
     count(node, cancel=CancelResponse.REJECT)
+
+
+def transforms(node: Node) -> None:
+    node.create_subscription(TFMessage, '/tf', lambda _: None, 10)
 
 
 def plain(node: Node) -> None:

@@ -140,6 +140,20 @@ def test_a_command_that_waits_for_the_clock_is_told_its_option() -> None:
     assert str(finding).endswith('start the simulator, or leave out --use-sim-time')
 
 
+def test_transforms_without_the_time_of_the_simulation(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('simulator', 'husky')
+    processes.node('transforms', 'looks')
+    line = _line(ros2('doctor'), 'clock')
+    assert line.startswith(
+        'note (clock): /looks: use_sim_time is false, while /tf has the time of'
+    )
+    assert '`--ros-args -p use_sim_time:=true`' in line
+    processes.node('transforms', 'heeds', '--ros-args', '-p', 'use_sim_time:=true')
+    assert '/heeds' not in _line(ros2('doctor'), 'clock')
+
+
 def test_two_nodes_of_one_name(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('plain', 'twin')
     processes.node('plain', 'twin')
