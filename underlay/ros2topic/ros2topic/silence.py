@@ -9,7 +9,7 @@ from concurrent.futures import Future
 import sys
 import threading
 
-from ros2_diagnosis import connections, nodes
+from ros2_diagnosis import connections, nodes, partners
 from ros2_diagnosis.finding import Finding
 from ros2cli import discovery
 from ros2cli.node.direct import CommandNode
@@ -72,13 +72,13 @@ def why_silent(graph: Graph, topic: str) -> list[Finding]:
     """Explain why a subscription of the topic gets nothing."""
     publishers = graph.with_role(Role.PUBLISHER, topic)
     if not publishers:
-        return [
-            Finding(
-                topic,
-                'nobody publishes it',
-                'start the node that does; `ros2 topic list` shows what there is',
-            )
-        ]
+        nobody = Finding(
+            topic,
+            'nobody publishes it',
+            'start the node that does; `ros2 topic list` shows what there is',
+        )
+        apart = partners.check_topics(graph)
+        return [each for each in apart if topic in each.where.split(', ')] or [nobody]
     if found := [*connections.check(graph, topic), *nodes.check_clock(graph)]:
         return found
     names = sorted({graph.node_of(endpoint).full_name for endpoint in publishers})

@@ -84,6 +84,10 @@ def test_two_names_for_one_topic(processes: Any, ros2: Callable[..., Any]) -> No
     assert line.endswith('`--ros-args -r /speeds:=/cmd_vel`') or line.endswith(
         '`--ros-args -r /cmd_vel:=/speeds`'
     )
+    processes.ros2(
+        *('topic', 'echo', '/sped', 'geometry_msgs/msg/Twist'),
+        ready='hint: /sped: a `ros2` command subscribes to this, but /driver publishes /speeds, ',
+    )
 
 
 def test_two_names_for_one_service(processes: Any, ros2: Callable[..., Any]) -> None:
