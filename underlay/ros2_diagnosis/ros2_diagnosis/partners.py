@@ -113,9 +113,11 @@ def _waiting(uses: list[_Use], partners: list[_Use]) -> Iterator[tuple[_Uses, _U
 def _meant(one: _Use, partners: list[_Use], same_side: list[_Use]) -> _Uses:
     """Return what a use may have been meant for.
 
-    That is of the same type and another node, and this node does not use it already.
+    That is of the same type and another node, and this node does not use it already. Where no
+    name is near, it is no node either that uses this type on both sides: that one passes it on.
     """
     used = {each.name for each in same_side if each.node == one.node}
+    on_both_sides = {each.node for each in same_side if each.type == one.type}
     found = tuple(
         each
         for each in partners
@@ -124,7 +126,7 @@ def _meant(one: _Use, partners: list[_Use], same_side: list[_Use]) -> _Uses:
     near = nearest.names(one.name, {each.name for each in found})
     if near or one.type.startswith(_OF_ANY_USE):
         return tuple(each for each in found if each.name in near)
-    return found
+    return tuple(each for each in found if each.node not in on_both_sides)
 
 
 def _apart(

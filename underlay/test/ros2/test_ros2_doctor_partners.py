@@ -47,6 +47,15 @@ def test_partners_that_nobody_misses_are_not_told_of() -> None:
     ]
 
 
+def test_what_a_robot_passes_on_is_meant_for_no_other() -> None:
+    twist = 'geometry_msgs/msg/Twist'
+    robots = _graph(
+        husky_sim=[(Role.SUBSCRIPTION, '/cmd_vel', twist), (Role.PUBLISHER, '/told', twist)],
+        turtlesim=[(Role.SUBSCRIPTION, '/turtle1/cmd_vel', twist)],
+    )
+    assert list(partners.check_topics(robots)) == []
+
+
 def test_what_several_robots_wait_for_is_one_line() -> None:
     twist = 'geometry_msgs/msg/Twist'
     waits = [(Role.SUBSCRIPTION, f'/{name}/cmd_vel', twist) for name in 'abcd']
