@@ -51,6 +51,7 @@ def workers(
     # Of multiprocessing: it starts with the first process otherwise, and unblocks SIGINT there.
     resource_tracker.ensure_running()
     place = tempfile.mkdtemp()
+    Path(place).chmod(0o711)  # the user of a jail passes it, as it passes /tmp
     all_workers = [_Worker(place) for _ in range(count)]
     idle: SimpleQueue[_Worker] = SimpleQueue()
     for worker in all_workers:
