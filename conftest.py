@@ -84,4 +84,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
                 (group for start, group in TOGETHER.items() if name.startswith(start)), file
             )
 
+        def _reschedule(self, node: Any) -> None:
+            # A process runs a test once it knows the next one. After another one has died it may
+            # be given a single test, or files of which all is done, and wait for ever.
+            super()._reschedule(node)
+            while (
+                self.workqueue
+                and not node.shutting_down
+                and self._pending_of(self.assigned_work[node]) < 2
+            ):
+                super()._reschedule(node)
+
     return ByFile(config, log)

@@ -5,6 +5,7 @@
 import json
 from pathlib import Path
 import signal
+import sys
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
@@ -157,3 +158,32 @@ def test_a_killed_test_run_leaves_no_browser(processes: Processes) -> None:
         timeout_sec=3.0,
         what=lambda: f'the end of {running(members)}; the tests printed:\n{run.output}',
     )
+
+
+DIES_ONCE = """
+import os, pathlib, signal
+
+def test_it():
+    died = pathlib.Path(__file__).with_suffix('.died')
+    if not died.exists():
+        died.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_a_killed_test_process_fails_its_test_and_the_run_goes_on(
+    processes: Processes, tmp_path: Path
+) -> None:
+    for number in range(20):
+        text = DIES_ONCE if number == 15 else 'def test_it(): pass\n'
+        (tmp_path / f'test_{number:02}.py').write_text(text)
+    options = ('-p', 'conftest', '-c', '/dev/null', '--rootdir', str(tmp_path))
+    run = processes.start(
+        *(sys.executable, '-m', 'pytest', *options, '--no-loadscope-reorder'),
+        *('--numprocesses', '2', str(tmp_path)),
+        cwd=ROOT,
+    )
+    assert run.wait(timeout_sec=30.0) == 1
+    assert 'crashed while running' in run.output, run.output
+    # The others of its file are run by another process, which is this one again.
+    assert '1 failed, 20 passed' in run.output, run.output
