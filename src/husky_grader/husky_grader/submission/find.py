@@ -26,9 +26,9 @@ from husky_grader.submission.moodle import moodle_submissions
 from husky_grader.submission.names import folder_names, without_ending
 from husky_grader.submission.submission import Submission
 
-# Also what ssh takes: user@host:path.
 _NAME = re.compile(rb'<name>\s*([^<\s]+)')
 _MOST_OF_A_MANIFEST = 100_000  # bytes
+# Also what ssh takes: user@host:path.
 _URL = re.compile(r'[a-z][a-z0-9+.-]*://.*|[\w.-]+@[\w.-]+:.*', re.IGNORECASE)
 
 
