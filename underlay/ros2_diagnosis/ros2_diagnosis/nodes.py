@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+import os
 
 from rtps_graph import names
 from rtps_graph.graph import Graph, Node, Role
+from rtps_graph.settings import LAST_DOMAIN, settings_from_environment
 
 from ros2_diagnosis.finding import Finding
 
@@ -123,6 +125,34 @@ def check_vendors(graph: Graph, service: str | None = None) -> Iterator[Finding]
             'parameters and actions never answer',
             'start all with the same RMW_IMPLEMENTATION (here rmw_fastrtps_cpp)',
         )
+
+
+def check_memory(found: Iterable[Node]) -> Iterator[Finding]:
+    """Find nodes of this machine that Fast DDS's shared memory keeps from those of this user."""
+    by_owner: dict[str, set[str]] = {}
+    for node in found:
+        if node.foreign_memory is not None:
+            by_owner.setdefault(node.foreign_memory.owner, set()).add(shown_name(node))
+    for owner, apart in by_owner.items():
+        if owner:
+            what = f"of another user, '{owner}'"
+            mend = (
+                f'`export ROS_DOMAIN_ID={_own_domain()}` in your terminals keeps you apart, '
+                '`export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET` joins you'
+            )
+        else:
+            what = "its shared memory is not in this terminal's /dev/shm"
+            mend = (
+                'start it anew where somebody removed /dev/shm/fastrtps*, a container with '
+                '`--ipc=host`'
+            )
+        yield Finding(', '.join(sorted(apart)), f'{what}: it is seen, but no message passes', mend)
+
+
+def _own_domain() -> int:
+    """Return a domain that few other users of this machine come to, and not this one."""
+    domain_id = 1 + os.getuid() % LAST_DOMAIN
+    return domain_id if domain_id != settings_from_environment().domain_id else domain_id - 1
 
 
 def check_silent(graph: Graph, domain_id: int) -> Iterator[Finding]:

@@ -13,11 +13,10 @@ import socket
 from rtps_graph import graph, host, names
 from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant
-from rtps_graph.settings import Settings
+from rtps_graph.settings import LAST_DOMAIN, Settings
 
 from ros2_diagnosis.finding import Finding
 
-_LAST_DOMAIN = 101  # Beyond it lie the ports that Linux gives to anybody.
 _LISTEN_SEC = 0.6
 _DAEMON = f'{names.COMMAND_NODE}daemon_'
 _LOOPBACK = '127.0.0.1'
@@ -50,7 +49,7 @@ def _own_ports() -> dict[int, set[int]]:
     """Return the discovery ports that may be of this user's participants, by their domains."""
     bound = host.bound_udp_ports(own=True) or set()
     found = {}
-    for domain_id in range(_LAST_DOMAIN + 1):
+    for domain_id in range(LAST_DOMAIN + 1):
         if ports := host.participant_ports(domain_id, bound):
             found[domain_id] = ports
     return found
@@ -121,11 +120,11 @@ def check_environment(settings: Settings) -> Iterator[Finding]:
             'is empty, so that no package is found',
             'source a ROS 2 set-up file, or use `./lab shell`',
         )
-    if settings.domain_id > _LAST_DOMAIN:
+    if settings.domain_id > LAST_DOMAIN:
         yield Finding(
             f'ROS_DOMAIN_ID={settings.domain_id}',
             'its ports are also given to other programs by Linux, so that nodes fail at random',
-            f'`export ROS_DOMAIN_ID={settings.domain_id % _LAST_DOMAIN}` (0 to {_LAST_DOMAIN})',
+            f'`export ROS_DOMAIN_ID={settings.domain_id % LAST_DOMAIN}` (0 to {LAST_DOMAIN})',
         )
     if settings.discovery_range == 'OFF':
         yield Finding(

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from rcl_interfaces.srv import ListParameters
@@ -14,16 +14,12 @@ from ros2cli import calls
 from ros2cli.errors import CommandError, ServiceTimeout
 from ros2cli.node.direct import command_node
 from ros2param import params
-from rtps_graph.graph import Graph
+from rtps_graph.graph import Graph, Node
 
 
 def check_answers(graph: Graph) -> Iterator[Finding]:
     """Ask each node for the names of its parameters, which one answers that spins."""
-    unheard = {
-        name for finding in nodes.check_vendors(graph) for name in finding.where.split(', ')
-    }
-    names = {node.full_name for node in graph.nodes if params.has_parameters(node)} - unheard
-    for name, answer in _ask(names).items():
+    for name, answer in _ask(graph, graph.nodes).items():
         if isinstance(answer, CommandError) and not isinstance(answer, ServiceTimeout):
             yield Finding(
                 name,
@@ -36,7 +32,7 @@ def check_answers(graph: Graph) -> Iterator[Finding]:
 def parameter_names(graph: Graph) -> dict[str, set[str] | None]:
     """Map the nodes to the names of their parameters; to None where these are not told."""
     shown = [node for node in graph.nodes if not node.is_hidden]
-    answers = _ask({node.full_name for node in shown if params.has_parameters(node)})
+    answers = _ask(graph, shown)
     told = {
         name: set(answer.result.names)
         for name, answer in answers.items()
@@ -45,8 +41,11 @@ def parameter_names(graph: Graph) -> dict[str, set[str] | None]:
     return {node.full_name: told.get(node.full_name) for node in shown}
 
 
-def _ask(names: set[str]) -> dict[str, Any]:
-    """Map each node to its answer, or to why there is none."""
+def _ask(graph: Graph, asked: Iterable[Node]) -> dict[str, Any]:
+    """Map each node to its answer, or to why there is none; leave out those that cannot hear."""
+    apart = [*nodes.check_vendors(graph), *nodes.check_memory(graph.nodes)]
+    unheard = {name for finding in apart for name in finding.where.split(', ')}
+    names = {node.full_name for node in asked if params.has_parameters(node)} - unheard
     if not names:
         return {}
     request = ListParameters.Request()

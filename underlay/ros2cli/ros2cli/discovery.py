@@ -128,9 +128,13 @@ def why_unanswered(services: Iterable[str]) -> dict[str, str]:
     """Return for each service that is there and will never answer, why."""
     from ros2_diagnosis import nodes
 
-    graph = read_graph(quiet=True)
-    found = {service: nodes.check_vendors(graph, service) for service in services}
-    return {service: str(each) for service, findings in found.items() for each in findings}
+    read = read_graph(quiet=True)
+    why: dict[str, str] = {}
+    for service in services:
+        servers = map(read.node_of, read.with_role(graph.Role.SERVER, service))
+        for finding in (*nodes.check_vendors(read, service), *nodes.check_memory(servers)):
+            why[service] = str(finding)
+    return why
 
 
 def _check_signals() -> None:

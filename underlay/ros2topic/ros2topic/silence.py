@@ -61,7 +61,8 @@ def _graph_read_meanwhile(node: CommandNode) -> Graph:
 def hint_when_not_received(topic: str) -> None:
     """Print why a subscription does not get what this command publishes, or what was meant."""
     graph = discovery.read_graph(quiet=True)
-    for finding in connections.check(graph, topic):
+    hearers = map(graph.node_of, graph.with_role(Role.SUBSCRIPTION, topic))
+    for finding in (*nodes.check_memory(hearers), *connections.check(graph, topic)):
         print(f'hint: {finding}', file=sys.stderr)
     heard = {endpoint.name for endpoint in graph.endpoints if endpoint.role is Role.SUBSCRIPTION}
     if topic not in heard:
@@ -79,7 +80,11 @@ def why_silent(graph: Graph, topic: str) -> list[Finding]:
         )
         apart = partners.check_topics(graph)
         return [each for each in apart if topic in each.where.split(', ')] or [nobody]
-    if found := [*connections.check(graph, topic), *nodes.check_clock(graph)]:
+    if found := [
+        *nodes.check_memory(map(graph.node_of, publishers)),
+        *connections.check(graph, topic),
+        *nodes.check_clock(graph),
+    ]:
         return found
     names = sorted({graph.node_of(endpoint).full_name for endpoint in publishers})
     return [

@@ -11,6 +11,7 @@ import re
 import struct
 
 from rtps_graph import names, wire
+from rtps_graph.host import ForeignMemory
 from rtps_graph.participant import Participant
 
 NODE_NAME_UNKNOWN = '_NODE_NAME_UNKNOWN_'
@@ -65,6 +66,7 @@ class Node:
     name: str
     namespace: str
     endpoints: list[Endpoint] = field(default_factory=list)
+    foreign_memory: ForeignMemory | None = None
 
     @property
     def full_name(self) -> str:
@@ -142,7 +144,7 @@ def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ())
         graph.endpoints.extend(endpoints.values())
         for namespace, name, guids in _nodes(participant.graph_sample):
             known = [endpoints[guid] for guid in guids if guid in endpoints]
-            graph.nodes.append(Node(name, namespace, known))
+            graph.nodes.append(Node(name, namespace, known, participant.foreign_memory))
     graph.nodes.sort(key=lambda node: node.full_name)
     graph.endpoints.sort(key=lambda endpoint: endpoint.guid)
     return graph

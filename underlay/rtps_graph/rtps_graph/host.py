@@ -9,6 +9,7 @@ import contextlib
 import mmap
 import os
 from pathlib import Path
+import pwd
 from typing import NamedTuple
 
 # DDSI-RTPS 2.2, 9.6.1.1: port base, domain gain, participant gain and offsets.
@@ -17,6 +18,7 @@ MAX_PARTICIPANTS = 120
 MULTICAST_ADDRESS = '239.255.0.1'
 _ADDRESS, _USER, _INODE = 1, 7, 9  # the columns of /proc/net/udp, see proc(5)
 _QUIET_READS, _MOST_READS = 3, 12
+_SHARED_MEMORY = Path('/dev/shm')
 
 
 def multicast_port(domain_id: int) -> int:
@@ -64,6 +66,31 @@ def stopped_ports(ports: Collection[int]) -> set[int]:
             if state in 'Tt':
                 stopped.update(map(os.readlink, (process / 'fd').iterdir()))
     return {port for name, port in sockets.items() if name in stopped}
+
+
+class ForeignMemory(NamedTuple):
+    """Shared memory of a participant of this host to which no message of this user comes.
+
+    Fast DDS sends nothing by another way to a participant of the same host.
+    """
+
+    owner: str  # the name of another user, or his number; '' where the memory is not here
+
+
+def foreign_memory(port: int) -> ForeignMemory | None:
+    """Look at the shared memory that a participant of this host announces, by its port."""
+    try:
+        owner = (_SHARED_MEMORY / f'fastrtps_port{port}').stat().st_uid
+    except FileNotFoundError:
+        return ForeignMemory('') if _SHARED_MEMORY.is_dir() else None
+    return None if owner == os.getuid() else ForeignMemory(_user_name(owner))
+
+
+def _user_name(user: int) -> str:
+    try:
+        return pwd.getpwuid(user).pw_name
+    except KeyError:  # as in a container
+        return str(user)
 
 
 class _Socket(NamedTuple):

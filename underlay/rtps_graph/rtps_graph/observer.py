@@ -225,11 +225,18 @@ class Observer:
         if message.source in self.participants or message.source == self._prefix:
             return
         values = wire.parameters(message.payload)
-        discovery = _udp_port(values.get(wire.PID_METATRAFFIC_UNICAST_LOCATOR, []))
-        data = _udp_port(values.get(wire.PID_DEFAULT_UNICAST_LOCATOR, []))
+        locators = values.get(wire.PID_DEFAULT_UNICAST_LOCATOR, [])
+        discovery = _port(
+            wire.LOCATOR_UDP_V4, values.get(wire.PID_METATRAFFIC_UNICAST_LOCATOR, [])
+        )
+        data = _port(wire.LOCATOR_UDP_V4, locators)
         if discovery is None or data is None:
             return
         participant = Participant(message.source, address, discovery, data)
+        memory = _port(wire.LOCATOR_SHARED_MEMORY, locators)
+        # In other ranges the nodes of this terminal have no shared memory (config/fastdds.xml).
+        if memory is not None and not self._subnet and address in self._addresses:
+            participant.foreign_memory = host.foreign_memory(memory)
         self.participants[message.source] = participant
         self._news_sec = time.monotonic()
         self._ask_participant(participant)
@@ -271,8 +278,8 @@ def _own_addresses(*, remote: bool) -> list[str]:
     return addresses
 
 
-def _udp_port(locators: list[bytes]) -> int | None:
+def _port(kind: int, locators: list[bytes]) -> int | None:
     for locator in locators:
-        if len(locator) >= 24 and struct.unpack_from('<i', locator)[0] == wire.LOCATOR_UDP_V4:
+        if len(locator) >= 24 and struct.unpack_from('<i', locator)[0] == kind:
             return int(struct.unpack_from('<I', locator, 4)[0])
     return None

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from rtps_graph import wire
+from rtps_graph import host, wire
 
 # The topic in which every ROS process tells the nodes that it holds.
 GRAPH_TOPIC = 'ros_discovery_info'
@@ -41,6 +41,7 @@ class Participant:
     address: str
     discovery_port: int
     data_port: int
+    foreign_memory: host.ForeignMemory | None = None
     publications: Samples = field(default_factory=Samples)
     subscriptions: Samples = field(default_factory=Samples)
     graph: Samples = field(default_factory=Samples)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import os
 
+LAST_DOMAIN = 101  # Beyond it lie the ports that Linux gives to anybody.
 _RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
 
 

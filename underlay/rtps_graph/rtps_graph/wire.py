@@ -47,6 +47,7 @@ PID_KEY_HASH = 0x0070
 PID_STATUS_INFO = 0x0071
 
 LOCATOR_UDP_V4 = 1
+LOCATOR_SHARED_MEMORY = 16  # LOCATOR_KIND_SHM of Fast DDS
 PL_CDR_LE = bytes.fromhex('00030000')
 # Vendor 0.0 is "unknown", so that no implementation takes this reader for one of its own.
 # As Fast DDS 2.14 announces it, in its messages and in PID_PROTOCOL_VERSION.

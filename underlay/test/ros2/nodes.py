@@ -194,6 +194,8 @@ managed = plain  # what is special of it is its class
 
 def main() -> None:
     kind, name, *_ = sys.argv[1:]
+    if user := os.environ.get('OF_USER'):  # what only root could read is loaded
+        os.setuid(int(user))
     rclpy.init(args=sys.argv)
     node = (LifecycleNode if kind == 'managed' else Node)(name)
     globals()[kind](node)

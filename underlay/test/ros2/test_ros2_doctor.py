@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 from pathlib import Path
+import re
 import shutil
 import subprocess
 import sys
@@ -36,7 +37,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 16 checks passed' in answer.lines
+    assert 'All 17 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -369,6 +370,34 @@ def test_a_peer_behind_a_network_interface_is_found(domain: int, ros2: Callable[
             node.communicate()
         subprocess.run([ip, 'link', 'del', f'{name}a'], capture_output=True)
         subprocess.run([ip, 'netns', 'del', name], capture_output=True)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason='a process of another user needs root')
+def test_nodes_of_another_user_are_told_apart(
+    processes: Any, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('OF_USER', '65534')
+    processes.node('service', 'server', '--ros-args', '--disable-external-lib-logs')
+    answer = ros2('doctor')
+    line = _line(answer, 'memory')
+    assert "/server: of another user, 'nobody': it is seen, but no message passes; " in line
+    assert '`export ROS_DOMAIN_ID=1` in your terminals keeps you apart' in line
+    assert ' (answers): ' not in answer.out  # the node is not to blame
+    call = ('service', 'call', '/flip', 'std_srvs/srv/SetBool')
+    processes.ros2(*call, ready="hint: /server: of another user, 'nobody'")
+
+
+def test_nodes_whose_shared_memory_is_gone_are_named(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    talker = processes.node('talker', 'talker')
+    for name in set(
+        re.findall(r'/dev/shm/fastrtps_\w+', Path(f'/proc/{talker.pid}/maps').read_text())
+    ):
+        Path(name).unlink()
+    where = "/talker: its shared memory is not in this terminal's /dev/shm"
+    assert where in _line(ros2('doctor'), 'memory')
+    processes.ros2('topic', 'echo', '/chatter', ready=f'hint: {where}')
 
 
 def test_echo_says_why_nothing_comes(processes: Any) -> None:

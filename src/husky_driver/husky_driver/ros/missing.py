@@ -23,4 +23,4 @@ def what_is_missing(odometry: Subscription, commands: Publisher) -> str:
         return f'nobody publishes {odometry.topic_name}; {where}'
     if commands.get_subscription_count() == 0:
         return f'nobody listens to {commands.topic_name}; {where}'
-    return f'{odometry.topic_name} is silent; is the simulation paused?'
+    return f'{odometry.topic_name} is silent; is the simulation paused, or that of another user?'
