@@ -177,7 +177,9 @@ def test_a_killed_test_process_fails_its_test_and_the_run_goes_on(
     for number in range(20):
         text = DIES_ONCE if number == 15 else 'def test_it(): pass\n'
         (tmp_path / f'test_{number:02}.py').write_text(text)
-    options = ('-p', 'conftest', '-c', '/dev/null', '--rootdir', str(tmp_path))
+    options = ['-p', 'conftest', '-c', '/dev/null', '--rootdir', str(tmp_path)]
+    # Otherwise its end removes what earlier runs of all tests have left, which may take a minute.
+    options += ['--basetemp', str(tmp_path / 'basetemp')]
     run = processes.start(
         *(sys.executable, '-m', 'pytest', *options, '--no-loadscope-reorder'),
         *('--numprocesses', '2', str(tmp_path)),
