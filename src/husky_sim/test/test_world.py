@@ -199,6 +199,15 @@ def test_an_odd_world_is_driven_in_like_any_other(
             )
             for gravity in ('0 0 nan', 'nan 0 -9.8', '0 0 -inf', '0 0 9', '0 0 0', '3 0 0')
         ),
+        (
+            mjcf(FLOOR + '<body name="bin" pos="nan 0 1"><geom size="0.1"/></body>'),
+            r"body 'bin': its pos is nan 0 1; use numbers up to 1e10, line 4$",
+        ),
+        (
+            mjcf(FLOOR + '<body name="bin"><geom size="0.1" friction="nan 0 0"/></body>'),
+            r"body 'bin': its friction is nan 0 0; use numbers up to 1e10, line 4$",
+        ),
+        (mjcf(FLOOR + '<geom size="0.1" pos="inf 0 1"/>'), r"body 'world': its pos is inf 0 1"),
         (mjcf(before='<option actuatorgroupdisable="0"/>'), r'the motors .* group 0; .*, line 2$'),
         (mjcf(before='<compiler settotalmass="100"/>'), r'would weigh something else; .*line 2$'),
         (

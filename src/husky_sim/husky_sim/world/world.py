@@ -30,7 +30,13 @@ from husky_sim.world.flat_ground import (
     FlatGround,
 )
 from husky_sim.world.silhouette import outline_of
-from husky_sim.world.world_file import check_settings, line_of, refused, steps_per_period
+from husky_sim.world.world_file import (
+    check_numbers,
+    check_settings,
+    line_of,
+    refused,
+    steps_per_period,
+)
 
 GROUND_NAMES = ('ground', 'floor', 'asphalt', 'ramp')
 HUSKY_FILE = 'husky.xml'
@@ -94,6 +100,7 @@ def load_world(
             f'robots={[robot.name for robot in robots]}: every robot needs a name of its own'
         )
     empty = _compiled(path, _parsed(path))
+    check_numbers(path, empty)
     steps = steps_per_period(path, empty.opt.timestep)
     data = mujoco.MjData(empty)
     mujoco.mj_forward(empty, data)

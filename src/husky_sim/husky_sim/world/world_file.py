@@ -7,11 +7,14 @@ from pathlib import Path
 import re
 
 import mujoco
+import numpy as np
 
 from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import WorldError
 
 LONGEST_TIMESTEP_SEC = 0.004
+
+_NUMBERS = ('pos', 'quat', 'size', 'friction', 'mass', 'inertia', 'ipos', 'axis', 'range')
 
 _HAS_LINE = re.compile(r'\bline\b', re.IGNORECASE)
 _QUOTED = re.compile(r"'([^']+)'")
@@ -67,6 +70,32 @@ def steps_per_period(path: str, timestep_sec: float) -> int:
             word='timestep',
         )
     return round(steps)
+
+
+def check_numbers(path: str, model: mujoco.MjModel) -> None:
+    """
+    Check the places, sizes and materials of all bodies and their geoms and joints.
+
+    :raises WorldError: if one is not a number, as nan, which MuJoCo accepts, or larger than what
+        it calculates with (mjMAXVAL).
+    """
+    for kind, bodies in (
+        ('body', range(model.nbody)),
+        ('geom', model.geom_bodyid),
+        ('jnt', model.jnt_bodyid),
+    ):
+        for field in _NUMBERS:
+            values = getattr(model, f'{kind}_{field}', np.empty((len(bodies), 0)))
+            rows = values.reshape(len(bodies), math.prod(values.shape[1:]))
+            wrong = ~(abs(rows) <= mujoco.mjMAXVAL).all(axis=1)  # also of nan
+            for index in np.flatnonzero(wrong)[:1]:
+                name = model.body(bodies[index]).name
+                given = ' '.join(f'{each:g}' for each in rows[index])
+                raise refused(
+                    path,
+                    f'body {name!r}: its {field} is {given}; use numbers up to 1e10',
+                    word=name if bodies[index] else 'nan',  # the world itself is not named
+                )
 
 
 def check_settings(path: str, spec: mujoco.MjSpec) -> None:
