@@ -11,6 +11,10 @@ _HUSKY = '`ros2 launch husky_sim husky_playpen.launch.py` starts a robot in a wo
 _TELEOP = '`ros2 run husky_driver teleop` drives by the keys'
 _FRAMES = '`ros2 run tf2_tools view_frames --live` shows the tree of frames in the browser'
 _VIEW = f'{_HUSKY}, and with `viewer:=true` shows it in the browser'
+_URDF = (
+    '`ros2 run robot_state_publisher robot_state_publisher FILE.urdf` publishes the frames of a '
+    'robot, `ros2 run tf2_tools view_frames --live` shows them in the browser'
+)
 _CAMERA = (
     'with `camera_rate_hz` of `husky_sim` on, the page of its view shows what the camera sees'
 )
@@ -35,12 +39,15 @@ BY_PACKAGE = {
     **dict.fromkeys(('rqt', 'rqt_gui', 'rqt_topic', 'rqt_common_plugins'), _CALL),
     'rqt_service_caller': '`ros2 service call` calls a service',
     'rqt_console': _LOG,
+    'logging_demo': 'a node with `enable_logger_service=True` has the service '
+    '`set_logger_levels`, and `--ros-args --log-level debug` sets its first level',
     'rqt_tf_tree': _FRAMES,
     **dict.fromkeys(('rqt_image_view', 'image_view'), _CAMERA),
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
-    **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge'), _HUSKY),
+    **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge', 'webots_ros2_driver'), _HUSKY),
     **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
     'joint_state_publisher_gui': _JOINTS,
+    **dict.fromkeys(('urdf_tutorial', 'dummy_robot_bringup'), _URDF),
     'turtle_tf2_cpp': '`ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py` does the same, and '
     '`ros2 pkg executables turtle_tf2_py` lists its programs',
     'demo_nodes_cpp': f'{_TALK}, and `ros2 pkg executables demo_nodes_py` lists more',
