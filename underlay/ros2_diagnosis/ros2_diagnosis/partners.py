@@ -17,6 +17,8 @@ from ros2_diagnosis.nodes import COMMAND, shown_name
 
 # Types of so many uses that they tell nothing: with one of them the names must be near, too.
 _OF_ANY_USE = ('std_msgs/', 'std_srvs/', 'example_interfaces/')
+# The types of the services that nodes have of their own: who calls one means that node.
+_OF_A_NODE = ('rcl_interfaces/', 'type_description_interfaces/', 'lifecycle_msgs/')
 _SIMULATOR = 'husky_sim'
 _VIEW = '/husky_view'  # shows each sensor that there is
 _SHOWN = 3
@@ -65,7 +67,11 @@ def check_topics(graph: Graph) -> Iterator[Finding]:
 def check_services(graph: Graph) -> Iterator[Finding]:
     """Find clients of services and actions that nobody offers."""
     words = ('calls', 'offers', 'so that no call arrives')
-    for waiting, found in _waiting(_uses(graph, Role.CLIENT), _uses(graph, Role.SERVER)):
+    clients, servers = _uses(graph, Role.CLIENT), _uses(graph, Role.SERVER)
+    of_nodes = [each for each in clients if each.type.startswith(_OF_A_NODE)]
+    yield from _nodes_that_are_not_there(graph, of_nodes, servers)
+    others = [each for each in clients if each not in of_nodes]
+    for waiting, found in _waiting(others, servers):
         if found:
             yield _apart(graph, waiting, found, words)
             continue
@@ -75,6 +81,33 @@ def check_services(graph: Graph) -> Iterator[Finding]:
                 f'{each.node} calls this, {each.type}, which nobody offers',
                 'start the node that offers it',
                 serious=False,
+            )
+
+
+def _nodes_that_are_not_there(
+    graph: Graph, clients: list[_Use], servers: list[_Use]
+) -> Iterator[Finding]:
+    """Find the nodes that others ask for what every node has, as for its parameters."""
+    offered = {each.name for each in servers}
+    asked: dict[tuple[str, str], list[str]] = {}
+    for each in clients:
+        if each.name not in offered:
+            node, _, service = each.name.rpartition('/')
+            asked.setdefault((each.node, node), []).append(service)
+    there = {node.full_name for node in graph.nodes if not node.is_hidden}
+    for (caller, node), services in asked.items():
+        called = f'{caller} calls {", ".join(services[:_SHOWN])} of this node'
+        near = nearest.names(node, there - {caller})
+        if node in there:
+            yield Finding(
+                node, f'{called}, which does not offer it', 'ask another one', serious=False
+            )
+        else:
+            yield Finding(
+                node,
+                f'{called}, which is not there{nearest.hint(node, near)}',
+                'start it, or give its name in full, as `ros2 node list` shows it',
+                serious=bool(near),
             )
 
 

@@ -93,3 +93,30 @@ def test_a_service_that_nobody_offers_is_noted() -> None:
     (found,) = partners.check_services(_graph(asks=[client]))
     assert not found.serious
     assert str(found).startswith('/count: /asks calls this, my_msgs/action/Count, which nobody')
+
+
+def test_a_node_that_is_asked_for_its_parameters_under_another_name_is_one_line() -> None:
+    services = {
+        'get_parameters': 'rcl_interfaces/srv/GetParameters',
+        'list_parameters': 'rcl_interfaces/srv/ListParameters',
+    }
+    offered = [(Role.SERVER, f'/talker/{name}', kind) for name, kind in services.items()]
+    for asked, serious, what in (
+        ('/talkerr', True, "which is not there; did you mean '/talker'?; start it, or give its"),
+        ('/map_server', False, 'which is not there; start it, or give its name in full'),
+    ):
+        calls = [(Role.CLIENT, f'{asked}/{name}', kind) for name, kind in services.items()]
+        (found,) = partners.check_services(_graph(talker=offered, asks=calls))
+        assert found.serious == serious
+        assert str(found).startswith(
+            f'{asked}: /asks calls get_parameters, list_parameters of this node, {what}'
+        )
+
+
+def test_a_service_that_a_node_does_not_have_is_noted() -> None:
+    call = (Role.CLIENT, '/talker/change_state', 'lifecycle_msgs/srv/ChangeState')
+    (found,) = partners.check_services(_graph(talker=[], asks=[call]))
+    assert not found.serious
+    assert str(found) == (
+        '/talker: /asks calls change_state of this node, which does not offer it; ask another one'
+    )
