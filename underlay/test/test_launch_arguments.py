@@ -68,6 +68,26 @@ def test_a_misspelt_argument_is_hinted_at(python_launch_file: LaunchFile, run_la
     )
 
 
+def test_an_argument_that_sets_nothing_is_told_of(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    path = python_launch_file(
+        """
+        DeclareLaunchArgument('lidar_rate_hz', default_value='0'),
+        LogInfo(msg=LaunchConfiguration('undeclared')),
+        """
+    )
+    launched = run_launch(path, 'undeclared:=here', 'sigterm_timeout:=5', 'lidar:=true')
+    assert _logged(launched.output) == ['here']
+    (line,) = [line for line in launched.lines if 'WARNING' in line]
+    assert line == (
+        f"[WARNING] [launch]: launch argument 'lidar' is not declared in {path} nor named there, "
+        'so that it sets nothing (`--show-args` lists what does)'
+    )
+    outer = python_launch_file(f"IncludeLaunchDescription('{path}'),", 'outer.launch.py')
+    assert 'WARNING' not in run_launch(outer, 'undeclared:=here').output
+
+
 def test_a_value_outside_of_the_choices_is_refused_with_them(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 import difflib
 import os
 from pathlib import Path
+import re
 from typing import Any
 
 from ..action import Action
@@ -25,8 +26,12 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 from .set_launch_configuration import SetLaunchConfiguration
 
 _Argument = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
-# Of 1: other names, as launch-prefix, are often given without being declared.
-_NEARLY_THE_SAME = 0.75
+_NEARLY_THE_SAME = 0.75  # of 1
+# What actions look up themselves, without being told to.
+_READ_BY_LAUNCH = {
+    *('emulate_tty', 'launch-prefix', 'launch-prefix-filter', 'sigkill_timeout'),
+    *('sigterm_timeout', 'global_params', 'ros_namespace', 'ros_remaps'),
+}
 _PLACE = ('current_launch_file_path', 'current_launch_file_directory')
 
 
@@ -129,14 +134,28 @@ class IncludeLaunchDescription(Action):
                 )
                 attach_location(error, argument._location)
                 raise error
-        self.__hint_at_misspelt(given, {argument.name for argument, _ in pairs})
+        self.__hint_at_undeclared(given, {argument.name for argument, _ in pairs})
 
-    def __hint_at_misspelt(self, given: list[str], declared: set[str]) -> None:
-        """Warn of an argument that the file does not know, but one of nearly the same name."""
+    def __hint_at_undeclared(self, given: list[str], declared: set[str]) -> None:
+        """Warn of an argument that the file does not know, and that it hardly can use."""
         missing = declared - set(given)
         for name in sorted(set(given) - declared):
             if near := difflib.get_close_matches(name, missing, 1, _NEARLY_THE_SAME):
-                get_logger('launch').warning(
-                    f"launch argument '{name}' is not declared in "
-                    f"{self.launch_description_source.location} (is '{near[0]}' meant?)"
-                )
+                hint = f" (is '{near[0]}' meant?)"
+            elif name not in _READ_BY_LAUNCH and self.__names_nowhere(name):
+                hint = ' nor named there, so that it sets nothing (`--show-args` lists what does)'
+            else:
+                continue
+            get_logger('launch').warning(
+                f"launch argument '{name}' is not declared in "
+                f'{self.launch_description_source.location}{hint}'
+            )
+
+    def __names_nowhere(self, name: str) -> bool:
+        """Tell whether the file neither has the name in it nor includes another one."""
+        try:
+            text = Path(self.launch_description_source.location).read_text(errors='replace')
+        except OSError:  # a description that came from no file
+            return False
+        is_named = re.search(rf'(?<![\w-]){re.escape(name)}(?![\w-])', text)
+        return not is_named and 'include' not in text.lower()
