@@ -88,6 +88,30 @@ def test_an_argument_that_sets_nothing_is_told_of(
     assert 'WARNING' not in run_launch(outer, 'undeclared:=here').output
 
 
+def test_a_file_that_includes_itself_is_told_of(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    again = """
+        DeclareLaunchArgument('left', default_value='aaaa'),
+        LogInfo(msg=LaunchConfiguration('left')),
+        IncludeLaunchDescription(
+            ThisLaunchFile(),
+            launch_arguments={'left': PythonExpression(["'", left, "'[1:]"])}.items(),
+            CONDITION
+        ),
+        """
+    before = "left = LaunchConfiguration('left')"
+    endless = python_launch_file(again.replace('CONDITION', ''), before=before)
+    launched = run_launch(endless)
+    assert launched.returncode == 1
+    assert (
+        f'a launch file includes itself without end: {endless} -> {endless}; ' in launched.output
+    )
+    condition = """condition=IfCondition(PythonExpression(["'", left, "' != ''"]))"""
+    ends = python_launch_file(again.replace('CONDITION', condition), before=before)
+    assert _logged(run_launch(ends).output) == ['aaaa', 'aaa', 'aa', 'a', '']
+
+
 def test_a_value_outside_of_the_choices_is_refused_with_them(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

@@ -99,7 +99,12 @@ def _collect_arguments(
         if isinstance(entity, ResetLaunchConfigurations):
             # What is declared after it in this scope cannot be given from outside.
             return
-        inner = [*includes, entity] if isinstance(entity, IncludeLaunchDescription) else includes
+        inner = includes
+        if isinstance(entity, IncludeLaunchDescription):
+            location = entity.launch_description_source.location
+            if location in (each.launch_description_source.location for each in includes):
+                continue  # the file includes itself
+            inner = [*includes, entity]
         _collect_arguments(entity.describe_sub_entities(), found, inner, conditional)
         for _, conditional_entities in entity.describe_conditional_sub_entities():
             _collect_arguments(conditional_entities, found, inner, True)

@@ -57,5 +57,5 @@ class LaunchDescriptionSource:
     def location(self) -> str:
         """The path where it is known, else the substitutions that it is to be made of."""
         if self.__expanded_location is None:
-            return ' + '.join(str(sub) for sub in self.__location)
+            return ' + '.join(sub.describe() for sub in self.__location)
         return self.__expanded_location

@@ -33,6 +33,8 @@ _READ_BY_LAUNCH = {
     *('sigterm_timeout', 'global_params', 'ros_namespace', 'ros_remaps'),
 }
 _PLACE = ('current_launch_file_path', 'current_launch_file_directory')
+_OUTER = '_outer_launch_files'
+_MOST_TIMES = 50  # that a file may include itself, until a condition ends it
 
 
 @expose_action('include')
@@ -97,13 +99,24 @@ class IncludeLaunchDescription(Action):
 
     def __enter_place(self, context: LaunchContext) -> None:
         known = context.get_locals_as_dict()
-        self.__outer_places.append({name: known[name] for name in _PLACE if name in known})
-        path = Path(self.launch_description_source.location).absolute()
+        location = self.launch_description_source.location
+        files = (*known.get(_OUTER, ()), location)
+        if files.count(location) > _MOST_TIMES:
+            again = ' -> '.join(dict.fromkeys(files[files.index(location) :]))
+            raise RuntimeError(
+                f'a launch file includes itself without end: {again} -> {location}; take that '
+                'include out, or give it a condition'
+            )
+        self.__outer_places.append(
+            {_OUTER: ()} | {name: known[name] for name in (*_PLACE, _OUTER) if name in known}
+        )
+        path = Path(location).absolute()
         if path.exists():
             path = Path(os.path.normpath(path))
-            place = {_PLACE[0]: str(path), _PLACE[1]: str(path.parent)}
+            place: dict[str, Any] = {_PLACE[0]: str(path), _PLACE[1]: str(path.parent)}
         else:
-            place = dict.fromkeys(_PLACE, self.launch_description_source.location)
+            place = dict.fromkeys(_PLACE, location)
+        place[_OUTER] = files
         context.extend_globals(place)
         context.extend_locals(place)
 
