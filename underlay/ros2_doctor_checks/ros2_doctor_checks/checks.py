@@ -48,7 +48,10 @@ def _types() -> Iterable[Finding]:
 
 
 def _clock() -> Iterable[Finding]:
-    return [*nodes.check_clock(graph()), *nodes.check_wall_clock(graph())]
+    from ros2_doctor_checks import clock
+
+    found = (nodes.check_clock, nodes.check_wall_clock, clock.check_clock_runs)
+    return [finding for check in found for finding in check(graph())]
 
 
 def _partners() -> Iterable[Finding]:

@@ -86,6 +86,7 @@ def robot(node: Node) -> None:
 
 
 def simulator(node: Node) -> None:
+    node.declare_parameter('lockstep', False)
     node.create_publisher(Clock, '/clock', 10)
     node.create_publisher(Odometry, 'odometry/filtered', 10)
 

@@ -196,6 +196,33 @@ def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> N
     assert 'note: Publisher without subscriber detected on /cmd_vel' in answer.err
 
 
+@pytest.mark.parametrize(
+    ('lockstep', 'why'),
+    [
+        ('true', 'waits for the answer to its odometry, because its parameter `lockstep` is true'),
+        ('false', 'tells no new time'),
+    ],
+)
+def test_a_clock_that_stands_still(
+    lockstep: str, why: str, processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('simulator', 'husky', '--ros-args', '-p', f'lockstep:={lockstep}')
+    line = _line(ros2('doctor'), 'clock')
+    assert f'/clock: stands still: /husky {why}, so that timers and sleeps' in line
+
+
+def test_a_simulator_that_is_paused(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.start(sys.executable, '-m', 'husky_sim.ros.node', ready='x real time')
+    answer = ros2('doctor')
+    assert ' (clock): ' not in answer.out, answer
+    pause = ('service', 'call', '/husky_sim/pause', 'std_srvs/srv/SetBool')
+    ros2(*pause, '{data: true}')
+    line = _line(ros2('doctor'), 'clock')
+    go_on = f'`ros2 {" ".join(pause)} "{{data: false}}"` lets it go on'
+    assert '/clock: stands still: /husky_sim is paused' in line
+    assert line.endswith(go_on)
+
+
 def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver')
