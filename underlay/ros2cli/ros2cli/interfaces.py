@@ -122,9 +122,11 @@ def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> An
             ) from None
     except (AttributeError, ImportError):
         pass
+    full = f'{package}/{namespace}/{last}'
     installed = get_interfaces().get(package, [])
     names = [each.rpartition('/')[2] for each in installed if each.startswith(namespace)]
-    raise CommandError(
-        f"The passed {what} type is invalid: package '{package}' has no {what} '{last}'"
-        f'{nearest.hint(last, names)}'
-    ) from None
+    if last in names and name != full:
+        reason = f"'{name}' is no {what}; did you mean '{full}'?"
+    else:
+        reason = f"package '{package}' has no {what} '{last}'{nearest.hint(last, names)}"
+    raise CommandError(f'The passed {what} type is invalid: {reason}') from None

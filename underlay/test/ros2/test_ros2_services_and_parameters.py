@@ -46,6 +46,7 @@ def test_a_bad_call_is_refused(ros2: Callable[..., Any]) -> None:
         ('std_srvs/srv/SetBool', 'data: 5'): 'expected true or false',
         ('std_srvs/srv/SetBol',): "no service 'SetBol'; did you mean 'SetBool'",
         ('std_msgs/msg/String',): 'the full name of a service',
+        ('std_srvs/msg/SetBool',): "is no service; did you mean 'std_srvs/srv/SetBool'?",
         ('std_srvs/srv/SetBool', '{{'): 'is no YAML',
     }
     calls = [('service', 'call', '/flip', *words) for words in bad]

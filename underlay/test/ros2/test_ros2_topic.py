@@ -129,6 +129,7 @@ def test_echo_names_what_it_refuses(ros2: Callable[..., Any]) -> None:
         ('/nothing',): 'Could not determine the type for the passed topic',
         ('/chater',): "did you mean '/chatter'?",
         ('/chatter', 'std_msgs/msg/Strin'): "has no message 'Strin'; did you mean 'String'",
+        ('/chatter', 'std_msgs/mgs/String'): "is no message; did you mean 'std_msgs/msg/String'?",
         ('/chatter', 'nothing_msgs/msg/A'): "package 'nothing_msgs' not found",
         ('/chatter', 'x'): 'as std_msgs/msg/String',
         ('/a//b',): "'/a//b' is no valid topic name",
