@@ -31,6 +31,7 @@ from rclpy.qos import (
 from rclpy.signals import SignalHandlerOptions
 
 ODOMETRY = '/odometry/filtered'
+LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
 
 
 def printed_by(program: str, folder: Path, *, until: str = '') -> str:
@@ -94,6 +95,27 @@ def test_an_error_of_a_launched_program_is_told_too(tmp_path: Path) -> None:
         assert process.wait(20.0)
     told = reasons(read_printed(log), '', (), None)
     assert told == ('follow_path.py line 2: ValueError: 4',), read_printed(log)
+
+
+def test_of_a_launch_file_the_error_of_its_own_parser_is_told(tmp_path: Path) -> None:
+    launch = tmp_path / 'drive.launch.py'
+    launch.write_text('raise ValueError(4)\n')
+    log = tmp_path / 'controller.log'
+    with log.open('w') as stream:
+        process = ChildProcess(['ros2', 'launch', str(launch)], os.environ, stream)
+        assert process.wait(20.0)
+    assert 'ValueError: 4' in reasons(read_printed(log), '', (), 1)[0], read_printed(log)
+    several = 'Caught multiple exceptions when trying to load file of format [xml]:'
+    printed = (
+        f'{LAUNCH_FAILED}{several}\n'
+        f' - InvalidFrontendLaunchFileError: {several}\n'
+        ' - ParseError: mismatched tag: line 1, column 33\n'
+        ' - RuntimeError: Expected only one root\n'
+        ' - SyntaxError: invalid syntax (drive.launch.xml, line 1)\n'
+    )
+    told = 'ParseError: mismatched tag: line 1, column 33'
+    assert reasons(printed, '', (), 1) == (f'it crashed (exit code 1): {told}',)
+    assert reasons(' - ready', '', (), 1) == ('it crashed (exit code 1): - ready',)
 
 
 def test_an_end_that_was_asked_for_is_no_error(
@@ -314,10 +336,9 @@ def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
 def test_what_the_grader_has_killed_is_not_told_of_the_kernel() -> None:
     killed = 'it ended by itself (SIGKILL, as by the kernel where memory runs out): here'
     assert how_it_ended(-9, 'here\n') == killed
-    launch = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
     told = "package 'patrool' not found"
-    assert how_it_ended(1, launch + told) == f'it ended by itself (exit code 1): {told}'
-    assert reasons(launch + told, '', [], 1)[0] == f'it crashed (exit code 1): {told}'
+    assert how_it_ended(1, LAUNCH_FAILED + told) == f'it ended by itself (exit code 1): {told}'
+    assert reasons(LAUNCH_FAILED + told, '', [], 1)[0] == f'it crashed (exit code 1): {told}'
     note = '[ended by the grader: it had 501 processes and threads; 500 are allowed]'
     assert how_it_ended(-9, f'here\n\n{note}\n') == f'it ended by itself (SIGKILL): {note}'
     assert reasons(f'here\n{note}', '', [], -9)[0] == f'it crashed (SIGKILL): {note}'

@@ -37,6 +37,7 @@ LIBRARIES = tuple(
 
 _LAUNCHED = re.compile(r'\[[\w.-]+-\d+\] ')  # what `ros2 launch` puts before each line
 _LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
+_TRIED = ' - '  # before what each parser of upstream's launch says of a file that none can read
 _FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _ERROR = re.compile(r'(?P<name>[A-Za-z_][\w.]*)(: .*)?')
 _ENDED = ('KeyboardInterrupt', 'ExternalShutdownException')  # whoever asked it to end
@@ -97,6 +98,12 @@ def reasons(
 
 def last_line(printed: str) -> str:
     """Return the last line that says something; of launch only what has ended it."""
+    lines = printed.rstrip().splitlines()
+    tried = list(takewhile(lambda line: line.startswith(_TRIED), reversed(lines)))
+    if tried and len(tried) < len(lines) and lines[-len(tried) - 1].startswith(_LAUNCH_FAILED):
+        # Each parser says what it minds, that of the file's own kind first; some in several lines.
+        told = [line for line in reversed(tried) if not line.endswith(':')] or tried
+        return told[0].removeprefix(_TRIED)
     return printed.strip().rpartition('\n')[2].strip().removeprefix(_LAUNCH_FAILED)
 
 
