@@ -135,7 +135,7 @@ def drive_in_jail(
     shutil.copy(course, theirs / 'course.yaml')
     command = f'{sys.executable} {theirs}/student.py'
     # The lab's own driver, which is not there for students, as one that answers.
-    known = [path for path in map(Path, sys.path) if not path.is_relative_to(sys.base_prefix)]
+    known = [path for path in map(Path, sys.path) if path.is_relative_to(ROOT)]
     ours = [path for path in known if path.is_dir()] + [ROOT / 'src']
     environment = {'PYTHONPATH': os.environ['PYTHONPATH']}
     with Jail(find_sandbox(sandbox), theirs, readable=ours) as jail:
