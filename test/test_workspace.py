@@ -79,6 +79,17 @@ def test_the_shell_of_the_lab_has_what_colcon_brings(tmp_path: Path) -> None:
     assert run(*shell, asked, cwd=ROOT, **here).splitlines() == expected
 
 
+def test_settings_of_a_user_take_nothing_from_the_shell_of_the_lab(tmp_path: Path) -> None:
+    bashrc = 'RMW_IMPLEMENTATION=of_mine LD_LIBRARY_PATH=/cuda PYTHONPATH=/mine:$PYTHONPATH'
+    (tmp_path / '.bashrc').write_text(f'export AMENT_PREFIX_PATH= {bashrc}\n')
+    asked = 'echo $AMENT_PREFIX_PATH $LD_LIBRARY_PATH $PYTHONPATH $RMW_IMPLEMENTATION'
+    paths = {'AMENT_PREFIX_PATH': '/lab:/ros', 'LD_LIBRARY_PATH': '/lib', 'PYTHONPATH': '/lab'}
+    here = {'VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path), **paths}
+    shown = run('bash', '--rcfile', 'config/lab_shell.bash', '-ic', asked, cwd=ROOT, **here)
+    assert shown.split()[:3] == ['/lab:/ros', '/lib:/cuda', '/mine:/lab'], shown
+    assert shown.split()[3:] == (['of_mine'] if SOURCED else []), shown
+
+
 def _read_until(controller: int, wanted: str) -> str:
     """Return what a terminal shows up to a text; fails after 30 s with what it has shown."""
     shown = ''
