@@ -159,15 +159,31 @@ def test_what_another_ros_chose_is_left_where_there_are_wheels() -> None:
     assert sourced(script, RMW_IMPLEMENTATION='rmw_cyclonedds_cpp').stdout == 'none\n'
 
 
+# Such as what modules of a cluster set.
+OF_ANOTHER_PYTHON = {'PYTHONWARNINGS': 'error', 'PYTHONPATH': '/c', 'PYTHONHOME': '/d'}
+
+
 def test_what_a_cluster_sets_for_pip_leads_nothing_out_of_the_environment(tmp_path: Path) -> None:
     program(
         tmp_path / 'bin',
         'python',
-        'env | grep -E "^(PIP_(TARGET|PREFIX|USER)|PYTHONWARNINGS)=" >&2',
+        'env | grep -E "^(PIP_(TARGET|PREFIX|USER)|PYTHON(WARNINGS|PATH|HOME))=." >&2',
     )
     script = f'venv={tmp_path}; with_progress() {{ "${{@:4}}"; }}; pip_install 1 two'
-    theirs = {'PIP_TARGET': '/a', 'PIP_PREFIX': '/b', 'PIP_USER': '1', 'PYTHONWARNINGS': 'error'}
+    theirs = {'PIP_TARGET': '/a', 'PIP_PREFIX': '/b', 'PIP_USER': '1', **OF_ANOTHER_PYTHON}
     assert sourced(script, **theirs).stderr == 'PIP_USER=0\n'
+
+
+def test_what_is_for_another_python_is_not_for_a_set_up(tmp_path: Path) -> None:
+    (tmp_path / '.lab.lock').touch()
+    steps = 'check_space make_venv compile_modules make_interfaces'
+    no_steps = f'for step in {steps}; do eval "$step() {{ :; }}"; done'
+    seen = 'with_me() { env | grep -E "^PYTHON(WARNINGS|PATH|HOME)=." >&3; echo step >&3; }'
+    program(tmp_path / 'bin', 'python', 'true')
+    script = f'venv={tmp_path} root={tmp_path} setup_log={tmp_path}/log; {no_steps}; {seen}'
+    script += '; with_progress() { with_me; }'
+    done = sourced(f'{script}; exec 3>&1; set +e; set_up pip python key', **OF_ANOTHER_PYTHON)
+    assert set(done.stdout.splitlines()) == {'step'}, done
 
 
 def test_what_a_killed_pip_has_downloaded_is_removed_by_the_next(tmp_path: Path) -> None:
