@@ -27,7 +27,8 @@ def elsewhere(tmp_path: Path) -> dict[str, str]:
     (tmp_path / 'site' / 'sitecustomize.py').symlink_to(without_linux.__file__)
     path = f'{tmp_path / "site"}{os.pathsep}{os.environ.get("PYTHONPATH", "")}'
     seen = {without_linux.SEEN_VARIABLE: str(tmp_path / 'seen')}
-    return {**os.environ, **seen, 'PYTHONPATH': path, 'TMPDIR': str(tmp_path)}
+    others = {name: value for name, value in os.environ.items() if name != 'ROS_DOMAIN_ID'}
+    return {**others, **seen, 'PYTHONPATH': path, 'TMPDIR': str(tmp_path)}
 
 
 def run(environment: dict[str, str], *command: str | Path) -> subprocess.CompletedProcess[str]:
