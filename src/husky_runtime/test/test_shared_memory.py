@@ -15,7 +15,6 @@ from husky_runtime.shared_memory import clean_shared_memory, unused_files, wait_
 from husky_runtime.shared_memory_ports import FOLDER, Mutex, PORT
 from playpen_testing.shared_memory import Files, lost, mapped_by
 from playpen_testing.waiting import wait_until
-from playpen_testing.which_ros import lacks
 import psutil
 import pytest
 
@@ -27,10 +26,6 @@ print('here', flush=True)
 sys.stdin.read()
 """
 
-of_fast_dds = pytest.mark.skipif(
-    lacks('rmw_fastrtps_cpp'), reason='no other DDS puts messages into shared memory'
-)
-
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -40,7 +35,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@of_fast_dds
 def test_the_shared_memory_of_the_dead_goes() -> None:
     with OwnDomain() as one, OwnDomain() as another:
         dead, alive = participant(one.number), participant(another.number)
@@ -62,7 +56,6 @@ def test_the_shared_memory_of_the_dead_goes() -> None:
     assert left[alive] == list(files[alive])
 
 
-@of_fast_dds
 def test_shared_memory_that_others_may_use_stays() -> None:
     # Root without rights cannot see what root with rights has mapped.
     fewer = ['setpriv', '--bounding-set=-all', '--inh-caps=-all'] if os.geteuid() == 0 else []
@@ -124,7 +117,6 @@ def test_a_clock_that_was_set_back_holds_nobody_up(folder: Path) -> None:
     assert not file.exists()
 
 
-@of_fast_dds
 @pytest.mark.parametrize('mutex', ['is there', 'is gone'])
 @pytest.mark.parametrize('look', [1, 2])
 def test_a_port_of_the_dead_that_a_node_takes_after_a_look_stays(
@@ -175,7 +167,6 @@ def test_a_port_of_the_dead_that_a_node_takes_after_a_look_stays(
     assert (list(has), gone) == ([port], [])
 
 
-@of_fast_dds
 @pytest.mark.parametrize('size', [0, 52400])
 def test_a_node_goes_on_where_one_was_killed_while_it_made_the_port(size: int) -> None:
     with OwnDomain() as domain:
@@ -204,7 +195,6 @@ def test_a_node_goes_on_where_one_was_killed_while_it_made_the_port(size: int) -
         assert not port.exists()
 
 
-@of_fast_dds
 def test_a_port_goes_whose_name_begins_that_of_another(folder: Path) -> None:
     with OwnDomain() as domain:
         alive = participant(domain.number)
