@@ -26,7 +26,7 @@ from tf2_ros import tf2_echo
 TURNED = """\
 At time 0.0
 - Translation: [1.000, -2.000, 0.500]
-- Rotation: in Quaternion [0.000, 0.000, 0.707, 0.707]
+- Rotation: in Quaternion (xyzw) [0.000, 0.000, 0.707, 0.707]
 - Rotation: in RPY (radian) [0.000, -0.000, 1.571]
 - Rotation: in RPY (degree) [0.000, -0.000, 90.000]
 - Matrix:

@@ -103,7 +103,7 @@ def describe(found: TransformStamped, precision: int) -> str:
         [
             f'At time {stamp.sec}.{stamp.nanosec}',
             f'- Translation: [{row(to.x, to.y, to.z)}]',
-            f'- Rotation: in Quaternion [{row(turn.x, turn.y, turn.z, turn.w)}]',
+            f'- Rotation: in Quaternion (xyzw) [{row(turn.x, turn.y, turn.z, turn.w)}]',
             f'- Rotation: in RPY (radian) [{row(*angles)}]',
             f'- Rotation: in RPY (degree) [{row(*map(math.degrees, angles))}]',
             '- Matrix:',
