@@ -86,9 +86,16 @@ def robot(node: Node) -> None:
 
 
 def simulator(node: Node) -> None:
+    publisher = node.create_publisher(Clock, '/clock', 10)
+    node.create_publisher(Odometry, 'odometry/filtered', 10)
+    node.create_timer(
+        0.05, lambda: publisher.publish(Clock(clock=node.get_clock().now().to_msg()))
+    )
+
+
+def waiting_simulator(node: Node) -> None:
     node.declare_parameter('lockstep', False)
     node.create_publisher(Clock, '/clock', 10)
-    node.create_publisher(Odometry, 'odometry/filtered', 10)
 
 
 def slow_driver(node: Node) -> None:

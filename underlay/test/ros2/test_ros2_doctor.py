@@ -206,7 +206,7 @@ def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> N
 def test_a_clock_that_stands_still(
     lockstep: str, why: str, processes: Any, ros2: Callable[..., Any]
 ) -> None:
-    processes.node('simulator', 'husky', '--ros-args', '-p', f'lockstep:={lockstep}')
+    processes.node('waiting_simulator', 'husky', '--ros-args', '-p', f'lockstep:={lockstep}')
     line = _line(ros2('doctor'), 'clock')
     assert f'/clock: stands still: /husky {why}, so that timers and sleeps' in line
 
