@@ -41,6 +41,12 @@ class Answer:
     def lines(self) -> list[str]:
         return self.out.splitlines()
 
+    def of_check(self, name: str) -> str:
+        """Return the one line of a check of `ros2 doctor`."""
+        found = [line for line in self.lines if f' ({name}): ' in line]
+        assert len(found) == 1, self
+        return found[0]
+
 
 Ros2 = Callable[..., Answer]
 

@@ -7,26 +7,17 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 from pathlib import Path
-import re
 import shutil
 import subprocess
 import sys
 from typing import Any
 
-from husky_runtime.domains import OwnDomain
 from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
 from ros2_diagnosis import nodes
 from ros2doctor import api
 from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
-
-
-def _line(answer: Any, check: str) -> str:
-    """Return the one line of a check."""
-    found = [line for line in answer.lines if f' ({check}): ' in line]
-    assert len(found) == 1, answer
-    return str(found[0])
 
 
 def test_nothing_is_wrong_with_two_nodes_that_talk(
@@ -45,7 +36,7 @@ def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) 
     processes.node('robot', 'husky')
     answer = ros2('doctor')
     assert answer.status == 0  # as upstream
-    line = _line(answer, 'types')
+    line = answer.of_check('types')
     assert '/driver publishes geometry_msgs/msg/TwistStamped' in line
     assert '/husky subscribes to geometry_msgs/msg/Twist, so that nothing arrives' in line
     assert 'use one type in both' in line
@@ -59,7 +50,7 @@ def test_different_types_on_one_service(processes: Any, ros2: Callable[..., Any]
         'std_srvs/srv/Trigger, so that no call arrives; use one type in both'
     )
     processes.ros2('service', 'call', '/flip', 'std_srvs/srv/Trigger', ready=f'hint: {hint}')
-    assert hint in _line(ros2('doctor'), 'types')
+    assert hint in ros2('doctor').of_check('types')
 
 
 def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -69,7 +60,7 @@ def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[...
     assert 'Failed modules: middleware' in answer.lines
     assert '   QOS COMPATIBILITY LIST' in answer.lines
     assert 'ERROR: Best effort publisher and reliable subscription;' in answer.out
-    line = _line(answer, 'qos')
+    line = answer.of_check('qos')
     assert '/sensor offers BEST_EFFORT, but /listener requests RELIABLE' in line
     assert 'reliability=ReliabilityPolicy.BEST_EFFORT' in line
 
@@ -77,7 +68,7 @@ def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[...
 def test_two_names_for_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver', '--ros-args', '-r', 'cmd_vel:=speeds')
-    line = _line(ros2('doctor'), 'partners')
+    line = ros2('doctor').of_check('partners')
     assert line.startswith(
         'problem (partners): /cmd_vel: /husky subscribes to this, but /driver publishes /speeds, '
         'of one type, geometry_msgs/msg/Twist, so that nothing arrives; use one name in both, or '
@@ -96,14 +87,14 @@ def test_two_names_for_one_service(processes: Any, ros2: Callable[..., Any]) -> 
     processes.ros2(
         'service', 'call', '/flop', 'std_srvs/srv/SetBool', ready="nobody offers '/flop'"
     )
-    line = _line(ros2('doctor'), 'partners')
+    line = ros2('doctor').of_check('partners')
     assert 'a `ros2` command calls this, but /server offers /flip, of one type' in line
     assert line.endswith('use one name in both')
 
 
 def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('plain', 'waits', '--ros-args', '-p', 'use_sim_time:=true')
-    line = _line(ros2('wtf'), 'clock')
+    line = ros2('wtf').of_check('clock')
     assert '/waits: use_sim_time is true, but nobody publishes /clock' in line
     assert '`ros2 param set /waits use_sim_time false`' in line
 
@@ -150,19 +141,19 @@ def test_transforms_without_the_time_of_the_simulation(
 ) -> None:
     processes.node('simulator', 'husky')
     processes.node('transforms', 'looks')
-    line = _line(ros2('doctor'), 'clock')
+    line = ros2('doctor').of_check('clock')
     assert line.startswith(
         'note (clock): /looks: use_sim_time is false, while /tf has the time of'
     )
     assert '`--ros-args -p use_sim_time:=true`' in line
     processes.node('transforms', 'heeds', '--ros-args', '-p', 'use_sim_time:=true')
-    assert '/heeds' not in _line(ros2('doctor'), 'clock')
+    assert '/heeds' not in ros2('doctor').of_check('clock')
 
 
 def test_two_nodes_of_one_name(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('plain', 'twin')
     processes.node('plain', 'twin')
-    line = _line(ros2('doctor'), 'names')
+    line = ros2('doctor').of_check('names')
     assert '/twin: 2 nodes have this name' in line
     assert '-r __node:=twin_2' in line
     assert 'share an exact name' in ros2('node', 'list').err
@@ -172,7 +163,7 @@ def test_two_simulators_are_told_to_part(processes: Any, ros2: Callable[..., Any
     processes.node('simulator', 'husky')
     assert not [line for line in ros2('doctor').lines if ' (publishers): ' in line]
     processes.node('simulator', 'fake')
-    line = _line(ros2('doctor'), 'publishers')
+    line = ros2('doctor').of_check('publishers')
     assert '/clock, /odometry/filtered: 2 nodes publish this: /fake, /husky' in line
     assert 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID' in line
 
@@ -183,16 +174,16 @@ def test_two_simulators_of_one_name_are_told_to_part(
     processes.node('simulator', 'husky')
     processes.node('simulator', 'husky')
     answer = ros2('doctor')
-    assert '2 nodes publish this: /husky, /husky' in _line(answer, 'publishers')
+    assert '2 nodes publish this: /husky, /husky' in answer.of_check('publishers')
     assert '__node:=' not in answer.out
-    assert 'give one its own ROS_DOMAIN_ID' in _line(answer, 'names')
+    assert 'give one its own ROS_DOMAIN_ID' in answer.of_check('names')
 
 
 def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('slow_driver', 'driver')
     processes.node('slow_driver', 'other')
     answer = ros2('doctor')
-    assert '/cmd_vel: 2 nodes publish this: /driver, /other' in _line(answer, 'publishers')
+    assert '/cmd_vel: 2 nodes publish this: /driver, /other' in answer.of_check('publishers')
     assert 'note: Publisher without subscriber detected on /cmd_vel' in answer.err
 
 
@@ -207,7 +198,7 @@ def test_a_clock_that_stands_still(
     lockstep: str, why: str, processes: Any, ros2: Callable[..., Any]
 ) -> None:
     processes.node('waiting_simulator', 'husky', '--ros-args', '-p', f'lockstep:={lockstep}')
-    line = _line(ros2('doctor'), 'clock')
+    line = ros2('doctor').of_check('clock')
     assert f'/clock: stands still: /husky {why}, so that timers and sleeps' in line
 
 
@@ -217,7 +208,7 @@ def test_a_simulator_that_is_paused(processes: Any, ros2: Callable[..., Any]) ->
     assert ' (clock): ' not in answer.out, answer
     pause = ('service', 'call', '/husky_sim/pause', 'std_srvs/srv/SetBool')
     ros2(*pause, '{data: true}')
-    line = _line(ros2('doctor'), 'clock')
+    line = ros2('doctor').of_check('clock')
     go_on = f'`ros2 {" ".join(pause)} "{{data: false}}"` lets it go on'
     assert '/clock: stands still: /husky_sim is paused' in line
     assert line.endswith(go_on)
@@ -229,70 +220,13 @@ def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., An
     told: list[str] = []
 
     def twice_a_second() -> bool:  # asked again, for on a busy machine a command comes late
-        told.append(_line(ros2('doctor'), 'commands'))
+        told.append(ros2('doctor').of_check('commands'))
         return '/cmd_vel: commands come up to 0.5' in told[-1]
 
     wait_until(twice_a_second, timeout_sec=40.0, what=lambda: f'0.5 s apart: {told}')
     line = told[-1]
     assert '/husky stops the robot 0.25 s after the last one' in line
     assert 'publish at least 6 times a second' in line
-
-
-def test_processes_that_cannot_meet(monkeypatch: pytest.MonkeyPatch) -> None:
-    from ros2_diagnosis import places
-    from rtps_graph.settings import Settings
-
-    monkeypatch.setattr(places, '_LOOPBACK', '192.0.2.1')  # nobody has it: RFC 5737
-    (finding,) = places.check_environment(Settings(0, 'LOCALHOST', ()))
-    assert 'address 192.0.2.1: processes of this computer cannot meet there' in str(finding)
-
-
-def test_a_discovery_server_is_noted(
-    ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv('ROS_DISCOVERY_SERVER', '127.0.0.1:11899')
-    assert 'ROS_DISCOVERY_SERVER=127.0.0.1:11899: nodes of' in _line(ros2('doctor'), 'environment')
-
-
-def _told_of_domains(ros2: Callable[..., Any]) -> str:
-    return ' '.join(line for line in ros2('doctor').lines if ' (domain): ' in line)
-
-
-def _named_in(told: str) -> list[str]:
-    return told.partition('in domain ')[2].partition(' on this')[0].split(', ')
-
-
-def test_nodes_in_another_domain(
-    processes: Any, ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    processes.node('plain', 'elsewhere')
-    with OwnDomain() as here:
-        monkeypatch.setenv('ROS_DOMAIN_ID', str(here.number))
-        told: list[str] = []
-
-        def is_told() -> bool:  # one that has no processor for 0.6 s is not heard
-            told.append(_told_of_domains(ros2))
-            return str(domain) in _named_in(told[-1])
-
-        wait_until(is_told, timeout_sec=40.0, what=lambda: f'domain {domain}: {told}')
-        assert 'export ROS_DOMAIN_ID=' in told[-1]
-        hint = ros2('node', 'list')
-    assert hint.out == ''
-    assert hint.err.startswith('hint: domain ')
-
-
-def test_a_daemon_in_another_domain_is_no_ros_process(
-    ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert ros2('daemon', 'start').status == 0
-    try:
-        with OwnDomain() as here, monkeypatch.context() as elsewhere:
-            elsewhere.setenv('ROS_DOMAIN_ID', str(here.number))
-            # One that has no processor for 0.6 s would not be heard either way.
-            told = [_told_of_domains(ros2) for _ in range(3)]
-    finally:
-        ros2('daemon', 'stop')
-    assert str(domain) not in {name for each in told for name in _named_in(each)}
 
 
 def test_a_workspace_not_built_not_sourced_or_out_of_date(
@@ -306,14 +240,14 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
     )  # fmt: skip
     answer = ros2('doctor', folder=tmp_path)
     assert 'package' in answer.lines[-1].removeprefix('Failed modules: ').split()
-    line = _line(answer, 'workspace')
+    line = answer.of_check('workspace')
     assert f'mine: not built yet in {tmp_path}' in line
     assert f'run `colcon build` in {tmp_path}' in line
 
     colcon = shutil.which('colcon')
     assert colcon
     subprocess.run([colcon, 'build'], cwd=tmp_path, check=True, capture_output=True)
-    line = _line(ros2('doctor', folder=source), 'workspace')
+    line = ros2('doctor', folder=source).of_check('workspace')
     assert f'mine: built in {tmp_path}, but not sourced in this terminal' in line
     assert f'`source {tmp_path}/install/setup.bash`' in line
 
@@ -324,7 +258,7 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
     assert not [x for x in ros2('doctor', folder=tmp_path).lines if '(workspace)' in x]
 
     (source / 'mine' / 'mine' / 'hello.py').write_text('def main():\n    print("changed")\n')
-    line = _line(ros2('doctor', folder=tmp_path), 'workspace')
+    line = ros2('doctor', folder=tmp_path).of_check('workspace')
     assert 'hello.py has changed since the package was built, so that the old one runs' in line
     assert f'run `colcon build --packages-select mine` in {tmp_path}' in line
     ran = ros2('run', 'mine', 'hello')
@@ -340,91 +274,6 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
         assert told in refused.err
         assert "add 'subscriber = mine.subscriber:main' to 'console_scripts'" in refused.err
         assert refused.status == 1
-
-
-def test_nodes_on_another_machine() -> None:
-    from ros2_diagnosis import places
-    from rtps_graph.participant import Participant
-    from rtps_graph.settings import Settings
-
-    near = Participant(b'a' * 12, '127.0.0.1', 7410, 7411)
-    far = Participant(b'b' * 12, '192.0.2.77', 7410, 7411)
-    assert places.on_other_hosts([near, far], places.own_addresses()) == ['192.0.2.77']
-    finding = places.range_finding(Settings(0, 'LOCALHOST', ()), ['192.0.2.77'])
-    assert '1 ROS process of domain 0 on other machines (192.0.2.77) cannot be reached' in str(
-        finding
-    )
-    assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET' in str(finding)
-
-
-@pytest.mark.skipif(os.geteuid() != 0, reason='a second network needs root')
-def test_a_peer_behind_a_network_interface_is_found(domain: int, ros2: Callable[..., Any]) -> None:
-    ip = shutil.which('ip')
-    if ip is None:
-        pytest.skip('there is no `ip`')
-    name = f'ros2test{os.getpid() % 1000}'
-    commands = (
-        f'netns add {name}',
-        f'link add {name}a type veth peer name {name}b netns {name}',
-        f'addr add 198.18.7.1/24 dev {name}a',
-        f'link set {name}a up multicast on',
-        f'route add 239.255.0.1/32 dev {name}a',
-        f'-n {name} addr add 198.18.7.2/24 dev {name}b',
-        f'-n {name} link set {name}b up multicast on',
-        f'-n {name} link set lo up',
-        f'-n {name} route add default dev {name}b',
-    )
-    environment = {**os.environ, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'}
-    node = None
-    try:
-        for command in commands:
-            done = subprocess.run([ip, *command.split()], capture_output=True, text=True)
-            if done.returncode:
-                pytest.skip(f'ip {command}: {done.stderr.strip()}')
-        path = str(Path(__file__).with_name('nodes.py'))
-        node = subprocess.Popen(
-            [ip, 'netns', 'exec', name, sys.executable, path, 'plain', 'far'],
-            stdout=subprocess.PIPE, text=True, env=environment,
-        )  # fmt: skip
-        assert node.stdout is not None
-        find_line(node.stdout, '^ready$')
-        line = _line(ros2('doctor'), 'range')
-        assert f'1 ROS process of domain {domain} on other machines (198.18.7.2)' in line
-        assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET' in line
-    finally:
-        if node is not None:
-            node.kill()
-            node.communicate()
-        subprocess.run([ip, 'link', 'del', f'{name}a'], capture_output=True)
-        subprocess.run([ip, 'netns', 'del', name], capture_output=True)
-
-
-@pytest.mark.skipif(os.geteuid() != 0, reason='a process of another user needs root')
-def test_nodes_of_another_user_are_told_apart(
-    processes: Any, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv('OF_USER', '65534')
-    processes.node('service', 'server', '--ros-args', '--disable-external-lib-logs')
-    answer = ros2('doctor')
-    line = _line(answer, 'memory')
-    assert "/server: of another user, 'nobody': it is seen, but no message passes; " in line
-    assert '`export ROS_DOMAIN_ID=1` in your terminals keeps you apart' in line
-    assert ' (answers): ' not in answer.out  # the node is not to blame
-    call = ('service', 'call', '/flip', 'std_srvs/srv/SetBool')
-    processes.ros2(*call, ready="hint: /server: of another user, 'nobody'")
-
-
-def test_nodes_whose_shared_memory_is_gone_are_named(
-    processes: Any, ros2: Callable[..., Any]
-) -> None:
-    talker = processes.node('talker', 'talker')
-    for name in set(
-        re.findall(r'/dev/shm/fastrtps_\w+', Path(f'/proc/{talker.pid}/maps').read_text())
-    ):
-        Path(name).unlink()
-    where = "/talker: its shared memory is not in this terminal's /dev/shm"
-    assert where in _line(ros2('doctor'), 'memory')
-    processes.ros2('topic', 'echo', '/chatter', ready=f'hint: {where}')
 
 
 def test_echo_says_why_nothing_comes(processes: Any) -> None:
@@ -450,19 +299,10 @@ def test_a_node_that_waits_in_a_callback_is_named(
     processes.node('waiting', 'waiter')
     words = ('service', 'call', '/flip', 'std_srvs/srv/SetBool')
     call = processes.ros2(*words)
-    line = _line(ros2('doctor'), 'answers')
+    line = ros2('doctor').of_check('answers')
     assert '/waiter: answers nothing: it does not spin, or one of its callbacks' in line
     assert 'talker' not in line
     find_line(call.stdout, "hint: '/flip' gave no answer within 5 s; its node is busy or stopped")
-
-
-def test_a_missing_profile_and_an_empty_prefix_are_named(
-    domain: int, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv('AMENT_PREFIX_PATH', '')
-    line = _line(ros2('doctor'), 'environment')
-    assert 'AMENT_PREFIX_PATH: is empty' in line
-    assert domain
 
 
 def test_the_report_names_the_essentials(processes: Any, ros2: Callable[..., Any]) -> None:
