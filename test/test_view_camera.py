@@ -12,6 +12,7 @@ from husky_view.server import close_server, PageServer
 import numpy as np
 import numpy.typing as npt
 from playpen_testing.browser import drag, open_page
+from playpen_testing.page_client import CAMERA, PageClient
 from playpen_testing.waiting import wait_until
 from playwright.sync_api import Browser, Page
 import pytest
@@ -84,11 +85,17 @@ class Scene:
         wait_until(frame, timeout_sec=20.0, what=lambda: f'{what}: {self._told}, {self.robot}')
 
 
+def serve(port: int) -> tuple[PageServer, Cameras]:
+    server = PageServer('127.0.0.1', port, title='cameras')
+    return server, Cameras(
+        server, server.tabs, center=CENTER, extent_m=EXTENT_M, seen_from_above=SEEN
+    )
+
+
 @pytest.fixture(scope='module')
 def scene(browser: Browser) -> Iterator[Scene]:
-    server = PageServer('127.0.0.1', 18780, title='cameras')
+    server, cameras = serve(18780)
     server.gui.add_html('<b class="husky-page" data-number="time">0</b>')
-    cameras = Cameras(server, server.tabs, center=CENTER, extent_m=EXTENT_M, seen_from_above=SEEN)
     page = open_page(browser, server.address)
     wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
     yield Scene(server, cameras, page)
@@ -146,3 +153,22 @@ def test_free_leaves_the_camera_alone_and_top_looks_down(scene: Scene) -> None:
     half_px = (high_x - low_x) / 2.0 / seen_m * 700
     assert 500 - to_the_left_px - half_px > 0, 'all of it is in the picture'
     assert 500 - to_the_left_px + half_px < 1000 - PANEL_PX, 'the panel hides a part of it'
+
+
+@pytest.mark.timeout(60)
+def test_a_tab_that_tells_of_its_camera_is_turned_nowhere_else() -> None:
+    robot, end = np.array([4.0, 0.0, 0.0]), np.array([-4.0, 0.0, 0.0])
+    server, cameras = serve(18790)
+    with PageClient(server.address) as tab:
+        wait_until(lambda: bool(server.get_clients()), timeout_sec=20.0, what='a tab')
+        (client,) = server.get_clients().values()
+        for number in range(500):  # one in fifteen was turned elsewhere
+            position = [4.0 + number % 3, 2.0, 3.0]
+            tab.send({**CAMERA, 'position': position, 'look_at': robot.tolist()})
+            cameras.choose(client, FOLLOW, robot=robot, yaw=0.1 * number, now_sec=0.0)
+        cameras.choose(client, FOLLOW, robot=end, yaw=0.0, now_sec=0.0)
+        while tab.looked_at[-1:] != [end.tolist()]:
+            tab.read()
+    close_server(server)
+    asked = [CENTER.tolist(), robot.tolist(), end.tolist()]
+    assert [place for place in tab.looked_at if place not in asked] == []

@@ -61,6 +61,7 @@ class PageClient:
             close_timeout=0.1,
         )
         self.controls: dict[str, dict[str, Any]] = {}  # as viser has described them, by label
+        self.looked_at: list[list[float]] = []  # to what its camera was turned
         self.send(CAMERA)
 
     def __enter__(self) -> 'PageClient':
@@ -86,7 +87,7 @@ class PageClient:
         return self.controls[label]
 
     def read(self) -> None:
-        """Wait for messages and register what they say of controls."""
+        """Wait for messages and register what they say of controls and of the camera."""
         raw = self._tab.recv(timeout=20.0)
         assert isinstance(raw, bytes)
         size, length = (int.from_bytes(raw[at : at + 8], 'little') for at in (0, 8))
@@ -96,6 +97,8 @@ class PageClient:
                 self.controls[message['props']['label']] = message
             elif message['type'] == 'GuiUpdateMessage':
                 self._update(message['uuid'], message['updates'])
+            elif message['type'] == 'SetCameraLookAtMessage':
+                self.looked_at.append(message['look_at'])
 
     def _update(self, uuid: str, updates: dict[str, Any]) -> None:
         for label, control in list(self.controls.items()):

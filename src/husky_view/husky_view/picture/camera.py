@@ -136,6 +136,7 @@ class Cameras:
         seen_from_above: Bounds,
     ) -> None:
         self._server = server
+        self._tabs = tabs
         low_x, high_x, low_y, high_y = seen_from_above
         self._top_center = np.array([(low_x + high_x) / 2.0, (low_y + high_y) / 2.0, center[2]])
         self._top_half_m = ((high_x - low_x) / 2.0, (high_y - low_y) / 2.0)
@@ -182,11 +183,14 @@ class Cameras:
         self._look(client, at + np.array([0.0, -0.01 * above_m, above_m]), at)
 
     def _look(self, client: viser.ClientHandle, position: Array, at: Array) -> None:
-        # viser refuses a camera that looks straight up or down.
-        with contextlib.suppress(ValueError), client.atomic():
-            client.camera.position = position
-            client.camera.look_at = at
-        client.flush()
+        def change() -> None:
+            # viser refuses a camera that looks straight up or down.
+            with contextlib.suppress(ValueError), client.atomic():
+                client.camera.position = position
+                client.camera.look_at = at
+            client.flush()
+
+        self._tabs.between_reports(change)
 
     def follow(self, robot: Array, *, now_sec: float) -> None:
         """Move the cameras that follow to where the robot is now; call it every frame."""

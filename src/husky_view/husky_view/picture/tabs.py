@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What happens in the tabs of a page, told to what the page shows."""
 
+import asyncio
 from collections.abc import Callable
 
 import viser
@@ -18,9 +19,11 @@ class Tabs:
     def __init__(self, server: viser.ViserServer) -> None:
         self._on_camera: list[Callable[[viser.CameraHandle], object]] = []
         self._on_gone: list[Callable[[int], object]] = []
+        self._server_loop: asyncio.AbstractEventLoop | None = None  # known with the first tab
 
         @server.on_client_connect
         async def _(client: viser.ClientHandle) -> None:
+            self._server_loop = asyncio.get_running_loop()
             client.camera.on_update(self._tell_camera)
 
         @server.on_client_disconnect
@@ -31,6 +34,16 @@ class Tabs:
     async def _tell_camera(self, camera: viser.CameraHandle) -> None:
         for tell in tuple(self._on_camera):
             tell(camera)
+
+    def between_reports(self, change: Callable[[], None]) -> None:
+        """
+        Change the camera of a tab soon, in the server's thread; from any thread.
+
+        viser puts what a tab reports in the place of the camera that it knows, at any time. Amid a
+        change, which needs that one, the tab would be told of a camera that looks elsewhere.
+        """
+        assert self._server_loop is not None, 'no tab has come yet'
+        self._server_loop.call_soon_threadsafe(change)
 
     def on_camera(self, tell: Callable[[viser.CameraHandle], object]) -> None:
         """Call this with the camera of a tab that reports it."""
