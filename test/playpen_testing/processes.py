@@ -3,6 +3,7 @@
 """Start real processes, read what they print, and end them all."""
 
 from collections.abc import Iterable, Sequence
+import contextlib
 from functools import partial
 import os
 from pathlib import Path
@@ -12,6 +13,7 @@ import subprocess
 import threading
 import time
 from types import TracebackType
+from typing import Any, IO
 
 from husky_runtime.parent_death import die_with_parent
 
@@ -34,6 +36,51 @@ def find_line(output: Iterable[str], pattern: str) -> re.Match[str]:
             return found
         before += line
     raise AssertionError(f'the output ended without {pattern!r}:\n{before}')
+
+
+class Child(subprocess.Popen[str]):
+    """
+    A process whose output may be read line by line, and then to its end.
+
+    The communicate() of subprocess loses what was read ahead with the last line.
+    """
+
+    def __init__(self, command: Sequence[str], **options: Any) -> None:
+        super().__init__(command, text=True, **options)
+        self._rests: list[list[str]] = [[], []]
+        self._readers: list[threading.Thread] = []
+
+    def communicate(
+        self, given: str | None = None, timeout: float | None = None
+    ) -> tuple[str, str]:
+        """
+        Write the input, and return what is still to be read of stdout and stderr.
+
+        :raises subprocess.TimeoutExpired: if it has not ended by then; may be called again.
+        """
+        end = None if timeout is None else time.monotonic() + timeout
+        if not self._readers:
+            for stream, rest in zip((self.stdout, self.stderr), self._rests, strict=True):
+                if stream is not None:
+                    self._readers.append(threading.Thread(target=_read, args=(stream, rest)))
+                    self._readers[-1].daemon = True
+                    self._readers[-1].start()
+            if self.stdin is not None:
+                with contextlib.suppress(BrokenPipeError), self.stdin:
+                    self.stdin.write(given or '')
+        for reader in self._readers:
+            reader.join(None if end is None else max(0.0, end - time.monotonic()))
+            if reader.is_alive():
+                assert timeout is not None
+                raise subprocess.TimeoutExpired(self.args, timeout)
+        self.wait(None if end is None else max(0.0, end - time.monotonic()))
+        out, err = map(''.join, self._rests)
+        return out, err
+
+
+def _read(stream: IO[str], rest: list[str]) -> None:
+    with stream:
+        rest.append(stream.read())
 
 
 class Process:

@@ -13,6 +13,7 @@ import textwrap
 import time
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.processes import Child
 import pytest
 
 # Where a ROS 2 Jazzy is sourced nothing of underlay is installed, and there is nothing to test.
@@ -44,11 +45,10 @@ class Launched:
 
 def start_launch(path: Path, *arguments: str) -> 'subprocess.Popen[str]':
     """Start a launch file as ``ros2 launch`` does, in a process of its own."""
-    return subprocess.Popen(
+    return Child(
         [sys.executable, '-c', _RUNNER, str(path), *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        text=True,
     )
 
 

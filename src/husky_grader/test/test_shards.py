@@ -23,6 +23,7 @@ from husky_grader.batch.sealed import Seals
 from husky_grader.batch.shards import parse_shard, Shard
 from husky_grader.grade import main as grade
 from husky_grader.playpen import config_folder
+from playpen_testing.processes import Child
 import pytest
 
 SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-%g, 0]]\n'
@@ -250,9 +251,8 @@ def test_a_cluster_that_loses_a_worker_has_the_same_table(
     command = [sys.executable, '-m', 'husky_grader.grade', *serial.files[:5]]
     command += ['--executor', f'dask:{address}', '--report', str(tmp_path / 'cluster')]
     environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
-    with subprocess.Popen(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as running:
+    pipe = subprocess.PIPE
+    with Child(command, env=environment, stdout=pipe, stderr=pipe) as running:
         assert running.stderr is not None
         first = running.stderr.readline()
         assert ' of 5 ' in first, first + running.stderr.read()

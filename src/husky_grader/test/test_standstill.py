@@ -12,6 +12,7 @@ from textwrap import indent
 import time
 
 from husky_grader.run.standstill import MOST_TIMES, STILL_SEC, undisturbed
+from playpen_testing.processes import Child
 import pytest
 
 ATTEMPT = """
@@ -82,7 +83,7 @@ def test_what_came_of_an_attempt_amid_which_it_stood_still_does_not_count(
 ) -> None:
     command = [sys.executable, '-c', ATTEMPT]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as process:
+    with Child(command, stdin=pipe, stdout=pipe, stderr=pipe) as process:
         assert process.stdin is not None
         assert process.stdout is not None
         assert process.stdout.readline() == 'attempt\n'

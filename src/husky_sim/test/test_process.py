@@ -11,7 +11,7 @@ import sys
 import time
 
 from husky_course.record import read_record
-from playpen_testing.processes import find_line
+from playpen_testing.processes import Child, find_line
 import pytest
 from rcl_interfaces.msg import SetParametersResult
 import rclpy
@@ -28,10 +28,9 @@ def run_process(
     cwd: Path | None = None,
     env: dict[str, str] | None = None,
 ) -> 'subprocess.Popen[str]':
-    return subprocess.Popen(
+    return Child(
         [sys.executable, '-m', module, '--ros-args', *arguments],
         stderr=subprocess.PIPE,
-        text=True,
         cwd=cwd,
         env=env,
     )

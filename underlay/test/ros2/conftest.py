@@ -17,7 +17,7 @@ import time
 
 from husky_runtime.domains import OwnDomain
 from playpen_testing.keyboard import Keyboard
-from playpen_testing.processes import find_line
+from playpen_testing.processes import Child, find_line
 import pytest
 
 HERE = Path(__file__).resolve().parent
@@ -59,9 +59,7 @@ class Processes:
 
     def start(self, *words: str, ready: str | None = None) -> subprocess.Popen[str]:
         """Start a process; where `ready` is given, wait until it has printed a line with it."""
-        process = subprocess.Popen(
-            words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        )
+        process = Child(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self._started.append(process)
         if ready is not None:
             assert process.stdout is not None
