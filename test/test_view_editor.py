@@ -39,7 +39,8 @@ def page(lab: Lab) -> Page:
     button(page, 'Top').click()
     page.get_by_text('Waypoints', exact=True).click()
     page.get_by_label('Edit: click on the ground').check()
-    page.locator('[data-verdict]').wait_for()
+    verdict = page.locator('[data-verdict]')
+    wait_until(verdict.is_visible, timeout_sec=30.0, what=lambda: f'a verdict: {lab.view.output}')
     return page
 
 
