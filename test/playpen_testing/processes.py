@@ -61,7 +61,7 @@ class Child(subprocess.Popen[str]):
         end = None if timeout is None else time.monotonic() + timeout
         if not self._readers:
             for stream, rest in zip((self.stdout, self.stderr), self._rests, strict=True):
-                if stream is not None:
+                if stream is not None and not stream.closed:
                     self._readers.append(threading.Thread(target=_read, args=(stream, rest)))
                     self._readers[-1].daemon = True
                     self._readers[-1].start()

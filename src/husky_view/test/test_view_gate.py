@@ -169,6 +169,18 @@ def test_a_control_takes_what_it_offers(page: Page) -> None:
     assert dict(page.heard_after(*messages)) == values
 
 
+def test_a_page_is_heard_before_it_has_told_of_its_camera(page: Page) -> None:
+    checked = not page.controls['box'].value
+    with page.connect() as tab:
+        tab.send(page.update('box', value=checked))
+        assert page.heard_before_a_click(tab) == [('box', checked)]
+        (client,) = page.server.get_clients().values()
+        tab.send(encode({**CAMERA, 'image_width': 321}))
+        wait_until(
+            lambda: client.camera.image_width == 321, timeout_sec=10.0, what='its own camera'
+        )
+
+
 NOT_OFFERED: dict[str, list[object]] = {
     'button': [False, 1, 'x', None, [], {}],
     'grey': [True],

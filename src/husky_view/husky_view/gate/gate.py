@@ -26,7 +26,14 @@ from websockets.protocol import Event
 from husky_view.gate.admission import Admission
 from husky_view.gate.controls import accepts
 from husky_view.gate.front_page import ALIVE, front_page
-from husky_view.gate.incoming import GuiUpdateMessage, read_message, Refused
+from husky_view.gate.incoming import (
+    FIRST_MESSAGE,
+    GuiUpdateMessage,
+    Incoming,
+    read_message,
+    Refused,
+    ViewerCameraMessage,
+)
 
 MOST_BYTES = 4096
 """Of a message; a page sends half a kilobyte at most."""
@@ -104,7 +111,7 @@ class Gate:
         return serve(handler, *place, **{**options, **mine})
 
     def _connection(self, *args: Any, **options: Any) -> ServerConnection:
-        return CheckedConnection(self.admits_message, *args, **options)
+        return CheckedConnection(self.admitted, *args, **options)
 
     def _process_request(self, connection: ServerConnection, request: Request) -> Response | None:
         headers = request.headers
@@ -129,30 +136,42 @@ class Gate:
         length = {'Content-Length': str(len(self._page))}
         return Response(200, 'OK', Headers({**described, **length, **_HEADERS}), self._page)
 
-    def admits_message(self, raw: str | bytes) -> bool:
-        """Tell whether a message is one that the page may send now."""
+    def admitted(self, raw: str | bytes) -> Incoming | None:
+        """Return a message that the page may send now, None for any other."""
         try:
             message = read_message(raw)
         except Refused as error:
             _log.debug('refused: %s', error)
-            return False
-        if isinstance(message, GuiUpdateMessage):
-            return accepts(self.control_of(message.uuid), message.updates.value)
-        return True
+            return None
+        if isinstance(message, GuiUpdateMessage) and not accepts(
+            self.control_of(message.uuid), message.updates.value
+        ):
+            return None
+        return message
 
 
 class CheckedConnection(ServerConnection):
     """
     The connection of a tab, which hands on what is admitted and drops the rest.
 
-    :param admits: tells of a message whether it is admitted.
+    viser hears nobody who has not told of a camera yet: it keeps the value of a control, and
+    calls nothing. A page on a slow computer tells of its camera long after it shows STOP: what is
+    clicked before has a camera go ahead of it.
+
+    :param admitted: returns a message that is admitted, None for any other.
     """
 
     def __init__(
-        self, admits: Callable[[str | bytes], bool], protocol: Any, server: Server, **options: Any
+        self,
+        admitted: Callable[[str | bytes], Incoming | None],
+        protocol: Any,
+        server: Server,
+        **options: Any,
     ) -> None:
         super().__init__(protocol, server, **options)
-        self._admits = admits
+        self._admitted = admitted
+        self._is_heard = False
+        self._held: str | bytes | None = None  # until its camera has gone ahead
         self._frames = 0  # of a message that is not whole yet
         self._pings = 0  # since nothing waited to be read
         self._free_sec = 0.0  # when all that was read would have been due
@@ -176,11 +195,19 @@ class CheckedConnection(ServerConnection):
 
     async def recv(self, decode: bool | None = None) -> str | bytes:  # type: ignore[override]
         """Wait for the next message that is admitted."""
+        if self._held is not None:
+            raw, self._held = self._held, None
+            return raw
         while True:
             raw = await super().recv(decode)
             await self._keep_to_the_rate()
-            if self._admits(raw):
-                return raw
+            message = self._admitted(raw)
+            if message is not None:
+                break
+        if not self._is_heard and not isinstance(message, ViewerCameraMessage):
+            self._held, raw = raw, FIRST_MESSAGE
+        self._is_heard = True
+        return raw
 
     async def _keep_to_the_rate(self) -> None:
         now = self.loop.time()

@@ -48,6 +48,22 @@ class ViewerCameraMessage(_Message, frozen=True):
     up_direction: Vector
 
 
+FIRST_MESSAGE = msgspec.msgpack.encode(
+    ViewerCameraMessage(
+        wxyz=(1.0, 0.0, 0.0, 0.0),
+        position=(-10.0, -10.0, 10.0),
+        fov=math.radians(50.0),
+        near=0.01,
+        far=1000.0,
+        image_height=800,
+        image_width=1200,
+        look_at=(0.0, 0.0, 0.0),
+        up_direction=(0.0, 0.0, 1.0),
+    )
+)
+"""Of a page that has not told of its camera; it does as soon as it draws."""
+
+
 class NewValue(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The one property of a control that a page sets."""
 
