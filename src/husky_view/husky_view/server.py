@@ -14,6 +14,7 @@ import viser
 
 from husky_view.gate.admission import Admission
 from husky_view.gate.gate import Gate
+from husky_view.outgoing import use_thread_safe_buffers
 from husky_view.picture.page import add_page_script
 from husky_view.picture.tabs import Tabs
 
@@ -36,6 +37,7 @@ class PageServer(viser.ViserServer):
             raise AddressError(str(error)) from error
         gate = Gate(self._admission, title=title)
         port = free_port(host, port)
+        use_thread_safe_buffers()
         with gate.in_front(), redirect_stdout(io.StringIO()):  # viser prints a banner
             super().__init__(host=host, port=port, label=title, verbose=False)
         gate.control_of = self.gui._gui_input_handle_from_uuid.get
