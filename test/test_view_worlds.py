@@ -3,6 +3,7 @@
 """A page that shows one world after the other."""
 
 import gc
+import inspect
 from pathlib import Path
 import weakref
 
@@ -36,6 +37,16 @@ def callbacks(server: PageServer) -> list[int]:
     return [len(each) for each in kept]
 
 
+def heard_in_a_pool(server: PageServer) -> list[str]:
+    """Return what is clicked where a second click may overtake the first one."""
+    controls = server.gui._gui_input_handle_from_uuid.values()
+    return [
+        each.label
+        for each in controls
+        if not all(map(inspect.iscoroutinefunction, each._impl.update_cb))
+    ]
+
+
 def shown() -> list[object]:
     return [each for each in gc.get_objects() if isinstance(each, SHOWN)]
 
@@ -53,9 +64,12 @@ def test_nothing_stays_of_the_worlds_that_were_shown(domain_id: int, tmp_path: P
         wait_until(lambda: len(server.get_clients()) == 1, timeout_sec=20.0, what='a tab')
         before = callbacks(server)
         for _ in range(3):
-            LiveView(node, server, query, world, tmp_path, is_stopped=False).close()
+            view = LiveView(node, server, query, world, tmp_path, is_stopped=False)
+            assert heard_in_a_pool(server) == []
+            view.close()
             server.clear()
             assert callbacks(server) == before
+    del view
     gc.collect()
     left = [type(each).__name__ for each in shown() if id(each) not in others]
     close_server(server)

@@ -5,10 +5,15 @@
 import asyncio
 from collections.abc import Iterator
 import threading
+import time
 
+from husky_view.picture.camera import add_camera_buttons
+from husky_view.picture.page import FOLLOW, TOP
 from husky_view.server import close_server, PageServer
 from playpen_testing.page_client import PageClient
+from playpen_testing.waiting import wait_until
 import pytest
+import viser
 
 
 @pytest.fixture
@@ -34,3 +39,20 @@ def test_what_is_drawn_wakes_the_tabs_in_the_servers_thread_alone(
         tab.control('drawn')
     assert threads
     assert threading.get_ident() not in threads, 'an event of asyncio is not thread-safe'
+
+
+def test_clicks_that_come_at_once_are_heard_as_they_were_made(server: PageServer) -> None:
+    heard: list[str] = []
+
+    def choose(_: viser.ClientHandle, preset: str) -> None:
+        heard.append(preset)
+
+    add_camera_buttons(server.gui, lambda action: action(), choose)
+    clicked = [TOP, FOLLOW] * 20
+    with PageClient(server.address) as tab:
+        tab.control('Camera')
+        server.gui._event_loop.call_soon_threadsafe(time.sleep, 0.2)
+        for preset in clicked:
+            tab.set('Camera', preset)
+        wait_until(lambda: len(heard) == len(clicked), timeout_sec=10.0, what='every click')
+    assert heard == clicked

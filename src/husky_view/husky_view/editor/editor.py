@@ -8,6 +8,7 @@ callbacks of viser leave actions; everything else runs on the thread that runs t
 """
 
 from collections.abc import Callable
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ import viser
 
 from husky_view.editor import course
 from husky_view.picture import palette
+from husky_view.picture.clicks import in_order
 from husky_view.picture.geometry import on_ground, to_odom, to_world
 from husky_view.picture.marks import add_line, lifted, NumberedDiscs
 from husky_view.picture.page import ON_TOP
@@ -106,19 +108,24 @@ class Editor:
     def _add_elements(self, gui: viser.GuiApi) -> None:
         later = self._later
         self._file = gui.add_dropdown('Open', (NEW, *course.files_in(self._folder)))
-        self._file.on_update(lambda event: later(lambda: self._open(event.target.value)))
+        self._file.on_update(
+            in_order(lambda event: later(partial(self._open, event.target.value)))
+        )
         self._edit = gui.add_checkbox(EDIT, False)
-        self._edit.on_update(lambda event: later(lambda: self._set_editing(event.target.value)))
+        self._edit.on_update(
+            in_order(lambda event: later(lambda: self._set_editing(event.target.value)))
+        )
         change = gui.add_button_group('Change', (UNDO, DELETE, CLEAR))
-        change.on_click(lambda event: later(lambda: self._on_change(event.target.value)))
+        change.on_click(in_order(lambda event: later(partial(self._change, event.target.value))))
         self._speed = gui.add_slider('Speed, m/s', 0.1, 1.0, 0.1, self._edited.course.speed_m_s)
         self._loop = gui.add_checkbox('Back to the first (loop)', False)
-        self._speed.on_update(lambda event: event.client and later(self._on_speed))
-        self._loop.on_update(lambda event: event.client and later(self._on_loop))
+        self._speed.on_update(in_order(lambda event: event.client and later(self._on_speed)))
+        self._loop.on_update(in_order(lambda event: event.client and later(self._on_loop)))
         self._verdict = gui.add_html('')
         self._name = gui.add_text('Save as', 'my_path')
-        gui.add_button('Save').on_click(lambda _: later(self._save))
-        gui.add_button(DRIVE, color='green').on_click(lambda _: later(self._save_and_drive))
+        gui.add_button('Save').on_click(in_order(lambda _: later(self._save)))
+        drive = gui.add_button(DRIVE, color='green')
+        drive.on_click(in_order(lambda _: later(self._save_and_drive)))
 
     def _set_editing(self, editing: bool) -> None:
         if editing == self._editing:
@@ -131,7 +138,7 @@ class Editor:
             self._server.scene.remove_click_callback(self._on_click)
         self._changed = True
 
-    def _on_click(self, event: Any) -> None:
+    async def _on_click(self, event: Any) -> None:  # a coroutine: clicks come in order
         place = on_ground(event.ray_origin, event.ray_direction, self._height_m)
         if place is not None:
             self._later(lambda: self._click(place))
@@ -163,7 +170,7 @@ class Editor:
         if phase == 'end':
             self._dragged = None
 
-    def _on_change(self, word: str) -> None:
+    def _change(self, word: str) -> None:
         edited = self._edited
         self._dragged = None  # in another tab: there may be fewer of them now
         {UNDO: edited.undo, DELETE: edited.delete_selected, CLEAR: edited.clear}[word]()

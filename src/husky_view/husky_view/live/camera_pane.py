@@ -13,6 +13,8 @@ from rclpy.subscription import Subscription
 from sensor_msgs.msg import Image
 import viser
 
+from husky_view.picture.clicks import in_order
+
 ENCODING, CHANNELS = 'rgb8', 3
 NOTHING = np.zeros((1, 1, CHANNELS), dtype=np.uint8)
 
@@ -44,7 +46,7 @@ class CameraPane:
         self._newest: Image | None = None  # since the last call of draw
         self._subscription: Subscription[Image] | None = None
         self._switch = gui.add_checkbox('What the camera sees', True, visible=False)
-        self._switch.on_update(lambda _: later(self.look))
+        self._switch.on_update(in_order(lambda _: later(self.look)))
         self._picture = gui.add_image(NOTHING, format='jpeg', visible=False)
         closing.callback(self._end)
 

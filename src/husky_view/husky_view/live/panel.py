@@ -13,6 +13,7 @@ import viser
 from husky_view.live.simulator import SimulatorControl
 from husky_view.live.teleop import HOLD_HZ, Teleop
 from husky_view.picture.camera import add_camera_buttons
+from husky_view.picture.clicks import in_order
 from husky_view.picture.history import History, RunPlots
 from husky_view.picture.page import (
     Direction,
@@ -62,16 +63,20 @@ class Panel:
         self._warning = gui.add_html('', visible=False)
         self._figures = gui.add_html('')
         self._stop = gui.add_button(STOP, color='red', icon=viser.Icon.HAND_STOP)
-        self._stop.on_click(self._on_stop)
+        self._stop.on_click(in_order(self._on_stop))
         self._time = gui.add_button_group('Time', (PAUSE, STEP, RESET))
-        self._time.on_click(lambda event: self._on_time(event.target.value))
+        self._time.on_click(in_order(lambda event: self._on_time(event.target.value)))
         factors = gui.add_button_group('Speed', tuple(FACTORS))
-        factors.on_click(lambda event: self._on_factor(FACTORS[event.target.value]))
+        factors.on_click(in_order(lambda event: self._on_factor(FACTORS[event.target.value])))
         add_camera_buttons(gui, actions.put, choose_camera)
         if len(robots) > 1:
             robot = gui.add_dropdown('Robot', tuple(robots))
             robot.on_update(
-                lambda event: self._later(lambda: choose_robot(robots.index(event.target.value)))
+                in_order(
+                    lambda event: self._later(
+                        partial(choose_robot, robots.index(event.target.value))
+                    )
+                )
             )
         self._add_drive_buttons(gui)
         self._page = gui.add_html(page_html())
@@ -85,19 +90,20 @@ class Panel:
         with gui.add_folder('Drive: arrow keys, or hold'):
             for direction in Direction:
                 button = gui.add_button(direction.sign)
-                button.on_hold(partial(self._on_hold, direction), callback_hz=HOLD_HZ)
-                button.on_click(partial(self._on_release, direction))
+                button.on_hold(in_order(partial(self._on_hold, direction)), callback_hz=HOLD_HZ)
+                button.on_click(in_order(partial(self._on_release, direction)))
         speed = gui.add_slider('Drive at, m/s', 0.1, 1.0, 0.1, teleop.speed_m_s)
-        speed.on_update(lambda event: setattr(teleop, 'speed_m_s', float(event.target.value)))
+        speed.on_update(
+            in_order(lambda event: setattr(teleop, 'speed_m_s', float(event.target.value)))
+        )
 
-    # Coroutines run on the server's own thread, in order and at once.
-    async def _on_stop(self, _event: Any) -> None:
+    def _on_stop(self, _event: Any) -> None:
         self._later(lambda: self._press_stop(not self._stopped), urgent=True)
 
-    async def _on_hold(self, direction: Direction, event: Any) -> None:
+    def _on_hold(self, direction: Direction, event: Any) -> None:
         self.teleop.hold(event.client_id, direction, now_sec=time.monotonic())
 
-    async def _on_release(self, direction: Direction, event: Any) -> None:
+    def _on_release(self, direction: Direction, event: Any) -> None:
         self.teleop.release(event.client_id, direction)
 
     def _on_time(self, word: str) -> None:

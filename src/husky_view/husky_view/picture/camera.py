@@ -11,6 +11,7 @@ from husky_course.frames import Array
 import numpy as np
 import viser
 
+from husky_view.picture.clicks import in_order
 from husky_view.picture.geometry import Bounds
 from husky_view.picture.page import FOLLOW, PRESETS, TOP
 from husky_view.picture.tabs import Tabs
@@ -210,6 +211,7 @@ def add_camera_buttons(
     buttons = gui.add_button_group('Camera', PRESETS)
 
     @buttons.on_click
+    @in_order
     def _(event: Any) -> None:
         client, preset = event.client, event.target.value
         if client is not None:

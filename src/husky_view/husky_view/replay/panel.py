@@ -10,6 +10,7 @@ from husky_course.record import Collision
 import viser
 
 from husky_view.picture.camera import add_camera_buttons
+from husky_view.picture.clicks import in_order
 from husky_view.picture.history import History, RunPlots
 from husky_view.picture.page import (
     figures_html,
@@ -89,14 +90,14 @@ class ReplayPanel:
         gui = server.gui
         self._figures = gui.add_html('')
         self._play = gui.add_button_group('Time', (PLAY, RESTART))
-        self._play.on_click(lambda event: self._on_time(event.target.value))
+        self._play.on_click(in_order(lambda event: self._on_time(event.target.value)))
         # The slider's range is a whole number of steps, or its end could not be reached.
         end = max(math.ceil(playback.duration_sec / 0.1) * 0.1, 0.1)
         self._slider = gui.add_slider('Seconds', 0.0, round(end, 1), 0.1, 0.0)
-        self._slider.on_update(self._on_slider)
+        self._slider.on_update(in_order(self._on_slider))
         self._known_sec = self._slider.value  # what we have set, or heard of
         factor = gui.add_button_group('Speed', tuple(FACTORS))
-        factor.on_click(lambda event: self._on_factor(FACTORS[event.target.value]))
+        factor.on_click(in_order(lambda event: self._on_factor(FACTORS[event.target.value])))
         add_camera_buttons(gui, actions.put, choose_camera)
         with gui.add_folder(f'Collisions: {len(collisions)}'):
             for collision in collisions[:MOST_BUTTONS]:
@@ -106,7 +107,7 @@ class ReplayPanel:
                     icon=viser.Icon.ALERT_TRIANGLE,
                     hint=str(collision),
                 )
-                button.on_click(self._jumper(collision.time_sec))
+                button.on_click(in_order(self._jumper(collision.time_sec)))
             if not collisions:
                 gui.add_html('<div style="padding:0 1em .4em">none</div>')
         self._legend = gui.add_html('')
