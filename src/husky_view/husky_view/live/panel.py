@@ -29,6 +29,9 @@ from husky_view.picture.palette import Rgb
 from husky_view.server import ActionQueue, PageServer
 
 PAUSE, RESUME, STEP, RESET = 'Pause', 'Resume', 'Step', 'Reset'
+STOPPED_SEC = 1.0
+"""How long a stop cannot be released: who clicks then has meant STOP, too, or clicks twice."""
+
 FACTORS = {'½×': 0.5, '1×': 1.0, '2×': 2.0, '5×': 5.0, 'max': 0.0}
 
 
@@ -58,6 +61,7 @@ class Panel:
         self._later = actions.put
         self._paused = False
         self._stopped = False
+        self._stopped_sec = 0.0  # when that changed
         self._press_stop = stop
         gui = server.gui
         self._warning = gui.add_html('', visible=False)
@@ -98,7 +102,9 @@ class Panel:
         )
 
     def _on_stop(self, _event: Any) -> None:
-        self._later(lambda: self._press_stop(not self._stopped), urgent=True)
+        self._later(
+            lambda: self._press_stop(not self._stopped or self._stop.disabled), urgent=True
+        )
 
     def _on_hold(self, direction: Direction, event: Any) -> None:
         self.teleop.hold(event.client_id, direction, now_sec=time.monotonic())
@@ -116,11 +122,16 @@ class Panel:
     def _on_factor(self, factor: float) -> None:
         self._later(lambda: self._simulator.set_factor(factor))
 
-    def show_stopped(self, stopped: bool) -> None:
-        """Show whether the emergency stop is pressed."""
-        if stopped == self._stopped:
+    def show_stopped(self, stopped: bool, *, now_sec: float) -> None:
+        """Show whether the emergency stop is pressed; call it every frame."""
+        changes = stopped != self._stopped
+        if changes:
+            self._stopped, self._stopped_sec = stopped, now_sec
+        is_new = stopped and now_sec - self._stopped_sec < STOPPED_SEC
+        if self._stop.disabled != is_new:
+            self._stop.disabled = is_new
+        if not changes:
             return
-        self._stopped = stopped
         self._stop.color = 'orange' if stopped else 'red'
         self._stop.label = RELEASE if stopped else STOP
 

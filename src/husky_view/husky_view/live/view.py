@@ -217,7 +217,7 @@ class LiveView:
     def _on_frame(self) -> None:
         now = time.monotonic()
         self._actions.run()
-        self._panel.show_stopped(self.is_stopped)
+        self._panel.show_stopped(self.is_stopped, now_sec=now)
         command = self._panel.teleop.command(now_sec=now)
         if command is not None:
             self._links[self._driven].drive(*command, now_sec=now)
