@@ -5,6 +5,7 @@
 import gc
 import inspect
 from pathlib import Path
+from typing import Any
 import weakref
 
 from husky_course.robot import RobotStart
@@ -15,6 +16,7 @@ from husky_view.live.simulator import SimulatorQuery
 from husky_view.live.view import LiveView
 from husky_view.picture.camera import Cameras
 from husky_view.picture.coordinates import TopGrids
+from husky_view.picture.page import STOP
 from husky_view.picture.picture import Picture
 from husky_view.server import close_server, PageServer
 from playpen_testing.page_client import PageClient
@@ -76,6 +78,41 @@ def test_nothing_stays_of_the_worlds_that_were_shown(domain_id: int, tmp_path: P
     node.destroy_node()
     context.shutdown()
     assert left == []
+
+
+@pytest.mark.timeout(60)
+def test_a_stop_that_is_clicked_while_another_world_is_loaded_holds_it(
+    domain_id: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    views: list[LiveView] = []
+
+    class SeenView(LiveView):
+        def __init__(self, *args: Any, **options: Any) -> None:
+            super().__init__(*args, **options)
+            views.append(self)
+
+    rclpy.init(args=['--ros-args', '-p', 'viewer_port:=18990'], domain_id=domain_id)
+    node = ViewNode()
+    world = load_world(str(default_worlds() / 'empty.xml'), [RobotStart()])
+
+    def load(*_: object) -> World | None:
+        if len(views) > 1:
+            return None
+        controls = node._server.gui._gui_input_handle_from_uuid.values()
+        (stop,) = [each for each in controls if each.label == STOP]
+        before = stop.update_timestamp
+        with PageClient(node._server.address) as tab:
+            tab.set(STOP, True)
+            wait_until(lambda: stop.update_timestamp > before, timeout_sec=10.0, what='a click')
+        return world
+
+    monkeypatch.setattr('husky_view.live.node.LiveView', SeenView)
+    monkeypatch.setattr(node, '_wait_for_world', lambda _: world)
+    monkeypatch.setattr(node, '_result_of', load)
+    node.show_all(Future())
+    node.destroy_node()
+    rclpy.shutdown()
+    assert [each.is_stopped for each in views] == [True, True]
 
 
 def test_a_world_that_was_waited_for_is_not_kept(domain_id: int) -> None:

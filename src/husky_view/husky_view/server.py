@@ -95,6 +95,11 @@ class ActionQueue:
         elif self._queue.qsize() < MOST_ACTIONS:
             self._queue.put(action)
 
+    def run_urgent(self) -> None:
+        """Run what is urgent of what was added."""
+        while not self._urgent.empty():
+            self._urgent.get()()
+
     def run(self) -> None:
         """Run what was added since the last call, as much as fits into a frame; urgent first."""
         end_sec = time.monotonic() + ACTIONS_SEC

@@ -75,13 +75,13 @@ class RobotLink:
         self._command_topic = f'{namespace}husky_velocity_controller/cmd_vel'
         self._commands: Publisher[Twist] | None = None  # only while the page drives
         self._driven_sec = 0.0
-        self._stops = node.create_publisher(
+        self._stops: Publisher[Bool] | None = node.create_publisher(
             Bool,
             f'{namespace}e_stop',
             LATCHED,
             event_callbacks=PublisherEventCallbacks(matched=self._on_stop_match),
         )
-        closing.callback(node.destroy_publisher, self._stops)
+        closing.callback(self._end_stops)
         closing.callback(self._end_commands)
         for kind, topic, callback, qos in (
             (Bool, 'e_stop', self._on_stop, 10),
@@ -110,10 +110,16 @@ class RobotLink:
             self._node.destroy_publisher(self._commands)
             self._commands = None
 
+    def _end_stops(self) -> None:
+        if self._stops is not None:
+            self._node.destroy_publisher(self._stops)
+            self._stops = None
+
     def stop(self, stopped: bool) -> None:
-        """Press or release the emergency stop."""
+        """Press or release the emergency stop; where it is closed, it is only known here."""
         self._learn(stopped)
-        self._stops.publish(Bool(data=stopped))
+        if self._stops is not None:
+            self._stops.publish(Bool(data=stopped))
 
     def adopt_stop(self, *, stopped: bool) -> None:
         """Learn of a stop that held the robot before the page heard of any."""

@@ -102,9 +102,10 @@ class ViewNode(Node):
                 world = self._result_of(view.next_world, interrupted)
             finally:
                 view.close()
-            is_stopped = view.is_stopped
             if world is not None:
-                self._server.clear()
+                self._server.clear()  # from here on nobody can click
+                view.hear_last_stop()
+                is_stopped = view.is_stopped
 
     def _wait_for_world(self, interrupted: Future[None]) -> World | None:
         name = self._query.name

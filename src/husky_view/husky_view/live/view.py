@@ -180,6 +180,10 @@ class LiveView:
         """Stop showing it, and end the driver that was started here; may be called twice."""
         self._closing.close()
 
+    def hear_last_stop(self) -> None:
+        """Hear of a stop that was clicked while this was closed; the next view publishes it."""
+        self._actions.run_urgent()
+
     def _on_scene(self, msg: Float64MultiArray) -> None:
         now = time.monotonic()
         if not self._monitor.accept(*origin_of(msg), now_sec=now):
