@@ -53,8 +53,8 @@ def run_to_end(
         child = ChildProcess(command, environment)
         while not asked and not child.wait(POLL_SEC):
             if stops:
+                stops.clear()  # before: a Ctrl-Z soon after `fg` is another one
                 _stop_with_descendants()
-                stops.clear()
         if asked:
             firm_sec = HURRIED_FIRM_SEC
         first = signal.SIGINT if signal.SIGINT in asked else signal.SIGTERM

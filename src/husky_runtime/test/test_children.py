@@ -196,7 +196,7 @@ def test_ctrl_z_stops_a_run_and_fg_goes_on() -> None:
     )
     assert run.stdout is not None
     pids = [run.pid, int(run.stdout.readline()), int(run.stdout.readline())]
-    for _ in range(2):
+    for _ in range(20):  # one in 400 was lost that came as soon as the run went on
         os.killpg(run.pid, signal.SIGTSTP)
         wait_for(lambda: states(pids) == {psutil.STATUS_STOPPED}, f'all of {pids} stopped')
         os.killpg(run.pid, signal.SIGCONT)
