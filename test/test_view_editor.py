@@ -120,7 +120,16 @@ def test_what_is_saved_is_what_is_driven(lab: Lab, page: Page) -> None:
 @pytest.mark.timeout(120)
 def test_waypoints_may_go_while_another_tab_drags_one(lab: Lab, page: Page) -> None:
     other = lab.open(*SIZE)
+    button(other, 'Top').click()
     other.get_by_text('Waypoints', exact=True).click()
+    drag_at_once((page, PLACES[1], (-2.0, 1.5)), (other, PLACES[0], (0.0, -1.0)))
+
+    def are_saved() -> bool:
+        button(page, 'Save').click()
+        return distances(saved(lab)[:2], [(0.0, -1.0), (-2.0, 1.5)]) < 0.25
+
+    dragged = 'two that were dragged at once'
+    wait_until(are_saved, timeout_sec=20.0, what=lambda: f'{dragged}: {saved(lab)}')
     page.mouse.move(*on_screen(*saved(lab)[2]))
     page.mouse.down()
     page.mouse.move(*on_screen(-4.0, -1.0), steps=5)
@@ -170,6 +179,22 @@ def test_a_file_changed_by_others_is_replaced_by_a_second_save(lab: Lab, page: P
     wait_until(
         lambda: len(load_course(file).waypoints) == 4, timeout_sec=20.0, what='what was opened'
     )
+    file.unlink()
+    chosen = page.locator('//label[.="Open"]/following::input').first
+    expect(chosen).not_to_have_value(file.stem)
+    button(page, 'Save').click()
+    wait_until(file.is_file, timeout_sec=20.0, what='what was edited, though its file went')
+
+
+def drag_at_once(*tabs: tuple[Page, Place, Place]) -> None:
+    """Drag something in each tab; in all of them the mouse is down before it moves."""
+    for page, begin, _ in tabs:
+        page.mouse.move(*on_screen(*begin))
+        page.mouse.down()
+    for page, _, end in tabs:
+        page.mouse.move(*on_screen(*end), steps=5)
+    for page, _, _ in tabs:
+        page.mouse.up()
 
 
 def opened(lab: Lab, page: Page, text: str, *, count: int) -> Path:

@@ -86,7 +86,7 @@ class Editor:
             on_drag=self._on_drag,
         )
         self._seen: dict[Path, tuple[int, ...] | None] = {}  # files, as they were read or written
-        self._dragged: int | None = None
+        self._dragged: dict[int, int] = {}  # by tab
         self._editing = False
         self._changed = False  # since it was drawn
         with server.gui.add_folder('Waypoints', expand_by_default=False):
@@ -108,8 +108,9 @@ class Editor:
     def _add_elements(self, gui: viser.GuiApi) -> None:
         later = self._later
         self._file = gui.add_dropdown('Open', (NEW, *course.files_in(self._folder)))
+        # viser goes back to the first where the file that is edited is there no more.
         self._file.on_update(
-            in_order(lambda event: later(partial(self._open, event.target.value)))
+            in_order(lambda event: event.client and later(partial(self._open, event.target.value)))
         )
         self._edit = gui.add_checkbox(EDIT, False)
         self._edit.on_update(
@@ -157,22 +158,22 @@ class Editor:
             return
         eye = np.asarray(event.client.camera.position)
         place = on_ground(eye, np.asarray(event.end_position) - eye, self._height_m)
-        phase, number = event.phase, event.instance_index
-        self._later(lambda: self._drag(phase, number, place))
+        tab, phase, number = event.client_id, event.phase, event.instance_index
+        self._later(lambda: self._drag(tab, phase, number, place))
 
-    def _drag(self, phase: str, number: int | None, place: Array | None) -> None:
+    def _drag(self, tab: int, phase: str, number: int | None, place: Array | None) -> None:
         if phase == 'start' and number is not None and number < len(self._edited.course.waypoints):
-            self._dragged = number
+            self._dragged[tab] = number
             self._edited.begin_move(number)
-        if self._dragged is not None and place is not None:
-            self._edited.move(self._dragged, *to_odom(self._start, place[None])[0])
+        if tab in self._dragged and place is not None:
+            self._edited.move(self._dragged[tab], *to_odom(self._start, place[None])[0])
             self._changed = True
         if phase == 'end':
-            self._dragged = None
+            self._dragged.pop(tab, None)
 
     def _change(self, word: str) -> None:
         edited = self._edited
-        self._dragged = None  # in another tab: there may be fewer of them now
+        self._dragged.clear()  # in another tab: there may be fewer of them now
         {UNDO: edited.undo, DELETE: edited.delete_selected, CLEAR: edited.clear}[word]()
         self._show_settings()
         self._changed = True
@@ -187,7 +188,7 @@ class Editor:
         self._changed = True
 
     def _open(self, name: str) -> None:
-        self._dragged = None
+        self._dragged.clear()
         if name == NEW:
             self._edited.clear()
         else:
