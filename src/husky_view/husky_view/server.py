@@ -74,11 +74,7 @@ def close_server(server: viser.ViserServer) -> None:
 
 
 class ActionQueue:
-    """
-    Actions from the server's threads, run by the thread that owns everything else.
-
-    viser calls the callbacks of clicks on threads of its own.
-    """
+    """Actions from the server's thread, run by the thread that owns everything else."""
 
     def __init__(self) -> None:
         self._urgent: SimpleQueue[Callable[[], object]] = SimpleQueue()
