@@ -51,6 +51,7 @@ def test_clicks_that_come_at_once_are_heard_as_they_were_made(server: PageServer
     clicked = [TOP, FOLLOW] * 20
     with PageClient(server.address) as tab:
         tab.control('Camera')
+        # The server stands still, as on a slow computer: all that is sent comes at once.
         server.gui._event_loop.call_soon_threadsafe(time.sleep, 0.2)
         for preset in clicked:
             tab.set('Camera', preset)

@@ -27,7 +27,7 @@ from husky_view.gate.admission import Admission
 from husky_view.gate.controls import accepts
 from husky_view.gate.front_page import ALIVE, front_page
 from husky_view.gate.incoming import (
-    FIRST_MESSAGE,
+    FIRST_CAMERA,
     GuiUpdateMessage,
     Incoming,
     read_message,
@@ -205,7 +205,7 @@ class CheckedConnection(ServerConnection):
             if message is not None:
                 break
         if not self._is_heard and not isinstance(message, ViewerCameraMessage):
-            self._held, raw = raw, FIRST_MESSAGE
+            self._held, raw = raw, FIRST_CAMERA
         self._is_heard = True
         return raw
 

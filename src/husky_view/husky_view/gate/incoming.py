@@ -48,7 +48,7 @@ class ViewerCameraMessage(_Message, frozen=True):
     up_direction: Vector
 
 
-FIRST_MESSAGE = msgspec.msgpack.encode(
+FIRST_CAMERA = msgspec.msgpack.encode(
     ViewerCameraMessage(
         wxyz=(1.0, 0.0, 0.0, 0.0),
         position=(-10.0, -10.0, 10.0),
@@ -61,7 +61,7 @@ FIRST_MESSAGE = msgspec.msgpack.encode(
         up_direction=(0.0, 0.0, 1.0),
     )
 )
-"""Of a page that has not told of its camera; it does as soon as it draws."""
+"""The first message of a page that was clicked on before it told of its own camera."""
 
 
 class NewValue(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
