@@ -67,10 +67,8 @@ class Husky:
         if beams and (self._laser is None or self._settings.noise):
             noise = new_noise([*seed, 1], beams) if self._settings.noise else None
             if self._scene is None:
-                self._scene = RayScene(simulation.world)
-            self._laser = Lidar(self.start.name, self._scene, simulation.data, noise, beams=beams)
-        # The poses of all geoms, for the laser; more of mj_forward would change what follows.
-        mujoco.mj_kinematics(simulation.model, simulation.data)
+                self._scene = simulation.ray_scene()
+            self._laser = Lidar(self.start.name, self._scene, noise, beams=beams)
         self._read()
         self._scan()
 

@@ -107,11 +107,6 @@ class SensorConfig:
     lidar_rate_hz: float = setting(0.0, 'Rate of front/scan; 0: off.', 0.0, 50.0)
     camera_rate_hz: float = setting(0.0, 'Rate of camera/image_raw; 0: off.', 0.0, 50.0)
 
-    @property
-    def see(self) -> bool:
-        """Whether one of them sees also what nothing can touch."""
-        return self.lidar_rate_hz > 0.0 or self.camera_rate_hz > 0.0
-
 
 @dataclass(frozen=True, kw_only=True)
 class StartConfig:

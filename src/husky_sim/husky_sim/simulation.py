@@ -56,7 +56,6 @@ class SimulatedRobot:
         self.sensors = Sensors(
             start.name,
             scene,
-            data,
             config.sensors,
             self.battery,
             noise=config.has_noise,
@@ -122,9 +121,8 @@ class Simulation:
         :raises SimulatorError: if the world or a start pose cannot be used.
         """
         self.config = config
-        self.world = load_world(
-            config.world, config.robots, visual=visual, load_y_m=config.body.load_y_m
-        )
+        self._visual = visual
+        self.world = self._load(visual=visual)
         self.model = self.world.model
         self.data = mujoco.MjData(self.model)
         self._tyres = Tyres(self.world, self.data, FLOORS[config.ground.floor])
@@ -132,7 +130,7 @@ class Simulation:
         self.periods = 0
         self.broadphase = BroadPhase(self.world, self.data)
         self._detector = TouchDetector(self.world, self.data)
-        scene = RayScene(self.world) if config.sensors.lidar_rate_hz > 0.0 else None
+        scene = self.ray_scene() if config.sensors.lidar_rate_hz > 0.0 else None
         self.robots = [
             SimulatedRobot(
                 *(start, self.world, self.data, config),
@@ -142,6 +140,17 @@ class Simulation:
             for number, start in enumerate(config.robots)
         ]
         self._motors = [robot.motors for robot in self.robots if robot.motors is not None]
+
+    def _load(self, *, visual: bool) -> World:
+        config = self.config
+        return load_world(
+            config.world, config.robots, visual=visual, load_y_m=config.body.load_y_m
+        )
+
+    def ray_scene(self) -> RayScene:
+        """Make what the beams of lasers meet: all of the world, also what is only seen."""
+        world = self.world if self._visual else self._load(visual=True)
+        return RayScene(world, self.data)
 
     @property
     def time_ns(self) -> int:

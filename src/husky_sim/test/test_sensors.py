@@ -15,7 +15,6 @@ from husky_sim.errors import SettingError
 from husky_sim.ros.sensor_topics import new_camera_info, new_image
 from husky_sim.sensors import lidar, navsat
 from husky_sim.sensors.camera import Camera
-from husky_sim.sensors.ray_scene import RayScene
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import Simulation
 import mujoco
@@ -177,7 +176,7 @@ def test_a_scan_is_the_same_as_with_every_geom(
     )
     model, data = simulation.model, simulation.data
     mujoco.mj_forward(model, data)
-    scanner = lidar.Lidar('husky', RayScene(simulation.world), data, None)
+    scanner = lidar.Lidar('husky', simulation.ray_scene(), None)
     groups = model.geom_group.copy()
     state = simulation.robots[0].state._replace(orientation=(*turn, 0.1))
     seen = scanner.scan(state, 0.1)
@@ -234,7 +233,7 @@ def put_everything_ahead(simulation: Simulation, yaw: float) -> Iterator[str]:
 def test_a_scan_is_bit_for_bit_that_of_the_whole_playpen(worlds: Path, yaw: float) -> None:
     robots = (RobotStart(yaw=yaw), RobotStart(name='other', x=-3.0, y=1.5))
     simulation = Simulation(SimulationConfig(world=str(worlds / 'playpen.xml'), robots=robots))
-    scanner = lidar.Lidar('husky', RayScene(simulation.world), simulation.data, None)
+    scanner = lidar.Lidar('husky', simulation.ray_scene(), None)
     state, expected = simulation.robots[0].state, cast_at_every_geom(simulation)
     assert scanner.scan(state, 0.1).tobytes() == expected.tobytes()
     assert np.isfinite(expected).sum() > lidar.BEAMS / 2
@@ -247,6 +246,40 @@ def test_a_scan_is_bit_for_bit_that_of_the_whole_playpen(worlds: Path, yaw: floa
     simulation.reset()
     mujoco.mj_kinematics(simulation.model, simulation.data)
     assert scanner.scan(state, 0.1).tobytes() == cast_at_every_geom(simulation).tobytes()
+
+
+SEEN = """
+    <geom type="box" size="1 0.1 1" pos="0 3 0.5" contype="0" conaffinity="0"/>
+    <body name="crate" pos="2 0 0.55">
+      <freejoint name="crate"/><geom type="box" size="0.3 0.3 0.5"/>
+    </body>
+"""
+
+
+@pytest.mark.parametrize('visual', [True, False])
+def test_a_scan_sees_all_there_is_where_it_is_at_that_time(
+    make_world: Callable[..., str], visual: bool
+) -> None:
+    config = SimulationConfig(
+        world=make_world(SEEN),
+        robots=(RobotStart(yaw=math.pi / 2.0),),
+        sensors=SensorConfig(lidar_rate_hz=50.0),
+    )
+    simulation = Simulation(config, visual=visual)
+    simulation.data.joint('crate').qvel[:3] = 1.0, 0.0, 2.0
+    for _ in range(5):
+        simulation.advance()
+    (robot,) = simulation.robots
+    scan = robot.sensors.scan
+    assert scan is not None
+    ahead = scan[lidar.BEAMS // 2]
+    assert ahead == pytest.approx(2.9 - lidar.PLACE[0], abs=0.01), 'what is only seen was not'
+    now = Simulation(config)
+    now.data.qpos[:] = simulation.data.qpos
+    mujoco.mj_kinematics(now.model, now.data)
+    now.robots[0].state = robot.state
+    elsewhere = scan != cast_at_every_geom(now)
+    assert not elsewhere.any(), f'{elsewhere.sum()} beams met something elsewhere'
 
 
 TENT = """
@@ -274,9 +307,9 @@ def test_a_scan_of_meshes_is_bit_for_bit_that_of_the_whole_world(
     world = make_world(TENT.replace('<worldbody>', f'{more if hill else ""}<worldbody>'))
     simulation = Simulation(SimulationConfig(world=world))
     simulation.advance()
-    scene = RayScene(simulation.world)
+    scene = simulation.ray_scene()
     assert scene.is_one_body is not hill
-    scanner = lidar.Lidar('husky', scene, simulation.data, None)
+    scanner = lidar.Lidar('husky', scene, None)
     seen = scanner.scan(simulation.robots[0].state, 0.1)
     assert seen.tobytes() == cast_at_every_geom(simulation).tobytes()
     assert (seen < 3.0).sum() > 50
@@ -300,7 +333,7 @@ def test_what_is_invisible_is_not_scanned(
     world = make_world(HIDDEN.format(colour=colour, material=material))
     simulation = Simulation(SimulationConfig(world=world))
     simulation.advance()
-    scanner = lidar.Lidar('husky', RayScene(simulation.world), simulation.data, None)
+    scanner = lidar.Lidar('husky', simulation.ray_scene(), None)
     ahead = scanner.scan(simulation.robots[0].state, 0.1)[lidar.BEAMS // 2]
     assert ahead == pytest.approx(seen - 0.1 - lidar.PLACE[0], abs=0.01)
 

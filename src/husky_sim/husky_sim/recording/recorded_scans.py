@@ -35,7 +35,7 @@ class RecordedScans:
         """
         self._run = run
         self._name = run.robots[place].name
-        world = load_world(run.world, run.robots, visual=False)
+        world = load_world(run.world, run.robots, visual=True)
         if not _are_same(world.obstacles, run.obstacles):
             raise RecordRefused(
                 f'{run.file}: the obstacles of {run.world} are not those that were driven among; '
@@ -44,7 +44,7 @@ class RecordedScans:
         self._played = PlayedRun(run, world)
         self._model = world.model
         self._data = mujoco.MjData(world.model)
-        self._lidar = Lidar(self._name, RayScene(world), self._data, None)
+        self._lidar = Lidar(self._name, RayScene(world, self._data), None)
 
     def __iter__(self) -> Iterator[tuple[int, npt.NDArray[np.float32]]]:
         """Yield rows of the record with the ranges of all beams, as `Lidar.scan` returns them."""
@@ -53,7 +53,6 @@ class RecordedScans:
         for row in range(0, len(self._run.rows), _EVERY):
             qpos = self._played.qpos(row)
             self._data.qpos[:] = qpos
-            mujoco.mj_kinematics(self._model, self._data)
             x, y, z, *orientation = qpos[base : base + 7].tolist()
             w, i, j, k = orientation
             state = RobotState((x, y, z), (w, i, j, k), still, still)

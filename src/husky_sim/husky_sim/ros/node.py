@@ -73,7 +73,7 @@ class SimulatorNode(SettingsNode):
         config = read_simulation(self, self._run)
         for hint in passed_over(self, config) if trial is None else ():
             self.get_logger().warning(hint)
-        self.simulation = Simulation(config, visual=config.sensors.see)
+        self.simulation = Simulation(config, visual=config.sensors.camera_rate_hz > 0.0)
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         self.over: Future[None] = Future()
         self.paused = False  # time stands still

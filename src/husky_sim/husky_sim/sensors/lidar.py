@@ -39,6 +39,8 @@ So many beams are cast at a time, at nothing but what stands in their angle.
 In the playpen that takes 0.7 of the time of all 720 at once; with a third of them a tenth more.
 """
 
+_AXES = np.eye(3)
+
 _WITHOUT_BOX = (
     mujoco.mjtGeom.mjGEOM_PLANE,
     mujoco.mjtGeom.mjGEOM_HFIELD,
@@ -53,7 +55,6 @@ class Lidar:
         self,
         name: str,
         scene: RayScene,
-        data: mujoco.MjData,
         noise: Noise | None,
         *,
         beams: int = BEAMS,
@@ -63,16 +64,16 @@ class Lidar:
 
         :param beams: fewer than the scanner's are as evenly over the same angle, and cost less.
         """
-        self._scene, self._data, model = scene, data, scene.model
+        self._scene, model = scene, scene.model
         # Of the spheres around geoms, and of boxes around their own origins.
         without_box = np.isin(model.geom_type, _WITHOUT_BOX)
-        self._bounds_m = np.where(without_box, math.inf, model.geom_rbound)
-        self._reach_m = self._bounds_m + _SLACK_M
+        self._reach_m = np.where(without_box, math.inf, model.geom_rbound + _SLACK_M)
         boxes = model.geom_aabb
         self._halves_m = np.abs(boxes[:, :3]) + boxes[:, 3:] + _SLACK_M
-        self._halves_m[without_box] = mujoco.mjMAXVAL  # not inf: times zero that is nan
+        # Not inf: times zero that is nan.
+        self._halves_m[without_box] = mujoco.mjMAXVAL
         is_own = model.geom_bodyid == model.body(f'{name}/base_link').id
-        self._reach_m[is_own | _invisible(model)] = -math.inf
+        self._halves_m[is_own | _invisible(model)] = -mujoco.mjMAXVAL
         apart_rad = 2.0 * HALF_ANGLE_RAD / max(beams - 1, 1)
         angles = -HALF_ANGLE_RAD + apart_rad * np.arange(beams)
         self._beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(beams)], axis=1)
@@ -96,9 +97,10 @@ class Lidar:
         turn = matrix.reshape(3, 3)
         origin = np.array(state.position) + turn @ np.array(PLACE)
         vectors = self._beams @ turn.T
+        self._scene.follow()
         geoms, places_m = self._in_plane(origin, turn)
         for beams, met in zip(self._parts, self._met(geoms, places_m), strict=True):
-            self._scene.choose(geoms[met], self._data)
+            self._scene.choose(geoms[met])
             self._scene.cast(origin, vectors[beams], self._hits[beams], self._distances[beams])
         ranges: Array = self._distances
         if self._noise is not None:
@@ -115,15 +117,13 @@ class Lidar:
 
         :returns: geoms, and their places, in the frame of the scanner.
         """
-        from_here = self._data.geom_xpos - origin
-        heights_m = np.abs(from_here @ turn[:, 2])
-        near = np.flatnonzero(heights_m <= self._reach_m)  # by the spheres around them
-        # einsum, take: of so few numbers a product of matrices, or an index, takes longer.
-        matrices = self._data.geom_xmat.take(near, 0).reshape(-1, 3, 3)
-        axes = np.abs(np.einsum('i,nij->nj', turn[:, 2], matrices))
-        reaches_m = np.einsum('nj,nj->n', axes, self._halves_m.take(near, 0))
-        geoms = near.compress(heights_m.take(near) <= reaches_m)
-        return geoms, from_here.take(geoms, 0) @ turn
+        up, places_m, axes = turn[:, 2], self._scene.data.geom_xpos, self._scene.data.geom_xmat
+        # How far up each axis of a geom goes, by one product of matrices: of all geoms at once it
+        # takes less time than to choose some first.
+        ups = np.abs(axes @ (up[:, np.newaxis, np.newaxis] * _AXES).reshape(9, 3))
+        reaches_m = (ups * self._halves_m) @ np.ones(3)
+        geoms = np.flatnonzero(np.abs(places_m @ up - origin @ up) <= reaches_m)
+        return geoms, (places_m.take(geoms, 0) - origin) @ turn
 
     def _met(self, geoms: Indices, places_m: Array) -> npt.NDArray[np.bool_]:
         """Tell for each part of the beams, and each of these geoms, whether they may meet."""
@@ -134,9 +134,8 @@ class Lidar:
         np.arcsin(wide_rad, out=wide_rad, where=beside)
         turned_rad = np.arctan2(places_m[:, 1], places_m[:, 0]) - self._middles_rad + math.pi
         away_rad = np.abs(np.remainder(turned_rad, math.tau) - math.pi)
-        far_m = np.sqrt(np.einsum('nj,nj->n', places_m, places_m)) - self._bounds_m.take(geoms)
         met: npt.NDArray[np.bool_] = away_rad <= self._halves_rad + wide_rad
-        return met & (far_m <= RANGE_MAX_M)
+        return met & (away_m - reach_m <= RANGE_MAX_M)
 
 
 def _invisible(model: mujoco.MjModel) -> npt.NDArray[np.bool_]:

@@ -28,6 +28,7 @@ class Noise:
         self._deviation = deviation
         self._drift_deviation = drift
         self._seed = seed
+        self._normals = np.zeros((2, values))
         self.reset()
 
     def reset(self) -> None:
@@ -37,7 +38,10 @@ class Noise:
 
     def sample(self, period_sec: float) -> Array:
         """Return the errors of a sample, a period after the one before."""
+        drifts, whites = self._random.standard_normal(out=self._normals)
+        if self._drift_deviation == 0.0:  # what is drawn stays the same for the same seed
+            return self._deviation * whites
         kept = math.exp(-period_sec * _DRIFT_FREQUENCY_HZ)
         fresh = self._drift_deviation * math.sqrt(1.0 - kept * kept)
-        self._drift = kept * self._drift + fresh * self._random.standard_normal(self._values)
-        return self._drift + self._deviation * self._random.standard_normal(self._values)
+        self._drift = kept * self._drift + fresh * drifts
+        return self._drift + self._deviation * whites

@@ -24,15 +24,22 @@ _MESHES = ('mesh_vert', 'mesh_face', 'mesh_vertadr', 'mesh_faceadr')
 class RayScene:
     """Casts rays from one point at some geoms of a world. Not for two threads at once."""
 
-    def __init__(self, world: World) -> None:
-        self.model = world.model
+    def __init__(self, world: World, moved: mujoco.MjData) -> None:
+        """
+        Prepare.
+
+        :param world: with what is only seen.
+        :param moved: where everything is, of a model with or without what is only seen.
+        """
+        self.model, self.data = world.model, mujoco.MjData(world.model)
+        self._moved = moved
         # Of all bodies, each of which is asked: slower, and the same bit for bit.
         scene = _one_body(world) or copy.copy(world.model)
-        self._data = mujoco.MjData(scene)
+        self._chosen = mujoco.MjData(scene)
         scene.body_geomadr[0], scene.body_geomnum[:], scene.body_bvhadr[:] = 0, 0, -1
         scene.geom_matid[:], scene.geom_rgba[:] = -1, 1.0
         self._scene, self._count = scene, scene.body_geomnum
-        self._places = self._data.geom_xpos, self._data.geom_xmat
+        self._places = self._chosen.geom_xpos, self._chosen.geom_xmat
         self._shapes = [
             (getattr(self.model, name), getattr(scene, name))
             for name in ('geom_type', 'geom_size', 'geom_dataid', 'geom_plugin')
@@ -43,14 +50,23 @@ class RayScene:
         """Whether it could be made so; otherwise it has every body of the world."""
         return int(self._scene.nbody) == 1
 
-    def choose(self, geoms: Indices, data: mujoco.MjData) -> None:
-        """Have rays meet these geoms of the world, where they are now."""
+    def follow(self) -> None:
+        """
+        Put every geom of the world, in `data`, where it is now.
+
+        Those of a simulation are where they were before its last step of physics.
+        """
+        self.data.qpos[:] = self._moved.qpos
+        mujoco.mj_kinematics(self.model, self.data)
+
+    def choose(self, geoms: Indices) -> None:
+        """Have rays meet these geoms of the world, where they were put last."""
         count = self._count[0] = len(geoms)
         for given, chosen in self._shapes:
             given.take(geoms, 0, chosen[:count], 'clip')
         xpos, xmat = self._places
-        data.geom_xpos.take(geoms, 0, xpos[:count], 'clip')
-        data.geom_xmat.take(geoms, 0, xmat[:count], 'clip')
+        self.data.geom_xpos.take(geoms, 0, xpos[:count], 'clip')
+        self.data.geom_xmat.take(geoms, 0, xmat[:count], 'clip')
 
     def cast(
         self, origin: Array, vectors: Array, hits: npt.NDArray[np.int32], ranges_m: Array
@@ -61,7 +77,7 @@ class RayScene:
         :param vectors: unit vectors, a row each.
         """
         mujoco.mj_multiRay(
-            *(self._scene, self._data, origin, vectors.ravel(), None, True, -1),
+            *(self._scene, self._chosen, origin, vectors.ravel(), None, True, -1),
             *(hits, ranges_m, None, len(hits), mujoco.mjMAXVAL),
         )
 

@@ -4,7 +4,6 @@
 
 import math
 
-import mujoco
 import numpy as np
 import numpy.typing as npt
 
@@ -39,7 +38,6 @@ class Sensors:
         self,
         name: str,
         scene: RayScene | None,
-        data: mujoco.MjData,
         config: SensorConfig,
         battery: Battery | None,
         *,
@@ -51,7 +49,7 @@ class Sensors:
         self._noises = [noise for noise in (of_lidar, of_navsat) if noise is not None]
         self._lidar: lidar.Lidar | None = None
         if scene is not None:
-            self._lidar = lidar.Lidar(name, scene, data, of_lidar)
+            self._lidar = lidar.Lidar(name, scene, of_lidar)
         self._navsat = navsat.NavSat(of_navsat)
         self._monitor = BatteryMonitor(battery) if battery is not None else None
         self._scans = Rate(config.lidar_rate_hz)
