@@ -383,7 +383,6 @@ def test_the_camera_shows_objects_in_place_or_is_refused(
     make_world: Callable[..., str],
 ) -> None:
     simulation = Simulation(SimulationConfig(world=make_world(POSTS)))
-    simulation.advance()
     try:
         camera = Camera('husky', simulation.model, simulation.data)
     except SettingError as error:

@@ -39,8 +39,8 @@ class Camera:
         :param setting: what asks for pictures, and with which value it does not.
         :raises SettingError: if there is neither EGL nor OSMesa.
         """
-        self._model = model
-        self._data = data
+        self._model, self._moved = model, data
+        self._data = mujoco.MjData(model)
         self._view = mujoco.MjvCamera()
         self._view.type = mujoco.mjtCamera.mjCAMERA_FIXED
         self._view.fixedcamid = model.camera(f'{name}/camera').id
@@ -61,6 +61,11 @@ class Camera:
         if self._drawing is None:
             self._drawing = self._begin()
         context, scene, options, renderer = self._drawing
+        # In a simulation's own data everything is where it was before the last step of physics,
+        # and after a reset nowhere yet.
+        self._data.qpos[:] = self._moved.qpos
+        for of_step in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_camlight):
+            of_step(self._model, self._data)
         context.make_current()
         mujoco.mjv_updateScene(
             self._model,
