@@ -253,6 +253,7 @@ SEEN = """
     <body name="crate" pos="2 0 0.55">
       <freejoint name="crate"/><geom type="box" size="0.3 0.3 0.5"/>
     </body>
+    <body mocap="true" pos="-2 9 0.5"><geom type="box" size="0.3 0.3 0.5"/></body>
 """
 
 
@@ -268,6 +269,7 @@ def test_a_scan_sees_all_there_is_where_it_is_at_that_time(
     simulation = Simulation(config, visual=visual)
     simulation.data.joint('crate').qvel[:3] = 1.0, 0.0, 2.0
     for _ in range(5):
+        simulation.data.mocap_pos[0, 1] -= 1.0
         simulation.advance()
     (robot,) = simulation.robots
     scan = robot.sensors.scan
@@ -275,7 +277,7 @@ def test_a_scan_sees_all_there_is_where_it_is_at_that_time(
     ahead = scan[lidar.BEAMS // 2]
     assert ahead == pytest.approx(2.9 - lidar.PLACE[0], abs=0.01), 'what is only seen was not'
     now = Simulation(config)
-    now.data.qpos[:] = simulation.data.qpos
+    now.data.qpos[:], now.data.mocap_pos[:] = simulation.data.qpos, simulation.data.mocap_pos
     mujoco.mj_kinematics(now.model, now.data)
     now.robots[0].state = robot.state
     elsewhere = scan != cast_at_every_geom(now)

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from husky_sim.errors import SettingError
+from husky_sim.sensors.poses import follow
 
 WIDTH, HEIGHT = 640, 480
 FRAME = 'camera'
@@ -61,11 +62,9 @@ class Camera:
         if self._drawing is None:
             self._drawing = self._begin()
         context, scene, options, renderer = self._drawing
-        # In a simulation's own data everything is where it was before the last step of physics,
-        # and after a reset nowhere yet.
-        self._data.qpos[:] = self._moved.qpos
-        for of_step in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_camlight):
-            of_step(self._model, self._data)
+        follow(self._moved, self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        mujoco.mj_camlight(self._model, self._data)
         context.make_current()
         mujoco.mjv_updateScene(
             self._model,

@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from husky_sim.sensors.poses import follow
 from husky_sim.world.world import World
 
 # What makes a mesh what it is; the rest is for collisions and pictures.
@@ -51,13 +52,8 @@ class RayScene:
         return int(self._scene.nbody) == 1
 
     def follow(self) -> None:
-        """
-        Put every geom of the world, in `data`, where it is now.
-
-        Those of a simulation are where they were before its last step of physics.
-        """
-        self.data.qpos[:] = self._moved.qpos
-        mujoco.mj_kinematics(self.model, self.data)
+        """Put every geom of the world, in `data`, where it is now."""
+        follow(self._moved, self.model, self.data)
 
     def choose(self, geoms: Indices) -> None:
         """Have rays meet these geoms of the world, where they were put last."""
