@@ -272,12 +272,16 @@ def test_an_aligner_of_topics_sorts_them(nodes: SpunNodes) -> None:
 
     robot, aligned = nodes.start(Robot), nodes.start(Sorted)
     robot.wait_for_subscriptions(robot.image, robot.info)
+    # An input is waited for once something has come of it.
+    robot.image.publish(Image(header=stamped(0)))
+    robot.info.publish(CameraInfo(header=stamped(0)))
+    wait_until(lambda: aligned.stamps == [0, 0], timeout_sec=10.0, what='the first of each')
     for t in (1, 3, 5):
         robot.image.publish(Image(header=stamped(t)))
     for t in (2, 4, 6):
         robot.info.publish(CameraInfo(header=stamped(t)))
     wait_until(
-        lambda: aligned.stamps == [1, 2, 3, 4, 5, 6],
+        lambda: aligned.stamps == [0, 0, 1, 2, 3, 4, 5, 6],
         timeout_sec=10.0,
         what=lambda: f'all in order, not {aligned.stamps}',
     )
