@@ -7,7 +7,7 @@ from pathlib import Path
 import subprocess
 import sys
 
-from husky_grader.jail import find_sandbox, Jail
+from husky_grader.jail import find_sandbox, Jail, remove
 from husky_grader.lab.build_step import build_step
 from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
 from husky_grader.lab.lab import grade_lab
@@ -120,6 +120,20 @@ def test_a_launch_file_is_found_where_it_was_installed_or_told(tmp_path: Path) -
         command_of(step)
     with pytest.raises(ProgramMissing, match=r'has installed: go\.launch\.py, go\.launch\.py; '):
         command_of(replace(step, launch='stop.launch.py'))
+
+
+def test_no_depth_of_folders_stops_the_search_for_a_launch_file(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    write_package(workspace / 'src' / 'my_driver')
+    launch = install(workspace, 'my_driver', 'share/my_driver/launch').with_name('go.launch.py')
+    launch.touch()
+    deep = 'import os\nfor _ in range(1500):\n    os.mkdir("d")\n    os.chdir("d")'
+    subprocess.run([sys.executable, '-c', deep], cwd=launch.parent, check=True)
+    step = replace(DRIVE, executable='', launch='go.launch.py')
+    try:
+        assert programs_of(workspace).command_of(step) == ['ros2', 'launch', str(launch)]
+    finally:
+        remove(launch.parent)  # as deep, pytest cannot
 
 
 def test_links_in_a_circle_are_no_programs(tmp_path: Path) -> None:

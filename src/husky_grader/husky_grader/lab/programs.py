@@ -15,6 +15,7 @@ from husky_grader.jail.folders import home_of
 from husky_grader.lab.file_steps import find_packages, Manifest
 from husky_grader.rubric.steps import ProgramStep
 
+MAX_DEPTH = 32  # folders in each other below share/PACKAGE, in which a launch file is looked for
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
 
 
@@ -111,7 +112,7 @@ def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
     share = folder / 'install' / manifest.name / 'share' / manifest.name
     command = f'ros2 launch {manifest.name} {name}'
     _check_installed(folder, manifest, share, command)
-    files = sorted(path for path in share.rglob('*') if is_there(path) and path.is_file())
+    files = sorted(path for path in _below(share) if is_there(path) and path.is_file())
     found = [path for path in files if path.name == name]
     if len(found) > 1:
         places = ' and '.join(path.relative_to(share).as_posix() for path in found)
@@ -123,6 +124,14 @@ def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
         f'{command} finds nothing; {manifest.name} has installed: {have}; put it into '
         f'share/{manifest.name}/launch, by data_files in its setup.py or install in CMakeLists.txt'
     )
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    """Yield the files in a folder and in those below it, which a build may nest without end."""
+    for place, folders, files in os.walk(folder):
+        yield from (Path(place, name) for name in files)
+        if len(Path(place).relative_to(folder).parts) >= MAX_DEPTH:
+            folders.clear()  # Path.rglob and os.walk end with Python's stack
 
 
 def _check_installed(folder: Path, manifest: Manifest, place: Path, command: str) -> None:
