@@ -54,7 +54,7 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
                 f'({text.strip()})'
             )
         how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
-        told = without_own_errors(text)
+        told = without_own_errors(text).replace(f'{log.parent}/', '')  # before it is shortened
         why = crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')

@@ -49,6 +49,7 @@ class DriveRunner:
                 world=self.programs.world,
                 answers=''.join(f'{answer.replace(COURSE, given)}\n' for answer in step.answers),
                 environment=self.programs.environment,
+                without=self.programs.place,
                 real_time_factor=self.real_time_factor,
             )
         run = read_run(live.record)

@@ -119,12 +119,12 @@ class _Grading:
         found = undisturbed(lambda: self._found(step, log))
         if isinstance(step, (BuildStep, ProgramStep)) and (found.defects or found.score < 100.0):
             check_room(self._folder, Path(gettempdir()))
-        printed = shown(read_printed(log))
         # Where the grader keeps what was handed in is nobody's business, and nowhere the same.
         place = f'{self._folder}/'
+        printed = shown(read_printed(log, without=place))
         defects = {name: why.replace(place, '') for name, why in found.defects.items()}
         why = found.why.replace(place, '')
-        return replace(found, why=why, defects=defects, printed=printed.replace(place, ''))
+        return replace(found, why=why, defects=defects, printed=printed)
 
     def _found(self, step: Step, log: Path) -> Finding:
         log.unlink(missing_ok=True)  # that of a former try

@@ -56,7 +56,7 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
             'first line says'
         )
     if exit_code is not None:  # what was heard may be of a daemon that it has left behind
-        found = nothing(how_it_ended(exit_code, read_printed(log)))
+        found = nothing(how_it_ended(exit_code, read_printed(log, without=programs.place)))
     return _with_words(found, given_words(step))
 
 

@@ -53,6 +53,11 @@ class Programs:
     interfaces: Sequence[Path] = ()
     world: str = ''
 
+    @property
+    def place(self) -> str:
+        """Return how paths in the report begin: nobody's business, and nowhere the same."""
+        return f'{self.built.parent}/'
+
     @contextmanager
     def jail(self) -> Iterator[Jail]:
         """

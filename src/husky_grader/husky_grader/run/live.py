@@ -78,6 +78,7 @@ def drive_live(
     real_time_factor: float = 1.0,
     environment: Mapping[str, str] | None = None,
     start_in: Path | None = None,
+    without: str = '',
     on_progress: Progress = lambda _: None,
 ) -> LiveRun:
     """
@@ -91,6 +92,7 @@ def drive_live(
     :param jail: where the controller runs; the simulator runs beside it.
     :param environment: of the controller, besides that of the jail.
     :param start_in: the folder in which the controller starts; that of the jail when left out.
+    :param without: what is left out of what the controller has printed, see `read_printed`.
     :param on_progress: called about twice a second.
     :raises LiveRunFailed: when the simulator or the command cannot be started.
     """
@@ -120,7 +122,7 @@ def drive_live(
     clean_shared_memory()
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder.name}/simulator.log')
-    printed = read_printed(folder / 'controller.log')
+    printed = read_printed(printed_in, without=without)
     notes = reasons(
         printed, read_printed(folder / 'simulator.log'), last.notes, exit_code, last.unsent
     )

@@ -13,8 +13,12 @@ MAX_LINES = 100  # that hold a word
 MAX_AROUND = 2_000  # bytes of a line before and behind it
 
 
-def read_printed(log: Path) -> str:
-    """Return the beginning and the end of a log; nothing where there is none."""
+def read_printed(log: Path, *, without: str = '') -> str:
+    """
+    Return the beginning and the end of a log; nothing where there is none.
+
+    :param without: the beginning of paths that is left out: where something lies on this computer.
+    """
     try:
         with log.open('rb') as stream:
             begin = stream.read(MAX_READ)
@@ -24,7 +28,8 @@ def read_printed(log: Path) -> str:
     except OSError:
         return ''
     dots = f'\n[{left - MAX_READ} bytes are left out]\n' if left > MAX_READ else ''
-    return ''.join((_text(begin), dots, _text(end)))
+    printed = ''.join((_text(begin), dots, _text(end)))
+    return printed.replace(without, '') if without else printed
 
 
 def printed_lines(log: Path, word: str) -> list[str]:
