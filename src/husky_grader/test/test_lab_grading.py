@@ -465,14 +465,14 @@ def test_a_hook_that_breaks_the_shell_is_told(
 ) -> None:
     if 'sleep' in hook:
         monkeypatch.setattr('husky_grader.lab.build_step.SOURCE_WITHIN_SEC', 1.0)
-    (tmp_path / 'install').mkdir()
-    (tmp_path / 'install' / 'local_setup.bash').write_text(f'export KNOWN=1\n{hook}\n')
+    (place := tmp_path / 'install').mkdir()
+    (place / 'local_setup.bash').write_text(f'export KNOWN=1\n{hook}\n')
     with open_jail(tmp_path) as jail, pytest.raises(ValueError, match=why):
         sourced(jail)
     monkeypatch.undo()
-    (tmp_path / 'install' / 'local_setup.bash').write_text('export KNOWN="a\nb"\n')
+    (place / 'local_setup.bash').write_text('export KNOWN="a\nb" PATH=/\nprintf "=x\\0" >&10\n')
     with open_jail(tmp_path) as jail:
-        assert sourced(jail)['KNOWN'] == 'a\nb'
+        assert [sourced(jail).get(name) for name in ('KNOWN', '')] == ['a\nb', None]
 
 
 @pytest.mark.timeout(60)

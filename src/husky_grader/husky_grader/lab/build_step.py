@@ -68,8 +68,9 @@ def sourced(jail: Jail) -> Mapping[str, str]:
     """
     if not is_there(jail.folder / 'install' / 'local_setup.bash'):
         raise ValueError('nothing was built')
-    script = 'chmod -R a+rX "$0"; source "$0/install/local_setup.bash" >/dev/null 2>&1; env -0'
-    command = ['bash', '-c', script, str(jail.folder)]
+    # What is built may change where programs are found.
+    script = 'chmod -R a+rX "$0"; source "$0/install/local_setup.bash" >/dev/null 2>&1; "$1" -0'
+    command = ['bash', '-c', script, str(jail.folder), '/usr/bin/env']
     with TemporaryDirectory() as place:  # not in a report: it has the grader's own variables, too
         log = Path(place) / 'environment'
         exit_code = jail.run(command, log=log, within_sec=SOURCE_WITHIN_SEC)
@@ -91,4 +92,4 @@ def sourced(jail: Jail) -> Mapping[str, str]:
             f'sourcing install/local_setup.bash sets {size} bytes of variables, {MAX_VARIABLES} '
             'are allowed; a hook of a package must set less'
         )
-    return {name: value for name, _, value in pairs if name not in _OF_THE_SHELL}
+    return {name: value for name, _, value in pairs if name and name not in _OF_THE_SHELL}
