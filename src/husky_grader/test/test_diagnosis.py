@@ -116,6 +116,12 @@ def test_of_a_launch_file_the_error_of_its_own_parser_is_told(tmp_path: Path) ->
     told = 'ParseError: mismatched tag: line 1, column 33'
     assert reasons(printed, '', (), 1) == (f'it crashed (exit code 1): {told}',)
     assert reasons(' - ready', '', (), 1) == ('it crashed (exit code 1): - ready',)
+    printed = f'{LAUNCH_FAILED}executed command failed. Command: cat a\ncat: a: No such file\n'
+    about = '[INFO] [launch]: All log files can be found below /\n'
+    told = 'executed command failed. Command: cat a cat: a: No such file'
+    for whole in (f'{about}{printed}', f'{printed}[INFO] [a-1]: process has finished cleanly'):
+        assert reasons(whole, '', (), 1) == (f'it crashed (exit code 1): {told}',)
+    assert reasons(about, '', (), 1) == ('it crashed (exit code 1)',)
 
 
 def test_an_end_that_was_asked_for_is_no_error(

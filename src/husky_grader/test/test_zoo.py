@@ -3,15 +3,17 @@
 """
 A class of cheats and accidents, graded three at a time: what each gets, and is told.
 
-Each program in zoo/src/zoo/bin has a step, and so a jail, of its own. What a build does needs a
-workspace of its own. Among them are some that do it right: nothing may change their grades.
+Each program in zoo/src/zoo/bin and launch has a step, and so a jail, of its own. What a build does
+needs a workspace of its own. Some of them do it right: nothing may change their grades.
 """
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 import os
 from pathlib import Path
+from tempfile import gettempdir
 
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.jail import find_sandbox
@@ -65,6 +67,11 @@ TALKS = {
     'talks_in_a_crowd': "data is 'hello'",
     'asks_for_what_is_not_there': "line 3: ImportError: cannot import name 'listen'",
 }
+# What their launch files do before, or instead.
+LAUNCHES = {
+    'leaves_its_talker': 'it ended by itself (exit code 127)',
+    'one_of_two_crashes': "line 3: ImportError: cannot import name 'listen'",
+}
 GUESSES = {'guesses': 'it listens to nothing; the lab asks for /topic_test'}
 
 MANIFEST = (
@@ -81,6 +88,26 @@ setup(name='bare', version='0.1.0', packages=[], data_files=[
       for place in ('lib/bare', 'share/bare', 'share/bare/hook', 'share/bare/fake'))])
 programs = Path(os.environ['HOME']).parent / 'install' / 'bare' / 'lib' / 'bare'
 """
+# A package whose modules the tools of the lab load, where they find it.
+PLUGS = """
+from setuptools import setup
+groups = ('colcon_core.extension_point', 'colcon_core.event_handler', 'colcon_core.verb',
+          'husky_driver.route_check', 'launch.frontend.launch_extension', 'pytest11',
+          'ros2cli.command', 'ros2launch.option')
+setup(name='plugs', version='99.0', py_modules=['plug'], packages=['husky_grader'],
+      entry_points={group: ['plug = plug:Plug'] for group in groups})
+"""
+PLUGGED_IN = Path(gettempdir(), f'plugged_in_{os.getpid()}')  # a jail has a /tmp of its own
+PLUG = f"""
+from pathlib import Path
+Path({str(PLUGGED_IN)!r}).touch()
+class Plug: pass
+"""
+LAUGHS = (
+    '<!DOCTYPE package [<!ENTITY a "aaaaaaaaaa">'
+    + ''.join(f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in pairwise('abcdefghij'))
+    + ']><package><name>&j;</name></package>'
+)
 TALKS_WELL = """#!/usr/bin/env python3
 import rclpy
 from std_msgs.msg import String
@@ -152,6 +179,19 @@ for _ in range(3000):
 signal.pause()
 """,
     ),
+    'plugs into every tool': Build(
+        '10 Hz on /topic_test',  # what else it is does no harm, and gets no points
+        files=[
+            ('../plugs/package.xml', MANIFEST.replace('bare', 'plugs')),
+            ('../plugs/setup.py', PLUGS),
+            ('../plugs/plug.py', PLUG),
+            ('../plugs/husky_grader/__init__.py', PLUG),
+            ('../laughs/package.xml', LAUGHS),
+            ('../deep/package.xml', f'<package>{"<a>" * 9000}{"</a>" * 9000}</package>'),
+            ('../../colcon_defaults.yaml', 'build: {packages-skip: [bare]}'),
+            ('../../colcon.meta', '{"names": {"bare": {"ignore": true}}}'),
+        ],
+    ),
     'has an unknown encoding': Build(
         'there is no package in src',
         'build',
@@ -170,7 +210,8 @@ def drives(*names: str) -> list[Step]:
 
 def within_sec(name: str) -> float:
     """Return how long a program is waited for: short where it will never do what is asked."""
-    return 4.0 if name in ('says_nothing', 'talks_another_type', 'guesses') else 15.0
+    silent = ('says_nothing', 'one_of_two_crashes', 'talks_another_type', 'guesses')
+    return 4.0 if name in silent else 15.0
 
 
 def talks(*names: str, package: str = 'zoo') -> list[Step]:
@@ -190,6 +231,12 @@ def talks(*names: str, package: str = 'zoo') -> list[Step]:
         )
         for name in names
     ]
+
+
+def launches(name: str, file: str) -> list[Step]:
+    (step,) = talks(name)
+    assert isinstance(step, PublisherStep)
+    return [replace(step, executable='', launch=file)]
 
 
 def listens(*names: str) -> list[Step]:
@@ -261,6 +308,10 @@ def graded(
     programs = [*talks('leaves_a_publisher', *TALKS, 'talks_right')]
     programs += [*listens(*GUESSES, 'listens_right'), gives('names_a_course', 'hidden')]
     programs += [gives('keeps_a_course', 'hidden', 'course')]
+    for name in ('launched_once', 'launched_again'):
+        programs += launches(name, 'tries_everything.launch.py')
+    programs += launches('leaves_its_talker', 'leaves_its_talker.launch.py')
+    programs += launches('one_of_two_crashes', 'one_of_two_crashes.launch.xml')
     classes = {
         'drives': (ZOO, drives('drives_right', *DRIVES, *HALF_DRIVES)),
         'talks': (ZOO, programs),
@@ -302,11 +353,11 @@ def step_of(graded: dict[str, StepGrade], name: str) -> StepGrade:
     return next(step for place, step in graded.items() if place.endswith(f': {name}'))
 
 
-@pytest.mark.parametrize('name', [*DRIVES, *TALKS, *GUESSES])
+@pytest.mark.parametrize('name', [*DRIVES, *TALKS, *LAUNCHES, *GUESSES])
 def test_a_cheat_gets_nothing_and_is_named(graded: dict[str, StepGrade], name: str) -> None:
     step = step_of(graded, name)
     assert step.points == 0.0, step
-    assert {**DRIVES, **TALKS, **GUESSES}[name] in step.why
+    assert {**DRIVES, **TALKS, **LAUNCHES, **GUESSES}[name] in step.why
 
 
 @pytest.mark.parametrize('name', HALF_DRIVES)
@@ -322,12 +373,17 @@ def test_an_accident_midway_costs_the_rest_of_the_way(
 def test_a_build_that_does_harm_harms_only_itself(graded: dict[str, StepGrade], name: str) -> None:
     build = BUILDS[name]
     step = graded[f'{name}: {build.step}']
-    assert step.points == 0.0, step
+    assert step.points == (MOST if name == 'plugs into every tool' else 0.0), step
     assert build.told in step.why
+    assert not PLUGGED_IN.exists(), 'it ran outside of the jail'
 
 
 @pytest.mark.parametrize(
-    'name', ['drives_right', 'leaves_a_publisher', 'talks_right', 'listens_right']
+    'name',
+    [
+        *('drives_right', 'leaves_a_publisher', 'talks_right', 'listens_right'),
+        *('launched_once', 'launched_again'),
+    ],
 )
 def test_who_does_it_right_among_them_gets_every_point(
     graded: dict[str, StepGrade], name: str

@@ -50,13 +50,15 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         ours = with_types(ours, programs.interfaces)
         found = _observe(step, jail.beside, ours, program, log, programs.world)
         exit_code = program.exit_code
-    if exit_code == NO_PROGRAM:
+    printed = read_printed(log, without=programs.place)
+    if exit_code == NO_PROGRAM and step.executable and printed:
         return nothing(
-            f'{step.executable or step.launch} cannot be started: there is no such program as its '
-            'first line says'
+            f'{step.executable} cannot be started: there is no such program as its first line says'
         )
     if exit_code is not None:  # what was heard may be of a daemon that it has left behind
-        found = nothing(how_it_ended(exit_code, read_printed(log, without=programs.place)))
+        found = nothing(how_it_ended(exit_code, printed))
+    elif found.score == 0.0 and (error := crash(printed)):  # of one of several, which ran on
+        found = nothing(f'{error}; {found.why}')
     return _with_words(found, given_words(step))
 
 

@@ -37,6 +37,8 @@ LIBRARIES = tuple(
 
 _LAUNCHED = re.compile(r'\[[\w.-]+-\d+\] ')  # what `ros2 launch` puts before each line
 _LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
+_OF_LAUNCH = '[INFO] [launch]: '  # where its logs are, and how much it tells
+_NOTE = '[ended by the grader: '
 _TRIED = ' - '  # before what each parser of upstream's launch says of a file that none can read
 _FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _ERROR = re.compile(r'(?P<name>[A-Za-z_][\w.]*)(: .*)?')
@@ -98,13 +100,19 @@ def reasons(
 
 def last_line(printed: str) -> str:
     """Return the last line that says something; of launch only what has ended it."""
-    lines = printed.rstrip().splitlines()
-    tried = list(takewhile(lambda line: line.startswith(_TRIED), reversed(lines)))
-    if tried and len(tried) < len(lines) and lines[-len(tried) - 1].startswith(_LAUNCH_FAILED):
-        # Each parser says what it minds, that of the file's own kind first; some in several lines.
-        told = [line for line in reversed(tried) if not line.endswith(':')] or tried
-        return told[0].removeprefix(_TRIED)
-    return printed.strip().rpartition('\n')[2].strip().removeprefix(_LAUNCH_FAILED)
+    lines = printed.strip().splitlines()
+    failed = [n for n, line in enumerate(lines) if line.startswith(_LAUNCH_FAILED)]
+    if failed and not lines[-1].startswith(_NOTE):
+        # It may be of several lines; what comes then are those of launch about its nodes.
+        first, *others = lines[failed[-1] :]
+        told = [first.removeprefix(_LAUNCH_FAILED)]
+        told += takewhile(lambda line: not line.startswith('['), others)
+        if tried := [line.removeprefix(_TRIED) for line in told if line.startswith(_TRIED)]:
+            # Each parser says what it minds, that of the file's own kind first; some in several.
+            return next((line for line in tried if not line.endswith(':')), tried[0])
+        return ' '.join(map(str.strip, told))
+    told = [line for line in lines if not line.startswith(_OF_LAUNCH)]
+    return told[-1].strip() if told else ''
 
 
 def how_ended(exit_code: int, last: str = '') -> str:
@@ -115,7 +123,7 @@ def how_ended(exit_code: int, last: str = '') -> str:
     """
     if exit_code >= 0:
         return f'exit code {exit_code}'
-    if exit_code == -Signals.SIGKILL and not last.startswith('[ended by the grader: '):
+    if exit_code == -Signals.SIGKILL and not last.startswith(_NOTE):
         return 'SIGKILL, as by the kernel where memory runs out'
     return {each.value: each.name for each in Signals}.get(-exit_code, f'signal {-exit_code}')
 

@@ -12,6 +12,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/zoo']),
         ('share/zoo', ['package.xml']),
         ('lib/zoo', sorted(map(str, Path('bin').iterdir()))),
+        ('share/zoo/launch', sorted(map(str, Path('launch').iterdir()))),
     ],
     install_requires=['setuptools'],
     zip_safe=False,
