@@ -4,7 +4,7 @@
 
 import re
 
-_FAILED = re.compile(r'^--- stderr: .*\n((?:(?!---$).*\n)*)---\nFailed ', re.MULTILINE)
+_BEGIN, _END, _FAILED = '--- stderr: ', '---', 'Failed '
 _CMAKE = 'CMake Error at '
 _TWICE = re.compile(r'Duplicate package names not supported:\n- (.*):\n  - ')
 # What colcon raises where a setup.py that it runs has failed: the error of that is told beside it.
@@ -28,13 +28,28 @@ def first_error(printed: str) -> str:
     """Return the first error of the first package that failed; empty if nothing tells one."""
     if twice := _TWICE.search(printed):
         return f'package {twice[1]} is in src twice; take one of the two out'
-    failed = _FAILED.search(printed)
-    told = failed[1] if failed else printed
+    failed = _of_failed(printed)
+    told = printed if failed is None else failed
     lines = [line.strip() for line in told.splitlines()]
     error = next((line for line in lines if 'rror' in line), '')
     if error.startswith(_CMAKE):
         return _message_of_cmake(told.partition(error)[2]) or error
     return error or (next(filter(None, lines), '') if failed else '')
+
+
+def _of_failed(printed: str) -> str | None:
+    """Return what the first package that failed has printed to its standard error, if it has."""
+    # By a regular expression the time would grow with the square of what a setup.py prints.
+    lines = printed.split('\n')
+    begin = None
+    for number, line in enumerate(lines[:-1]):
+        if begin is None and line.startswith(_BEGIN):
+            begin = number + 1
+        elif begin is not None and line == _END:
+            if lines[number + 1].startswith(_FAILED):
+                return '\n'.join(lines[begin:number])
+            begin = None
+    return None
 
 
 def _message_of_cmake(below: str) -> str:
