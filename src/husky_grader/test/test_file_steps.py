@@ -195,14 +195,28 @@ def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:
     assert found.why == f'colcon build failed: {twice}'
 
 
-def test_a_setup_py_that_fails_is_told_by_its_own_error(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ('text', 'told'),
+    [
+        (
+            'import os\nraise ValueError(os.getcwd())',
+            'setup.py line 2: ValueError: ws/src/my_driver',
+        ),
+        (
+            'from setuptools import setup\nprint("hello")\nsetup(name="my_driver")',
+            'setup.py of my_driver prints to its standard output, which colcon reads; let it not',
+        ),
+    ],
+    ids=['an error', 'a print'],
+)
+def test_a_setup_py_that_fails_is_told_why(tmp_path: Path, text: str, told: str) -> None:
     export = '<export><build_type>ament_python</build_type></export>'
     package = write_package(tmp_path / 'ws' / 'src' / 'my_driver', ABOUT, export)
-    (package / 'setup.py').write_text('import os\nraise ValueError(os.getcwd())')
+    (package / 'setup.py').write_text(text)
     (tmp_path / 'built').mkdir()
     with Jail(find_sandbox('none'), tmp_path / 'built') as jail:
         found = build_step(tmp_path / 'ws', jail, tmp_path / 'log')
-    assert found.why == 'colcon build failed: setup.py line 2: ValueError: ws/src/my_driver'
+    assert found.why == f'colcon build failed: {told}'
 
 
 def test_what_a_killed_grading_has_left_is_removed(tmp_path: Path) -> None:

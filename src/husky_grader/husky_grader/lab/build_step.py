@@ -11,7 +11,7 @@ from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.programs import is_there
-from husky_grader.rubric.colcon_errors import first_error, without_own_errors
+from husky_grader.rubric.colcon_errors import first_error, printing_setup, without_own_errors
 from husky_grader.run.diagnosis import crash, how_ended
 
 BUILD_WITHIN_SEC = 300.0
@@ -55,7 +55,7 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
             )
         how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
         told = without_own_errors(text).replace(f'{log.parent}/', '')  # before it is shortened
-        why = crash(told) or first_error(told) or how
+        why = printing_setup(told) or crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
 

@@ -13,6 +13,11 @@ _OF_COLCON = re.compile(
     r'(?:subprocess\.CalledProcessError: .*\n|AssertionError: Expected .* to pass: )',
     re.MULTILINE,
 )
+# It has setup.py print what it says, and nothing else.
+_READS_SETUP = re.compile(
+    r'/python_setup_py\.py", line \d+, in _get_setup_information\n'
+    r' +(?:return ast\.literal_eval|output = result\.stdout\.decode)'
+)
 _BEGINS_SETUP = re.compile(
     r'^(Traceback .*\n)  File "<string>", line 1, in <module>\n', re.MULTILINE
 )
@@ -22,6 +27,14 @@ def without_own_errors(printed: str) -> str:
     """Return it without the errors by which colcon tells that a setup.py has failed."""
     told = _BEGINS_SETUP.sub(r'\1', _OF_COLCON.sub('', printed))
     return told.replace('  File "<string>", line ', '  File "setup.py", line ')
+
+
+def printing_setup(printed: str) -> str:
+    """Return that a setup.py prints, which spoils what colcon reads of it; empty if none does."""
+    if not (spoilt := _READS_SETUP.search(printed)):
+        return ''
+    package = printed[: spoilt.start()].rpartition(_BEGIN)[2].partition('\n')[0]
+    return f'setup.py of {package} prints to its standard output, which colcon reads; let it not'
 
 
 def first_error(printed: str) -> str:
