@@ -7,7 +7,7 @@ Each program in zoo/src/zoo/bin and launch has a step, and so a jail, of its own
 needs a workspace of its own. Some of them do it right: nothing may change their grades.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -24,6 +24,7 @@ from husky_grader.rubric.steps import (
     CourseToDrive,
     DriveStep,
     FieldCheck,
+    ProgramStep,
     PublisherCosts,
     PublisherStep,
     Rubric,
@@ -70,6 +71,7 @@ TALKS = {
 # What their launch files do before, or instead.
 LAUNCHES = {
     'leaves_its_talker': 'it ended by itself (exit code 127)',
+    'listens_in_silence': 'it did not print what came on /topic_test; a launch file shows what',
     'one_of_two_crashes': "line 3: ImportError: cannot import name 'listen'",
 }
 GUESSES = {'guesses': 'it listens to nothing; the lab asks for /topic_test'}
@@ -210,8 +212,7 @@ def drives(*names: str) -> list[Step]:
 
 def within_sec(name: str) -> float:
     """Return how long a program is waited for: short where it will never do what is asked."""
-    silent = ('says_nothing', 'one_of_two_crashes', 'talks_another_type', 'guesses')
-    return 4.0 if name in silent else 15.0
+    return 4.0 if name in ('says_nothing', 'talks_another_type', 'guesses') else 15.0
 
 
 def talks(*names: str, package: str = 'zoo') -> list[Step]:
@@ -233,12 +234,6 @@ def talks(*names: str, package: str = 'zoo') -> list[Step]:
     ]
 
 
-def launches(name: str, file: str) -> list[Step]:
-    (step,) = talks(name)
-    assert isinstance(step, PublisherStep)
-    return [replace(step, executable='', launch=file)]
-
-
 def listens(*names: str) -> list[Step]:
     return [
         SubscriberStep(
@@ -254,6 +249,12 @@ def listens(*names: str) -> list[Step]:
         )
         for name in names
     ]
+
+
+def launches(kind: Callable[[str], list[Step]], name: str, file: str) -> list[Step]:
+    (step,) = kind(name)
+    assert isinstance(step, ProgramStep)
+    return [replace(step, executable='', launch=file)]
 
 
 def gives(name: str, *courses: str) -> Step:
@@ -309,9 +310,10 @@ def graded(
     programs += [*listens(*GUESSES, 'listens_right'), gives('names_a_course', 'hidden')]
     programs += [gives('keeps_a_course', 'hidden', 'course')]
     for name in ('launched_once', 'launched_again'):
-        programs += launches(name, 'tries_everything.launch.py')
-    programs += launches('leaves_its_talker', 'leaves_its_talker.launch.py')
-    programs += launches('one_of_two_crashes', 'one_of_two_crashes.launch.xml')
+        programs += launches(talks, name, 'tries_everything.launch.py')
+    programs += launches(talks, 'leaves_its_talker', 'leaves_its_talker.launch.py')
+    programs += launches(talks, 'one_of_two_crashes', 'one_of_two_crashes.launch.xml')
+    programs += launches(listens, 'listens_in_silence', 'listens_in_silence.launch.xml')
     classes = {
         'drives': (ZOO, drives('drives_right', *DRIVES, *HALF_DRIVES)),
         'talks': (ZOO, programs),

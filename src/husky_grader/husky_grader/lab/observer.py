@@ -288,7 +288,8 @@ def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
     if not graph.subscriptions:
         return f'it listens to nothing; {asked(step.topic)}'
     wrong = unheard_topics(replace(graph, subscriptions=listening or graph.subscriptions))
-    return next(wrong, f'it did not print what came on {step.topic}')
+    hint = '; a launch file shows what a node prints by output="screen"' if step.launch else ''
+    return next(wrong, f'it did not print what came on {step.topic}{hint}')
 
 
 def _service(step: ServiceStep, observer: _Observer) -> Finding:
