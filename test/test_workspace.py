@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The workspace as colcon and ROS see it: ament_python packages, built and found."""
 
+import contextlib
+import json
 import os
 from pathlib import Path
 import pty
 import select
+import shutil
 import subprocess
 import sys
 import time
@@ -71,23 +74,66 @@ def test_tab_completes_ros2_once_a_workspace_is_sourced(tmp_path: Path) -> None:
 
 
 def test_the_shell_of_the_lab_has_what_colcon_brings(tmp_path: Path) -> None:
-    shell = ('bash', '--rcfile', 'config/lab_shell.bash', '-ic')
+    shell = ('bash', '--rcfile', 'config/shell/bashrc', '-ic')
     asked = 'type -t colcon_cd; complete -p | grep -c " \\(ros2\\|colcon\\)$"; true'
-    here = {'VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path)}
+    here = {'LAB_VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path)}
     # Of a sourced ROS the setup files do that.
     expected = ['0'] if SOURCED else ['function', '2']
     assert run(*shell, asked, cwd=ROOT, **here).splitlines() == expected
 
 
-def test_settings_of_a_user_take_nothing_from_the_shell_of_the_lab(tmp_path: Path) -> None:
-    bashrc = 'RMW_IMPLEMENTATION=of_mine LD_LIBRARY_PATH=/cuda PYTHONPATH=/mine:$PYTHONPATH'
-    (tmp_path / '.bashrc').write_text(f'export AMENT_PREFIX_PATH= {bashrc}\n')
-    asked = 'echo $AMENT_PREFIX_PATH $LD_LIBRARY_PATH $PYTHONPATH $RMW_IMPLEMENTATION'
-    paths = {'AMENT_PREFIX_PATH': '/lab:/ros', 'LD_LIBRARY_PATH': '/lib', 'PYTHONPATH': '/lab'}
-    here = {'VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path), **paths}
-    shown = run('bash', '--rcfile', 'config/lab_shell.bash', '-ic', asked, cwd=ROOT, **here)
-    assert shown.split()[:3] == ['/lab:/ros', '/lib:/cuda', '/mine:/lab'], shown
-    assert shown.split()[3:] == (['of_mine'] if SOURCED else []), shown
+# A PATH from anew, as many have it, and another environment that is active, as by `conda init`.
+SETTINGS = """
+export PATH={here}/bin:/usr/bin:/bin VIRTUAL_ENV={here} LD_LIBRARY_PATH=/cuda AMENT_PREFIX_PATH=
+export PYTHONPATH=/mine:$PYTHONPATH RMW_IMPLEMENTATION=of_mine
+alias python=false
+"""
+SETTINGS_OF_FISH = """
+set -gx PATH {here}/bin /usr/bin /bin; set -gx VIRTUAL_ENV {here}; set -gx LD_LIBRARY_PATH /cuda
+set -gx AMENT_PREFIX_PATH; set -gx PYTHONPATH /mine $PYTHONPATH; set -gx RMW_IMPLEMENTATION of_mine
+alias python=false
+"""
+# bash is there wherever ./lab is; of the others, those that this computer has.
+SHELLS = [path for path in map(shutil.which, ('bash', 'zsh', 'fish')) if path is not None]
+
+
+@pytest.mark.parametrize('shell', SHELLS)
+def test_settings_of_a_user_take_nothing_from_the_shell_of_the_lab(
+    tmp_path: Path, shell: str
+) -> None:
+    for name in ('.bashrc', '.zsh/.zshrc', '.config/fish/config.fish', 'bin/python3'):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        settings = SETTINGS_OF_FISH if 'fish' in name else SETTINGS
+        (tmp_path / name).write_text(settings.format(here=tmp_path))
+    (tmp_path / '.zshenv').write_text('ZDOTDIR=~/.zsh\n')
+    (tmp_path / 'bin' / 'python3').chmod(0o755)
+    (tmp_path / 'tell.py').write_text('import os, json; print(json.dumps(dict(os.environ)))')
+    typed = 'python3 tell.py > told\rros2 to\t --help > helped\rexit\r'
+    here = {'HOME': str(tmp_path), 'SHELL': shell, 'TERM': 'xterm'}
+    controller, terminal = pty.openpty()
+    with subprocess.Popen(
+        [ROOT / 'lab', 'shell'],
+        cwd=tmp_path, env={**os.environ, **here}, stdin=terminal, stdout=terminal, stderr=terminal,
+        start_new_session=True,
+    ) as process:  # fmt: skip
+        os.close(terminal)
+        shown = _read_until(controller, '(lab) ')
+        os.write(controller, typed.encode())
+        with contextlib.suppress(OSError):  # the terminal has ended
+            shown += _read_until(controller, 'does not come')
+        os.close(controller)
+        process.wait(timeout=20)
+    told = json.loads((tmp_path / 'told').read_text())
+    lab = json.loads(run(str(ROOT / 'lab'), 'exec', 'python3', 'tell.py', cwd=tmp_path))
+    assert told['PATH'].startswith(lab['PATH']), shown
+    assert told['LD_LIBRARY_PATH'] == f'{lab["LD_LIBRARY_PATH"]}:/cuda', shown
+    assert told['PYTHONPATH'] == f'/mine:{lab["PYTHONPATH"]}', shown
+    same = ('VIRTUAL_ENV', 'AMENT_PREFIX_PATH')
+    assert [told[name] for name in same] == [lab[name] for name in same], shown
+    assert ('ZDOTDIR' in told, 'LAB_VIRTUAL_ENV' in told) == (False, False), shown
+    if not SOURCED:  # whose setup files complete, where they do
+        assert (tmp_path / 'helped').read_text().startswith('usage: ros2 topic'), shown
+    assert told.get('RMW_IMPLEMENTATION') == ('of_mine' if SOURCED else None), shown
 
 
 def _read_until(controller: int, wanted: str) -> str:
@@ -97,7 +143,7 @@ def _read_until(controller: int, wanted: str) -> str:
     while wanted not in shown:
         left = max(0.0, deadline - time.monotonic())
         assert select.select([controller], [], [], left)[0], shown
-        shown += os.read(controller, 4096).decode()
+        shown += os.read(controller, 4096).decode(errors='replace')
     return shown
 
 
