@@ -156,7 +156,7 @@ def why_missing(package: str, program: str = '') -> str:
         if built_prefix(workspace, package) is not None:
             return (
                 f'it is built in {workspace}, but not sourced in this terminal; '
-                f'run `source {workspace}/install/setup.bash`'
+                f'run {how_to_source(workspace)}'
             )
     instead = stand_ins.hint(package, program)
     if instead:
@@ -173,6 +173,20 @@ def why_missing(package: str, program: str = '') -> str:
 # Workspaces
 
 
+def how_to_source(workspace: Path) -> str:
+    """Return the command that sources a workspace in the shell that has started this program."""
+    try:
+        shell = Path(f'/proc/{os.getppid()}/comm').read_text().strip()
+    except OSError:
+        shell = 'bash'
+    setup = workspace / 'install' / 'setup.bash'
+    if shell == 'zsh':
+        return f'`source {setup.with_suffix(".zsh")}`'
+    if shell == 'fish':  # for which colcon makes no set-up files
+        return f'`bash -c "source {setup} && exec fish"`'
+    return f'`source {setup}`'
+
+
 def why_unbuilt(workspace: Path, package: str) -> str | None:
     """Say why a package in the src of a workspace is not built; None where it is, or not there."""
     source = source_in(workspace, package)
@@ -180,7 +194,7 @@ def why_unbuilt(workspace: Path, package: str) -> str | None:
         return None
     build = (
         f'run `colcon build --packages-select {package}` in {workspace}, then '
-        f'`source {workspace}/install/setup.bash`'
+        f'{how_to_source(workspace)}'
     )
     refused = package_files.why_refused(source)
     if refused:

@@ -39,33 +39,30 @@ def print_hints(package: str) -> None:
 
 def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
     installed = packages.installed()
-    setup = workspace / 'install' / 'setup.bash'
     found = sorted(packages.sources_in(workspace / 'src').items())
     refused = {name: package_files.why_refused(path) for name, path in found}
     for name in refused:
         for why in refused[name]:
-            yield Finding(
-                name, f'colcon cannot build it: {why}', f'then {_build(workspace, setup)}'
-            )
+            yield Finding(name, f'colcon cannot build it: {why}', f'then {_build(workspace)}')
     sources = [name for name in refused if not refused[name]]
     unbuilt = [name for name in sources if packages.built_prefix(workspace, name) is None]
     if unbuilt:
         yield Finding(
             ', '.join(unbuilt),
             f'not built yet in {workspace}, so that `ros2 run` does not find it',
-            _build(workspace, setup),
+            _build(workspace),
         )
     unsourced = [name for name in sources if name not in unbuilt and name not in installed]
     if unsourced:
         yield Finding(
             ', '.join(unsourced),
             f'built in {workspace}, but not sourced in this terminal',
-            f'`source {setup}`',
+            packages.how_to_source(workspace),
         )
 
 
-def _build(workspace: Path, setup: Path) -> str:
-    return f'run `colcon build` in {workspace}, then `source {setup}`'
+def _build(workspace: Path) -> str:
+    return f'run `colcon build` in {workspace}, then {packages.how_to_source(workspace)}'
 
 
 def check_changed(package: str, prefix: Path) -> Iterator[Finding]:

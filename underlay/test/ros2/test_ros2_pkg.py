@@ -85,6 +85,27 @@ def test_a_new_python_package_builds_passes_its_tests_and_runs(
 
 
 @pytest.mark.parametrize(
+    ('shell', 'command'),
+    [
+        ('bash', '`source /ws/install/setup.bash`'),
+        ('zsh', '`source /ws/install/setup.zsh`'),
+        ('fish', '`bash -c "source /ws/install/setup.bash && exec fish"`'),
+    ],
+)
+def test_a_workspace_is_sourced_by_what_the_shell_can_read(
+    tmp_path: Path, shell: str, command: str
+) -> None:
+    # Of the shell nothing but its name counts, and not every computer has all three.
+    (tmp_path / shell).symlink_to('/bin/bash')
+    tell = 'import pathlib; from ros2_diagnosis import packages; '
+    tell += 'print(packages.how_to_source(pathlib.Path("/ws")))'
+    told = subprocess.check_output(
+        [tmp_path / shell, '-c', '"$0" -c "$1"; true', sys.executable, tell], text=True
+    )
+    assert told.strip() == command
+
+
+@pytest.mark.parametrize(
     ('command', 'instead'),
     [
         ('rviz2', 'viewer:=true'),
