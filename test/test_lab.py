@@ -253,6 +253,21 @@ def test_a_full_disk_loses_the_report_not_the_result(
     assert 'Traceback' not in run.output
 
 
+def test_shared_memory_that_is_too_small_for_a_run_is_refused(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    # Enough for one of the two nodes: Fast DDS then loses what the other sends, and says nothing.
+    small = 'mount -t tmpfs -o size=1300k tmpfs /dev/shm && exec "$0" "$@"'
+    run = processes.start(
+        *('unshare', '--mount', 'bash', '-c', small, LAB),
+        *('drive', '--fast', '--no-view', '--report', str(tmp_path), str(short_course)),
+    )
+    refused = rclpy.get_rmw_implementation_identifier() == FAST_DDS
+    assert run.wait(timeout_sec=60.0) == (2 if refused else 0), run.output
+    said = 'lab drive: /dev/shm has less than 4 MB left, too few for the messages of a run: remove'
+    assert [line for line in run.lines if line.startswith(said)] != [] or not refused, run.output
+
+
 def no_home(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
     """Let nothing be written at home; what is for a while goes into the folder."""
     for name in ('ROS_LOG_DIR', 'ROS_HOME'):

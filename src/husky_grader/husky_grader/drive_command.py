@@ -19,6 +19,7 @@ from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, run_printing
 from husky_runtime.domains import check_loopback, OwnDomain, range_of_a_run
 from husky_runtime.settings import refuse_unknown, Setting, settings_of
+from husky_runtime.shared_memory import check_shared_memory
 from husky_runtime.supervise import run_to_end
 from husky_runtime.web_address import AddressError
 
@@ -203,6 +204,7 @@ def _prepare(folder: Path, waypoints: Path) -> None:
 
 def _environment(stack: ExitStack, page: DrivePage | None) -> Mapping[str, str]:
     """Put the run into a domain of its own, unless the user has chosen one."""
+    check_shared_memory()
     environment = {**os.environ, **(page.environment if page is not None else {})}
     if os.environ.get('ROS_DOMAIN_ID'):
         check_loopback()

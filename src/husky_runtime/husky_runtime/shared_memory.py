@@ -23,6 +23,37 @@ _NAME = re.compile(rf'{_MARK}[^\s/]+')
 _CAP_SYS_PTRACE = 19  # <linux/capability.h>
 _MADE_SEC = 0.2  # a younger file may not be mapped yet
 _LOCK_SEC, _POLL_SEC = 5.0, 0.01  # of waiting for another clean-up
+_FREE_BYTES = 4_000_000  # enough for a drive with its page and two commands that look on
+
+
+def check_shared_memory() -> None:
+    """
+    Check that there is room for the messages of a run.
+
+    Where some of its nodes get shared memory and the next gets none, what they send is lost in
+    silence; where none does, Fast DDS falls back to UDP.
+
+    :raises ValueError: if there is too little.
+    """
+    if not os.environ.get('RMW_IMPLEMENTATION', 'rmw_fastrtps').startswith('rmw_fastrtps'):
+        return
+    if _is_short():
+        clean_shared_memory()
+        if _is_short():
+            raise ValueError(
+                f'{FOLDER} has less than {_FREE_BYTES // 1_000_000} MB left, too few for the '
+                'messages of a run: remove what is not needed there, or give a container more '
+                '(--shm-size=64m)'
+            )
+
+
+def _is_short() -> bool:
+    try:
+        status = os.statvfs(FOLDER)
+    except OSError:  # not Linux
+        return False
+    # One without a limit tells of no blocks at all.
+    return status.f_blocks > 0 and status.f_bavail * status.f_frsize < _FREE_BYTES
 
 
 def clean_shared_memory() -> None:
