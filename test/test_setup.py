@@ -174,6 +174,19 @@ def test_what_a_cluster_sets_for_pip_leads_nothing_out_of_the_environment(tmp_pa
     assert sourced(script, **theirs).stderr == 'PIP_USER=0\n'
 
 
+def test_what_leaves_a_part_of_packages_out_is_not_for_the_environment(tmp_path: Path) -> None:
+    # In pip.conf; what conda sets while it builds is the same, in the environment.
+    (tmp_path / 'pip.conf').write_text(
+        '[install]\nignore-installed = true\nrequire-hashes = true\nuser = true\n'
+    )
+    # Its Python has pip and, as a package that is there already, pip.
+    script = f'venv={sys.prefix} setup_log=/dev/null; with_progress() {{ "${{@:4}}"; }}'
+    script += '; rm() { :; }; mkdir() { :; }; pip_install 1 --no-index pip'
+    theirs = {'PIP_CONFIG_FILE': str(tmp_path / 'pip.conf'), 'PIP_NO_DEPENDENCIES': 'True'}
+    done = sourced(script, **theirs, PIP_DRY_RUN='1')
+    assert 'Requirement already satisfied: pip in ' in done.stdout, done
+
+
 def test_what_is_for_another_python_is_not_for_a_set_up(tmp_path: Path) -> None:
     (tmp_path / '.lab.lock').touch()
     steps = 'check_space make_venv compile_modules make_interfaces'
