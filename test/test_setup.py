@@ -176,10 +176,8 @@ def test_what_a_cluster_sets_for_pip_leads_nothing_out_of_the_environment(tmp_pa
 
 def test_what_leaves_a_part_of_packages_out_is_not_for_the_environment(tmp_path: Path) -> None:
     # In pip.conf; what conda sets while it builds is the same, in the environment.
-    (tmp_path / 'pip.conf').write_text(
-        '[install]\nignore-installed = true\nrequire-hashes = true\nuser = true\n'
-    )
-    # Its Python has pip and, as a package that is there already, pip.
+    settings = '[install]\nignore-installed = true\nrequire-hashes = true\nuser = true\n'
+    (tmp_path / 'pip.conf').write_text(settings)
     script = f'venv={sys.prefix} setup_log=/dev/null; with_progress() {{ "${{@:4}}"; }}'
     script += '; rm() { :; }; mkdir() { :; }; pip_install 1 --no-index pip'
     theirs = {'PIP_CONFIG_FILE': str(tmp_path / 'pip.conf'), 'PIP_NO_DEPENDENCIES': 'True'}
@@ -255,6 +253,11 @@ def test_an_old_python_and_one_that_is_not_there_are_refused(clone: Path, tmp_pa
     refused(done, 'Python 2.7.18 found', '3.10')
     gone = str(tmp_path / 'bin' / 'gone')
     refused(lab(clone, 'exec', 'true', PYTHON=gone), f'no {gone} found', '3.10')
+
+
+def test_a_python_that_cannot_start_is_told_in_its_own_words(clone: Path) -> None:
+    done = lab(clone, 'exec', 'true', PYTHONHASHSEED='any')
+    refused(done, 'does not start here: Fatal Python error', 'PYTHONHASHSEED must be "random"')
 
 
 @pytest.mark.parametrize('has_rclpy', [True, False])
@@ -337,6 +340,18 @@ def test_a_clone_that_was_moved_or_copied_is_built_again(clone: Path, tmp_path: 
     (clone / 'install' / 'topic_demo' / '.built').unlink()  # as by a set-up in another place
     assert sources(shutil.copytree(clone, tmp_path / 'copied', symlinks=True)) == expected
     assert sources(clone.rename(tmp_path / 'moved')) == expected
+
+
+def test_a_disk_that_is_full_in_a_build_is_said_in_a_line(clone: Path) -> None:
+    shutil.copytree(ROOT / 'src' / 'topic_demo', clone / 'src' / 'topic_demo')
+    (clone / 'colcon.meta').touch()
+    (clone / 'install').mkdir()
+    build = f'source "$0" help >/dev/null; venv={sys.prefix}; build key'
+    full = 'mount -t tmpfs -o size=16k none "$1" && exec bash -c "$2" "$0"'
+    command = ['unshare', '--mount', 'bash', '-c', full, clone / 'lab', clone / 'install', build]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.stderr.splitlines()[-1].startswith('lab: the disk is full: the build'), done.stderr
+    assert (done.returncode, 'Traceback' in done.stderr) == (2, False), done.stderr
 
 
 def test_a_terminal_in_another_language_sets_nothing_up_anew(tmp_path: Path) -> None:
