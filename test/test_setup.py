@@ -175,7 +175,6 @@ def test_what_a_cluster_sets_for_pip_leads_nothing_out_of_the_environment(tmp_pa
 
 
 def test_what_leaves_a_part_of_packages_out_is_not_for_the_environment(tmp_path: Path) -> None:
-    # In pip.conf; what conda sets while it builds is the same, in the environment.
     settings = '[install]\nignore-installed = true\nrequire-hashes = true\nuser = true\n'
     (tmp_path / 'pip.conf').write_text(settings)
     script = f'venv={sys.prefix} setup_log=/dev/null; with_progress() {{ "${{@:4}}"; }}'
@@ -347,7 +346,8 @@ def test_a_disk_that_is_full_in_a_build_is_said_in_a_line(clone: Path) -> None:
     (clone / 'colcon.meta').touch()
     build = f'source "$0" help >/dev/null; venv={sys.prefix}; build key'
     full = 'mkdir "$1" && mount -t tmpfs -o size=16k none "$1" && exec bash -c "$2" "$0"'
-    command = ['unshare', '--mount', 'bash', '-c', full, clone / 'lab', clone / 'install', build]
+    places = (str(clone / 'lab'), str(clone / 'install'))
+    command = ['unshare', '--mount', 'bash', '-c', full, *places, build]
     done = subprocess.run(command, capture_output=True, text=True)
     assert (done.returncode, 'full: the build' in done.stderr.splitlines()[-1]) == (2, True), done
 
