@@ -259,7 +259,7 @@ def test_shared_memory_that_is_too_small_for_a_run_is_refused(
     # Enough for one of the two nodes: Fast DDS then loses what the other sends, and says nothing.
     small = 'mount -t tmpfs -o size=1300k tmpfs /dev/shm && exec "$0" "$@"'
     run = processes.start(
-        *('unshare', '--mount', 'bash', '-c', small, LAB),
+        *('unshare', '--map-root-user', '--mount', 'bash', '-c', small, LAB),
         *('drive', '--fast', '--no-view', '--report', str(tmp_path), str(short_course)),
     )
     refused = rclpy.get_rmw_implementation_identifier() == FAST_DDS

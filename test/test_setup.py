@@ -347,7 +347,7 @@ def test_a_disk_that_is_full_in_a_build_is_said_in_a_line(clone: Path) -> None:
     build = f'source "$0" help >/dev/null; venv={sys.prefix}; build key'
     full = 'mkdir "$1" && mount -t tmpfs -o size=16k none "$1" && exec bash -c "$2" "$0"'
     places = (str(clone / 'lab'), str(clone / 'install'))
-    command = ['unshare', '--mount', 'bash', '-c', full, *places, build]
+    command = ['unshare', '--map-root-user', '--mount', 'bash', '-c', full, *places, build]
     done = subprocess.run(command, capture_output=True, text=True)
     assert (done.returncode, 'full: the build' in done.stderr.splitlines()[-1]) == (2, True), done
 
