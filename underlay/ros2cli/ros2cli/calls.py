@@ -63,6 +63,8 @@ def call_all(
         if may_take_long:
             late = [name for name in waiting if name not in in_vain and not futures[name].done()]
             _await_late(node, {name: (clients[name], futures[name]) for name in late})
+        gone = {name for name in waiting if not clients[name].service_is_ready()}
+        in_vain |= {name: no_server(name) for name in gone}
         return {name: _outcome(name, futures.get(name), in_vain.get(name)) for name in requests}
     finally:
         for client in clients.values():
@@ -109,4 +111,12 @@ def no_answer(name: str) -> str:
     return (
         f"'{name}' gave no answer within {TIMEOUT_SEC:g} s; its node is busy or stopped, or "
         'waits in a callback for another one (`ros2 doctor` says more)'
+    )
+
+
+def no_server(name: str) -> str:
+    """Say that a service has ended instead of answering."""
+    return (
+        f"'{name}' gave no answer: its node has ended, and its terminal says why, as where a "
+        'callback returns no response'
     )

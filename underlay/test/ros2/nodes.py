@@ -117,6 +117,11 @@ def service(node: Node) -> None:
     server.configure_introspection(node.get_clock(), LATCHED, ServiceIntrospectionState.CONTENTS)
 
 
+def forgetful(node: Node) -> None:
+    """Return no response, at which rclpy ends the node."""
+    node.create_service(SetBool, 'forget', lambda *_: None)
+
+
 def waiting(node: Node) -> None:
     """Call a service of its own in a callback, while its only thread is in that callback."""
     service(node)

@@ -58,3 +58,30 @@ def test_an_answer_that_may_take_long_is_awaited(
     answer = calls.call(SlowNode(), None, '/motor/change_state', None, may_take_long=True)
     assert answer == 'configured'
     assert capsys.readouterr().err == f'hint: {late}; Ctrl-C ends the waiting\n'
+
+
+class EndingNode(SlowNode):
+    """One whose service is gone once it has been asked."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.looks = 0
+
+    def service_is_ready(self) -> bool:
+        self.looks += 1
+        return self.looks < 3
+
+    def spin_once(self, timeout_sec: float) -> None:
+        pass
+
+
+def test_a_node_that_has_ended_is_not_called_busy(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(calls, 'TIMEOUT_SEC', 0.0)
+    monkeypatch.setattr(calls, 'SOON_SEC', 0.0)
+    monkeypatch.setattr(calls, 'why_unanswered', lambda _: {})
+    gone = "^'/motor/change_state' gave no answer: its node has ended, and its terminal says why"
+    for may_take_long in (False, True):
+        with pytest.raises(CommandError, match=gone):
+            calls.call(
+                EndingNode(), None, '/motor/change_state', None, may_take_long=may_take_long
+            )

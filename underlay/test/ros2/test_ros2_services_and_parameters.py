@@ -65,6 +65,13 @@ def test_a_call_of_a_name_that_nobody_has_gets_a_hint(world: Any) -> None:
     call.terminate()
 
 
+def test_a_server_that_ends_instead_of_answering_is_told(world: Any) -> None:
+    world.node('forgetful', 'forgetful')
+    hint = "hint: '/forget' gave no answer: its node has ended, and its terminal says why, as "
+    call = world.ros2('service', 'call', '/forget', 'std_srvs/srv/SetBool', ready=hint)
+    call.terminate()
+
+
 def test_echo_shows_requests_and_responses(world: Any) -> None:
     words = ('/flip', 'std_srvs/srv/SetBool', 'data: true', '-r', '5')
     calls = world.ros2('service', 'call', *words, ready='response')

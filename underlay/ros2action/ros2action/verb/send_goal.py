@@ -105,7 +105,7 @@ def _follow(
 ) -> bool:
     """Print the goal's way to its end; False where the time is over before."""
     action = topics.checked_name(args.action_name)
-    node.spin_until_answered(sending, f'{action}{SEND_GOAL}')
+    node.spin_until_answered(sending, f'{action}{SEND_GOAL}', client.server_is_ready)
     handle = sending.result()
     if not handle.accepted:
         print('Goal was rejected.')

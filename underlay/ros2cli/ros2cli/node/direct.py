@@ -99,14 +99,25 @@ class CommandNode:
             self.spin_once(min(0.02, left_sec))
         return True
 
-    def spin_until_answered(self, future: Any, service: str) -> None:
+    def spin_until_answered(
+        self, future: Any, service: str, is_offered: Callable[[], bool]
+    ) -> None:
         """Spin until a service has answered; where it never will, or is late, say so on stderr."""
+
+        def is_over() -> bool:
+            return future.done() or not is_offered()
+
+        if self.spin_until(future.done, discovery.SOON_SEC):
+            return
+        why = discovery.why_unanswered([service]).get(service)
+        if why is None and not self.spin_until(is_over, calls.TIMEOUT_SEC):
+            why = calls.no_answer(service)
+        if why is not None:
+            print(f'hint: {why}', file=sys.stderr)
+        self.spin_until(is_over)
+        # What a server sent at its end may be on its way.
         if not self.spin_until(future.done, discovery.SOON_SEC):
-            why = discovery.why_unanswered([service]).get(service)
-            if why is None and not self.spin_until(future.done, calls.TIMEOUT_SEC):
-                why = calls.no_answer(service)
-            if why is not None:
-                print(f'hint: {why}', file=sys.stderr)
+            print(f'hint: {calls.no_server(service)}; Ctrl-C ends the waiting', file=sys.stderr)
             self.spin_until(future.done)
 
     def destroy(self) -> None:

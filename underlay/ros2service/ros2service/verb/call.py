@@ -64,7 +64,7 @@ class CallVerb(VerbExtension):
                 print(f'requester: making request: {request!r}\n')
                 start = time.monotonic()
                 future = client.call_async(request)
-                node.spin_until_answered(future, client.service_name)
+                node.spin_until_answered(future, client.service_name, client.service_is_ready)
                 if future.exception() is not None:
                     raise CommandError(f'Exception while calling service: {future.exception()!r}')
                 print(f'response:\n{future.result()!r}\n')
