@@ -41,11 +41,15 @@ def parameter_names(graph: Graph) -> dict[str, set[str] | None]:
     return {node.full_name: told.get(node.full_name) for node in shown}
 
 
+def unheard(graph: Graph) -> set[str]:
+    """Name the nodes whose services no call from here reaches."""
+    apart = [*nodes.check_vendors(graph), *nodes.check_memory(graph.nodes)]
+    return {name for finding in apart for name in finding.where.split(', ')}
+
+
 def _ask(graph: Graph, asked: Iterable[Node]) -> dict[str, Any]:
     """Map each node to its answer, or to why there is none; leave out those that cannot hear."""
-    apart = [*nodes.check_vendors(graph), *nodes.check_memory(graph.nodes)]
-    unheard = {name for finding in apart for name in finding.where.split(', ')}
-    names = {node.full_name for node in asked if params.has_parameters(node)} - unheard
+    names = {node.full_name for node in asked if params.has_parameters(node)} - unheard(graph)
     if not names:
         return {}
     request = ListParameters.Request()

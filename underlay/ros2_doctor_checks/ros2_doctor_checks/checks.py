@@ -70,6 +70,12 @@ def _answers() -> Iterable[Finding]:
     return answers.check_answers(graph())
 
 
+def _lifecycle() -> Iterable[Finding]:
+    from ros2_doctor_checks import lifecycle
+
+    return lifecycle.check_lifecycle(graph())
+
+
 def _parameters() -> Iterable[Finding]:
     from ros2_doctor_checks import parameters
 
@@ -107,3 +113,4 @@ Vendors = partial(_Check, 'vendors', lambda: nodes.check_vendors(graph()))
 Commands = partial(_Check, 'commands', _commands)
 Answers = partial(_Check, 'answers', _answers)
 Parameters = partial(_Check, 'parameters', _parameters)
+Lifecycle = partial(_Check, 'lifecycle', _lifecycle)

@@ -28,7 +28,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 17 checks passed' in answer.lines
+    assert 'All 18 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:

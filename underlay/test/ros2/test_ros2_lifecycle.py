@@ -28,9 +28,18 @@ def test_nodes_with_a_lifecycle_are_listed(ros2: Callable[..., Any]) -> None:
 
 
 def test_a_node_goes_where_it_is_sent(ros2: Callable[..., Any]) -> None:
+    idle = []
     for transition, state in (('configure', 'inactive [2]'), ('2', 'unconfigured [1]')):
         assert ros2('lifecycle', 'set', 'motor', transition).out == 'Transitioning successful\n'
         assert ros2('lifecycle', 'get', '/motor').out == f'{state}\n'
+        idle.append(ros2('doctor').of_check('lifecycle'))
+    assert idle == [
+        'note (lifecycle): /motor: is inactive: it has not been activated, and its lifecycle '
+        'publishers send nothing; run `ros2 lifecycle set /motor activate`',
+        'note (lifecycle): /motor: is unconfigured: it has not been configured, and may have no '
+        'topics yet; run `ros2 lifecycle set /motor configure`, then '
+        '`ros2 lifecycle set /motor activate`',
+    ]
 
 
 def test_transitions_are_listed(ros2: Callable[..., Any]) -> None:
