@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from ros2_diagnosis import connections, nodes, partners, places, workspaces
+from ros2_diagnosis import connections, nodes, partners, places, remappings, workspaces
 from ros2_diagnosis.finding import Finding
 from ros2cli import discovery
 from ros2doctor.api import DoctorCheck, graph, Result
@@ -79,7 +79,7 @@ def _lifecycle() -> Iterable[Finding]:
 def _parameters() -> Iterable[Finding]:
     from ros2_doctor_checks import parameters
 
-    return parameters.check_parameters(graph(), discovery.settings_from_environment().domain_id)
+    return parameters.check_parameters(graph())
 
 
 # What the entry points name: called, each makes its check.
@@ -114,3 +114,4 @@ Commands = partial(_Check, 'commands', _commands)
 Answers = partial(_Check, 'answers', _answers)
 Parameters = partial(_Check, 'parameters', _parameters)
 Lifecycle = partial(_Check, 'lifecycle', _lifecycle)
+Remappings = partial(_Check, 'remappings', lambda: remappings.check_remappings(graph()))

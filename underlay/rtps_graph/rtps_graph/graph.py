@@ -67,6 +67,7 @@ class Node:
     namespace: str
     endpoints: list[Endpoint] = field(default_factory=list)
     foreign_memory: ForeignMemory | None = None
+    port: int | None = None  # at which its process listens for discovery
 
     @property
     def full_name(self) -> str:
@@ -144,7 +145,15 @@ def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ())
         graph.endpoints.extend(endpoints.values())
         for namespace, name, guids in _nodes(participant.graph_sample):
             known = [endpoints[guid] for guid in guids if guid in endpoints]
-            graph.nodes.append(Node(name, namespace, known, participant.foreign_memory))
+            graph.nodes.append(
+                Node(
+                    name,
+                    namespace,
+                    known,
+                    participant.foreign_memory,
+                    participant.discovery_port,
+                )
+            )
     graph.nodes.sort(key=lambda node: node.full_name)
     graph.endpoints.sort(key=lambda endpoint: endpoint.guid)
     return graph

@@ -56,16 +56,24 @@ def stopped_ports(ports: Collection[int]) -> set[int]:
 
     The processes of other users are not looked at.
     """
-    sockets = {
-        f'socket:[{each.inode}]': each.port for each in _udp_sockets() or () if each.port in ports
-    }
-    stopped: set[str] = set()
+    stopped: set[int] = set()
     for process in Path('/proc').glob('[0-9]*'):
         with contextlib.suppress(OSError):  # it has ended, or is another user's
             state = (process / 'stat').read_text(errors='replace').rpartition(')')[2].split()[0]
             if state in 'Tt':
-                stopped.update(map(os.readlink, (process / 'fd').iterdir()))
-    return {port for name, port in sockets.items() if name in stopped}
+                stopped |= ports_of(process)
+    return stopped & set(ports)
+
+
+def ports_of(process: Path) -> set[int]:
+    """Return the UDP ports that a process has bound.
+
+    :param process: its folder in /proc.
+    :raises OSError: it has ended, or is another user's.
+    """
+    opened = set(map(os.readlink, (process / 'fd').iterdir()))
+    sockets = _udp_sockets() or ()
+    return {each.port for each in sockets if f'socket:[{each.inode}]' in opened}
 
 
 class ForeignMemory(NamedTuple):

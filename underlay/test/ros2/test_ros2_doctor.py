@@ -28,7 +28,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 18 checks passed' in answer.lines
+    assert 'All 19 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -99,18 +99,26 @@ def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any
     assert '`ros2 param set /waits use_sim_time false`' in line
 
 
-def test_parameters_that_set_nothing(
+def test_options_that_set_and_rename_nothing(
     processes: Any, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:
     file = tmp_path / 'parameters.yaml'
     file.write_text(
         '/**: {ros__parameters: {command_timeout_sec: 0.5, use_sim_time: false, deep: {er: 1}}}\n'
+        'owner: {ros__parameters: {speed: 0.7}}\n'
         'robots: {husk: {ros__parameters: {a: 1, b: 2}}}\n'
     )
+    other = tmp_path / 'other.yaml'
+    other.write_text('owner: {ros__parameters: {speed: 0.7}}\n')
     processes.node(
-        *('robot', 'husky', '--ros-args', '-p', 'command_timeot_sec:=1.0'),
+        *('robot', 'husky', '--ros-args', '-p', 'command_timeot_sec:=1.0', '-p', 'speed:=1.0'),
         *('-p', 'husky:command_timeout_sec:=1.0', '--params-file', str(file)),
+        *('--params-file', str(other), '-r', '/tf:=tf', '-r', 'scan:=front/scan'),
+        *('-r', 'cmd_vl:=speeds', '-r', '~/get_parameters:=got'),
     )
+    # This one has the parameter of that name, and the file is for it, too.
+    processes.node('parameters', 'owner', '--ros-args', '--params-file', str(file))
+    processes.node('count', 'counter', '--ros-args', '-r', 'count:=total')
     answer = ros2('doctor')
     found = [line for line in answer.lines if ' (parameters): ' in line]
     assert found == [
@@ -121,10 +129,25 @@ def test_parameters_that_set_nothing(
         'nothing: no node that it is for has such a parameter; call '
         "declare_parameter('command_timeot_sec', ...) in the node, or mend the name; did you mean "
         "'command_timeout_sec'?",
-        f'note (parameters): nodes.py --params-file {file}: what it gives to /robots/husk sets '
-        "nothing, because no such node runs; name one that does, or '/**' for all; there is "
+        'problem (parameters): nodes.py -p speed:=1.0: speed sets nothing: no node that it is for '
+        "has such a parameter; call declare_parameter('speed', ...) in the node, or mend the name",
+        f'problem (parameters): nodes.py --params-file {other}: what it gives to /owner sets '
+        "nothing, because no such node is given it; name one that is, or '/**' for all; there is "
         '/husky',
+        f'note (parameters): nodes.py --params-file {file}: what it gives to /robots/husk sets '
+        "nothing, because no such node is given it; name one that is, or '/**' for all; there is "
+        '/husky, /owner',
     ], answer
+    assert {line for line in answer.lines if ' (remappings): ' in line} == {
+        'note (remappings): nodes.py -r scan:=front/scan: renames nothing: /husky has no /scan; '
+        'mend the name; there is /cmd_vel',
+        'problem (remappings): nodes.py -r cmd_vl:=speeds: renames nothing: /husky has no '
+        "/cmd_vl; mend the name; did you mean '/cmd_vel'?",
+        'problem (remappings): nodes.py -r count:=total: renames nothing: /count of /counter is '
+        'an action, of which Jazzy renames parts alone; name each part, as `-r '
+        '/count/_action/send_goal:=NEW/_action/send_goal`, and so cancel_goal, get_result, '
+        'feedback and status',
+    }, answer
 
 
 def test_a_command_that_waits_for_the_clock_is_told_its_option() -> None:

@@ -1,0 +1,51 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the programs of this user were told by --ros-args, and the nodes that they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import contextlib
+from dataclasses import dataclass
+import itertools
+from pathlib import Path
+
+from rtps_graph import host
+from rtps_graph.graph import Graph, Node
+
+
+@dataclass(frozen=True, kw_only=True)
+class CommandLine:
+    """A program that runs.
+
+    :param folder: the one that it was started in.
+    :param options: each word behind --ros-args with the next one.
+    :param nodes: those of a graph that it holds, one at least.
+    """
+
+    program: str
+    folder: Path
+    options: tuple[tuple[str, str], ...]
+    nodes: tuple[Node, ...]
+
+
+def with_nodes_in(graph: Graph) -> Iterator[CommandLine]:
+    """Yield the programs of this user that hold nodes of a graph.
+
+    What only starts another one with its own words, as `ros2 run` and `timeout`, holds none.
+    """
+    for process in sorted(Path('/proc').glob('[0-9]*')):
+        with contextlib.suppress(OSError):  # it has ended, or is another user's
+            words = (process / 'cmdline').read_bytes().decode(errors='replace').split('\0')
+            if '--ros-args' not in words:
+                continue
+            ports = host.ports_of(process)
+            nodes = tuple(node for node in graph.nodes if node.port in ports)
+            if nodes:
+                program = words[1] if 'python' in Path(words[0]).name else words[0]
+                yield CommandLine(
+                    program=Path(program).name,
+                    folder=(process / 'cwd').readlink(),
+                    options=tuple(itertools.pairwise(words[words.index('--ros-args') :])),
+                    nodes=nodes,
+                )
