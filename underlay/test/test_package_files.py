@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 from pathlib import Path
+import shutil
 import subprocess
 import sys
 
@@ -272,6 +273,24 @@ def test_colcon_and_ros2_run_say_it(
     monkeypatch.setenv(
         'AMENT_PREFIX_PATH', f'{prefix}{os.pathsep}{os.environ["AMENT_PREFIX_PATH"]}'
     )
+    # A second workspace has a package of that name, and is sourced without this one or after it.
+    other = tmp_path / 'other'
+    shutil.copytree(tmp_path / 'install', other / 'install', symlinks=True)
+    found = os.environ['AMENT_PREFIX_PATH'].partition(os.pathsep)[2]
+    for prefixes, line in (
+        ([other / 'install' / 'talk'], f'talk: built in {tmp_path}, but not sourced in this'),
+        (
+            [other / 'install' / 'talk', prefix],
+            f'talk: that of {other} runs here, because it was sourced after {tmp_path}; open a '
+            f'new terminal and `source {tmp_path}/install/setup.bash` last, if you mean this one',
+        ),
+        ([prefix, other / 'install' / 'talk'], ''),
+    ):
+        with monkeypatch.context() as elsewhere:
+            elsewhere.setenv('AMENT_PREFIX_PATH', os.pathsep.join([*map(str, prefixes), found]))
+            findings = [str(each) for each in workspaces.check_built_and_sourced(tmp_path)]
+        about_talk = [each for each in findings if each.startswith('talk: ')]
+        assert [each[: len(line)] for each in about_talk] == [line] * bool(line), about_talk
     replace(folder / 'talk' / 'hello.py', 'main', 'mian')
     (finding,) = workspaces.check_changed('talk', prefix)
     assert 'hello of setup.py cannot start: ' in str(finding)

@@ -52,7 +52,22 @@ def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
             f'not built yet in {workspace}, so that `ros2 run` does not find it',
             _build(workspace),
         )
-    unsourced = [name for name in sources if name not in unbuilt and name not in installed]
+    sourced = {prefix.resolve() for prefix in packages.prefixes()}
+    unsourced = []
+    for name in sources:
+        built = packages.built_prefix(workspace, name)
+        if built is None:
+            continue
+        if built.resolve() not in sourced:
+            unsourced.append(name)
+        elif installed[name].resolve() != built.resolve():
+            yield Finding(
+                name,
+                f'that of {packages.workspace_of(installed[name]) or installed[name]} runs here, '
+                f'because it was sourced after {workspace}',
+                f'open a new terminal and `source {setup}` last, if you mean this one',
+                serious=False,
+            )
     if unsourced:
         yield Finding(
             ', '.join(unsourced),
