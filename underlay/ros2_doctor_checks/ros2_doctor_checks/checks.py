@@ -76,6 +76,12 @@ def _lifecycle() -> Iterable[Finding]:
     return lifecycle.check_lifecycle(graph())
 
 
+def _frames() -> Iterable[Finding]:
+    from ros2_doctor_checks import frames
+
+    return frames.check_frames(graph())
+
+
 def _parameters() -> Iterable[Finding]:
     from ros2_doctor_checks import parameters
 
@@ -115,3 +121,4 @@ Answers = partial(_Check, 'answers', _answers)
 Parameters = partial(_Check, 'parameters', _parameters)
 Lifecycle = partial(_Check, 'lifecycle', _lifecycle)
 Remappings = partial(_Check, 'remappings', lambda: remappings.check_remappings(graph()))
+Frames = partial(_Check, 'frames', _frames)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+import itertools
 import os
 import signal
 import struct
@@ -12,7 +13,7 @@ import sys
 from typing import Any
 
 from example_interfaces.action import Fibonacci
-from geometry_msgs.msg import Twist, TwistStamped
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
@@ -196,6 +197,25 @@ def count_that_goes_on(node: Node) -> None:
 
 def transforms(node: Node) -> None:
     node.create_subscription(TFMessage, '/tf', lambda _: None, 10)
+
+
+def broadcaster(node: Node) -> None:
+    """Stamp one frame by its own clock, one not at all, and give a third two parents."""
+    publisher = node.create_publisher(TFMessage, '/tf', 10)
+    parents = itertools.cycle(['odom', 'map'])
+
+    def publish() -> None:
+        frames = {
+            name: TransformStamped(child_frame_id=name) for name in ('camera', 'lamp', 'base_link')
+        }
+        for name in ('camera', 'base_link'):
+            frames[name].header.stamp = node.get_clock().now().to_msg()
+        for name, parent in (('camera', 'base_link'), ('lamp', 'base_link')):
+            frames[name].header.frame_id = parent
+        frames['base_link'].header.frame_id = next(parents)
+        publisher.publish(TFMessage(transforms=list(frames.values())))
+
+    node.create_timer(0.05, publish)
 
 
 def plain(node: Node) -> None:

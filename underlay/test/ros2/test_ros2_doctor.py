@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 from pathlib import Path
+import re
 import shutil
 import subprocess
 import sys
@@ -28,7 +29,7 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     answer = ros2('doctor', folder=tmp_path)
     assert not [line for line in answer.lines if line.startswith('problem')], answer
     assert answer.status == 0
-    assert 'All 19 checks passed' in answer.lines
+    assert 'All 20 checks passed' in answer.lines
 
 
 def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -225,10 +226,29 @@ def test_a_clock_that_stands_still(
     assert f'/clock: stands still: /husky {why}, so that timers and sleeps' in line
 
 
-def test_a_simulator_that_is_paused(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_frames_of_another_time_and_a_simulator_that_is_paused(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
     processes.start(sys.executable, '-m', 'husky_sim.ros.node', ready='x real time')
     answer = ros2('doctor')
     assert ' (clock): ' not in answer.out, answer
+    assert ' (frames): ' not in answer.out, answer
+
+    broadcaster = processes.node('broadcaster', 'lights')
+    told = [line for line in ros2('doctor').lines if ' (frames): ' in line]
+    assert told[0] == (
+        'problem (frames): frame base_link: has several parents, map and odom, so that it jumps '
+        'between them; let one node alone publish it, below one parent; on /tf publish '
+        '/husky_sim, /lights'
+    )
+    another_time = r'problem \(frames\): frame base_link, camera, lamp: stamped by /lights with '
+    assert re.match(another_time + r'\d{10} s, while /clock tells \d+ s, so that lookups', told[1])
+    assert told[1].endswith(
+        '; start /lights with `--ros-args -p use_sim_time:=true`, and set header.stamp to '
+        '`get_clock().now().to_msg()`'
+    )
+    assert len(told) == 2
+    processes.end_one(broadcaster)
     pause = ('service', 'call', '/husky_sim/pause', 'std_srvs/srv/SetBool')
     ros2(*pause, '{data: true}')
     line = ros2('doctor').of_check('clock')
