@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
+import contextlib
 import os
 
-from rtps_graph import names
+from rtps_graph import host, names
 from rtps_graph.graph import Graph, Node, Role
 from rtps_graph.settings import LAST_DOMAIN, settings_from_environment
 
@@ -27,6 +28,7 @@ _SINGLE_PUBLISHER_ENDS = (
 # The first two bytes of a GUID (dds-foundation.org, "DDS-RTPS vendor and product IDs").
 _VENDORS = {b'\x01\x01': 'Connext DDS', b'\x01\x0f': 'Fast DDS', b'\x01\x10': 'Cyclone DDS'}
 _OWN_VENDOR = 'Fast DDS'  # of the wheels
+_RANGE_OFF = 'ROS_AUTOMATIC_DISCOVERY_RANGE=OFF'
 _END_ONE = 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID'
 
 
@@ -158,9 +160,28 @@ def _own_domain() -> int:
 def check_silent(graph: Graph, domain_id: int) -> Iterator[Finding]:
     """Find processes of this machine that are in the domain, but do not answer."""
     for port in graph.silent_ports:
+        if process := _undiscoverable(port):
+            yield Finding(
+                f'domain {domain_id}',
+                f'process {process} was started with {_RANGE_OFF}, its nodes are not shown and '
+                'get no messages',
+                'start it again with `export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`',
+            )
+            continue
         yield Finding(
             f'domain {domain_id}',
             f'the process that listens at UDP port {port} does not answer, its nodes are not '
             'shown and get no messages',
             f'it is stopped (Ctrl-Z) or hangs: `fg` continues it, `fuser -k {port}/udp` ends it',
         )
+
+
+def _undiscoverable(port: int) -> str | None:
+    """Return the number and name of the process at a port, where it lets itself not be found."""
+    process = host.process_at(port)
+    if process is None:
+        return None
+    with contextlib.suppress(OSError):  # it has ended
+        if _RANGE_OFF.encode() in (process / 'environ').read_bytes().split(b'\0'):
+            return f'{process.name} ({(process / "comm").read_text().strip()})'
+    return None

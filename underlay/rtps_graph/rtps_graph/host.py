@@ -76,6 +76,16 @@ def ports_of(process: Path) -> set[int]:
     return {each.port for each in sockets if f'socket:[{each.inode}]' in opened}
 
 
+def process_at(port: int) -> Path | None:
+    """Return the folder in /proc of this user's process that has bound a UDP port."""
+    sockets = {f'socket:[{each.inode}]' for each in _udp_sockets() or () if each.port == port}
+    for process in Path('/proc').glob('[0-9]*'):
+        with contextlib.suppress(OSError):  # it has ended, or is another user's
+            if sockets & set(map(os.readlink, (process / 'fd').iterdir())):
+                return process
+    return None
+
+
 class ForeignMemory(NamedTuple):
     """Shared memory of a participant of this host to which no message of this user comes.
 

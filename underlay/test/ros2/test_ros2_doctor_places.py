@@ -78,6 +78,18 @@ def test_a_daemon_in_another_domain_is_no_ros_process(
     assert str(domain) not in {name for each in told for name in _named_in(each)}
 
 
+def test_a_node_that_lets_itself_not_be_found(
+    processes: Any, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
+        process = processes.node('plain', 'alone')
+    hint = ros2('node', 'list').err
+    assert f': process {process.pid} (' in hint
+    assert ') was started with ROS_AUTOMATIC_DISCOVERY_RANGE=OFF, its nodes are not sh' in hint
+    assert '; start it again with `export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST`\n' in hint
+
+
 def test_nodes_on_another_machine() -> None:
     from ros2_diagnosis import places
     from rtps_graph.participant import Participant
