@@ -88,6 +88,17 @@ def test_an_argument_that_sets_nothing_is_told_of(
     assert 'WARNING' not in run_launch(outer, 'undeclared:=here').output
 
 
+def test_a_file_that_starts_nothing_is_told_of(
+    python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    path = python_launch_file('')
+    (line,) = [line for line in run_launch(path).lines if 'WARNING' in line]
+    assert line == (
+        f'[WARNING] [launch]: {path} starts nothing: no action has been added to its launch '
+        'description'
+    )
+
+
 def test_a_file_that_includes_itself_is_told_of(
     python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

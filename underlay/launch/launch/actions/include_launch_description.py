@@ -92,6 +92,11 @@ class IncludeLaunchDescription(Action):
         description = self.launch_description_source.get_launch_description(context)
         self.__enter_place(context)
         self.__check_arguments(context, description)
+        location = self.launch_description_source.location
+        if not description.entities and Path(location).is_file():
+            get_logger('launch').warning(
+                f'{location} starts nothing: no action has been added to its launch description'
+            )
         return [
             *(SetLaunchConfiguration(name, value) for name, value in self.launch_arguments),
             description,
