@@ -65,7 +65,8 @@ def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
                 name,
                 f'that of {packages.workspace_of(installed[name]) or installed[name]} runs here, '
                 f'because it was sourced after {workspace}',
-                f'open a new terminal and `source {setup}` last, if you mean this one',
+                f'open a new terminal and {packages.how_to_source(workspace)} last, if you mean '
+                'this one',
                 serious=False,
             )
     if unsourced:
