@@ -80,10 +80,21 @@ def test_streams_may_go_to_different_places(capsys: pytest.CaptureFixture[str]) 
     _run(ExecuteProcess(cmd=command, output={'stdout': 'screen', 'stderr': {'log', 'own_log'}}))
     shown = capsys.readouterr().out
     assert re.search(r'^\[sh-\d+\] out$', shown, re.M)
+    assert 'goes to the log alone' not in shown
     assert 'err' not in re.sub('process|cmd', '', shown).replace('\n', ' ').split()
     folder = Path(launch_config.log_dir)
     (own,) = folder.glob('sh-*-stderr.log')
     assert re.fullmatch(r'\[sh-\d+\] err\n', own.read_text())
+
+
+def test_what_is_printed_where_nobody_sees_it_is_told_of(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    _run(ExecuteProcess(cmd=['sh', '-c', 'echo hidden; exec echo twice']))
+    shown = capsys.readouterr().out
+    assert 'hidden' not in shown
+    told = "what it prints goes to the log alone; output='screen' in the launch file shows it"
+    assert re.findall(r'^\[INFO\] \[sh-\d+\]: (.* shows it)$', shown, re.M) == [told]
 
 
 @pytest.mark.parametrize(

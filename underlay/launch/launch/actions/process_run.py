@@ -14,7 +14,7 @@ from typing import Any
 from ..child_process import ChildProcess, printable_command, start_child_process
 from ..events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
 from ..launch_context import LaunchContext
-from ..logging import get_logger, get_output_loggers
+from ..logging import get_logger, get_output_loggers, launch_config
 from .process_settings import ProcessSettings
 from .timer_action import TimerAction
 
@@ -86,6 +86,7 @@ class ProcessRun:
         self._cmd = printable_command(details['cmd'])
         loggers = get_output_loggers(details['name'], settings.output)
         self.outputs = [_Output(logger, format_line, cached=cached) for logger in loggers]
+        self._hides_stdout = launch_config.get_screen_handler() not in loggers[0].handlers
         self.child: ChildProcess | None = None
         self.return_code: int | None = None
         self.timers: list[TimerAction] = []
@@ -165,6 +166,11 @@ class ProcessRun:
         if self._context.would_handle_event(event):
             self._context.emit_event_sync(event)
         self.outputs[fd - 1].feed(data)
+        if fd == 1 and self._hides_stdout:  # as by default, while its log messages are shown
+            self._hides_stdout = False
+            self._logger.info(
+                "what it prints goes to the log alone; output='screen' in the launch file shows it"
+            )
 
     def send_signal(self, number: signal.Signals) -> None:
         """Send a signal to the process where it runs."""
