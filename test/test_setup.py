@@ -424,7 +424,7 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> Non
     done = lab(clone, 'exec', 'true', PIP_INDEX_URL=NOBODY, PIP_CONFIG_FILE=os.devnull)
     refused(done, 'no network', 'call ./lab again')
     done = lab(clone, 'exec', 'true', PIP_NO_INDEX='1', PIP_CONFIG_FILE=os.devnull)
-    refused(done, 'pip finds no ros-rclpy', "call 'PIP_NO_INDEX=0 PIP_INDEX_URL=https://pypi.org")
+    refused(done, 'pip finds no ros-rclpy', 'PIP_INDEX_URL to one and PIP_NO_INDEX to 0')
 
 
 # Makes the count of signals that wait, which /proc/PID/status tells, a digit longer and shorter.
