@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 import math
 import sys
 import time
@@ -40,9 +40,17 @@ def call(
 
 
 def call_all(
-    node: Any, service_class: Any, requests: Mapping[str, Any], *, may_take_long: bool = False
+    node: Any,
+    service_class: Any,
+    requests: Mapping[str, Any],
+    *,
+    may_take_long: bool = False,
+    took_sec: dict[str, float] | None = None,
 ) -> dict[str, Any]:
-    """Call services side by side; return for each name its response, or what `call` raises."""
+    """Call services side by side; return for each name its response, or what `call` raises.
+
+    :param took_sec: is given how long each answer took that came.
+    """
     node = getattr(node, 'node', node)
     clients = {name: node.create_client(service_class, name) for name in requests}
     try:
@@ -54,14 +62,22 @@ def call_all(
             for name, client in clients.items()
             if client.service_is_ready()
         }
-        _spin_until(node, lambda: all(future.done() for future in futures.values()), SOON_SEC)
+        begin = time.monotonic()
+        took_sec = {} if took_sec is None else took_sec
+
+        def have_answered(names: Iterable[str]) -> bool:
+            for name in names:
+                if futures[name].done():
+                    took_sec.setdefault(name, time.monotonic() - begin)
+            return all(name in took_sec for name in names)
+
+        _spin_until(node, lambda: have_answered(futures), SOON_SEC)
         waiting = [name for name, future in futures.items() if not future.done()]
         in_vain = why_unanswered(waiting) if waiting else {}
-        awaited = [futures[name] for name in waiting if name not in in_vain]
-        left_sec = TIMEOUT_SEC - SOON_SEC
-        _spin_until(node, lambda: all(future.done() for future in awaited), left_sec)
+        awaited = [name for name in waiting if name not in in_vain]
+        _spin_until(node, lambda: have_answered(awaited), TIMEOUT_SEC - SOON_SEC)
         if may_take_long:
-            late = [name for name in waiting if name not in in_vain and not futures[name].done()]
+            late = [name for name in awaited if not futures[name].done()]
             _await_late(node, {name: (clients[name], futures[name]) for name in late})
         gone = {name for name in waiting if not clients[name].service_is_ready()}
         in_vain |= {name: no_server(name) for name in gone}

@@ -10,6 +10,7 @@ import os
 import signal
 import struct
 import sys
+import time
 from typing import Any
 
 from example_interfaces.action import Fibonacci
@@ -128,6 +129,11 @@ def waiting(node: Node) -> None:
     service(node)
     client = node.create_client(SetBool, 'flip')
     node.create_timer(0.01, lambda: client.call(SetBool.Request()))
+
+
+def sleeping(node: Node) -> None:
+    """Sleep in a callback, as who takes it for a loop."""
+    node.create_timer(0.1, lambda: time.sleep(1.0))
 
 
 def parameters(node: Node) -> None:

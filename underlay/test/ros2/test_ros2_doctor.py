@@ -348,6 +348,16 @@ def test_a_node_that_waits_in_a_callback_is_named(
     find_line(call.stdout, "hint: '/flip' gave no answer within 5 s; its node is busy or stopped")
 
 
+def test_a_node_that_sleeps_in_a_callback_is_named(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('talker', 'talker')
+    processes.node('sleeping', 'sleeper')
+    line = ros2('doctor').of_check('answers')
+    assert line.startswith('note (answers): /sleeper: answers after ')
+    assert 's: one of its callbacks takes long, and the others wait; use a timer in the' in line
+
+
 def test_the_report_names_the_essentials(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('talker', 'talker')
     answer = ros2('doctor', '--report')
