@@ -56,6 +56,46 @@ def test_a_package_that_colcon_passes_over_is_none(tmp_path: Path, mark: str) ->
     assert [each.name for each in find_manifests(tmp_path)] == ['my_driver']
 
 
+@pytest.mark.parametrize(
+    ('manifest', 'why'),
+    [
+        ('<package><name>topic_demo</nam>', ' cannot be read: mismatched tag: line 1, column 27'),
+        ('', ' cannot be read: no element found: line 1, column 0'),
+        ('<package/>', ' has no <name>'),
+        (f'<package>{" " * 100_000}</package>', ' is larger than 100000 bytes'),
+    ],
+    ids=['not closed', 'empty', 'no name', 'large'],
+)
+def test_a_package_whose_manifest_is_wrong_is_told_why(
+    tmp_path: Path, manifest: str, why: str
+) -> None:
+    write_package(tmp_path / 'src' / 'my_driver')
+    (write_package(tmp_path / 'src' / 'topic_demo') / 'package.xml').write_text(manifest)
+    found = package_step(PackageStep(points=10, package='topic_demo'), tmp_path)
+    assert found.why == (
+        'topic_demo is not in src; packages there: my_driver; src/topic_demo is no package: its '
+        f'package.xml{why}'
+    )
+
+
+def test_a_package_that_colcon_does_not_find_is_told_why(tmp_path: Path) -> None:
+    inner = write_package(write_package(tmp_path / 'src' / 'my_driver') / 'topic_demo')
+    write_package(tmp_path / 'src' / 'a_backup').joinpath('COLCON_IGNORE').touch()
+    step = PackageStep(points=10, package='topic_demo')
+    told = 'src/my_driver/topic_demo is passed over: it lies in my_driver'
+    assert package_step(step, tmp_path).why.endswith(told)
+    inner.with_name('package.xml').unlink()
+    (inner / 'package.xml').write_text('<package><name>Topic Demo</name></package>')
+    (tmp_path / 'log').mkdir()
+    with Jail(find_sandbox('none'), tmp_path / 'log') as jail:
+        found = build_step(tmp_path, jail, tmp_path / 'build.log')
+    assert found.why == (
+        'there is no package in src; src/a_backup is passed over: a COLCON_IGNORE is in it; '
+        "src/my_driver/topic_demo is no package: its <name> is 'Topic Demo': letters, digits and "
+        '_ are allowed, a letter first'
+    )
+
+
 def test_spaces_around_what_a_manifest_says_cost_nothing(tmp_path: Path) -> None:
     lines = ('<depend>\n  rclpy\n</depend>', '<export><build_type> ament_python </build_type>')
     write_package(tmp_path / 'src' / 'topic_demo', *lines, '</export>')

@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from husky_grader.jail import Jail
-from husky_grader.lab.file_steps import find_manifests
+from husky_grader.lab.file_steps import find_manifests, no_packages
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.programs import is_there
 from husky_grader.rubric.colcon_errors import first_error, printing_setup, without_own_errors
@@ -35,7 +35,8 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
     :raises ColconMissing: when it cannot be started, which is not the student's fault.
     """
     if not find_manifests(workspace):
-        return nothing('there is no package in src: ros2 pkg create makes one')
+        instead = no_packages(workspace) or ['ros2 pkg create makes one']
+        return nothing('; '.join(['there is no package in src', *instead]))
     command = ['colcon', '--log-base', str(jail.folder / 'log'), 'build', '--continue-on-error']
     command += ['--base-paths', str(workspace / 'src')]
     command += ['--build-base', str(jail.folder / 'build')]

@@ -4,19 +4,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 import os
 from pathlib import Path
 import re
 import xml.etree.ElementTree as ElementTree
 
+from husky_course.printable import printable
+
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.rubric.steps import PackageStep, WorkspaceStep
+from husky_grader.run.diagnosis import shortened
 
 MAX_MANIFEST = 100_000  # bytes
 PACKAGE_NAME = re.compile(r'[A-Za-z][\w-]*', re.ASCII)  # REP-149: no way to another folder
 # colcon passes over a folder in which one of these lies, with all that is below it.
 IGNORED = {'COLCON_IGNORE', 'AMENT_IGNORE', 'CATKIN_IGNORE'}
+MOST_TOLD = 3  # folders that look like packages and are none
+MOST_OF_A_NAME = 60  # characters
 # A workspace that was packed without a folder around it has the name of the archive: Canvas adds
 # "-1" to it when a student hands in again, a browser " (1)", "Download ZIP" of GitHub the branch.
 _ADDED = re.compile(r'(-\d+| \(\d+\)|-main|-master)$', re.ASCII)
@@ -91,7 +97,8 @@ def find_packages(workspace: Path, name: str, with_file: str) -> list[Manifest]:
     if not found:
         what = name or f'a package with {with_file}'
         have = ', '.join(sorted(manifest.name for manifest in manifests)) or 'none'
-        raise PackageMissing(f'{what} is not in src; packages there: {have}')
+        told = [f'{what} is not in src', f'packages there: {have}', *no_packages(workspace)]
+        raise PackageMissing('; '.join(told))
     return found
 
 
@@ -101,28 +108,65 @@ def find_manifests(workspace: Path) -> list[Manifest]:
 
     It looks for none in a package, in hidden folders, or where a file says that it is to pass.
     """
-    found = []
+    return [found for found in _found(workspace) if isinstance(found, Manifest)]
+
+
+def no_packages(workspace: Path) -> list[str]:
+    """Return of what looks like a package, and is none for colcon, why; of the first ones."""
+    found = list(_found(workspace))
+    told = [each for each in found if isinstance(each, str)]
+    for outer in found:
+        if isinstance(outer, Manifest):
+            told += [
+                f'{_shown(inner.parent, workspace)} is passed over: it lies in {outer.name}'
+                for inner in sorted(outer.folder.glob('*/**/package.xml'))
+            ]
+    return told[:MOST_TOLD]
+
+
+def _found(workspace: Path) -> Iterator[Manifest | str]:
+    """Yield the manifests, and of what has none that colcon takes the reason."""
     for place, folders, files in os.walk(workspace / 'src'):
         folders[:] = sorted(name for name in folders if not name.startswith('.'))
-        if not IGNORED.isdisjoint((*folders, *files)):
+        folder = Path(place)
+        if marks := IGNORED.intersection((*folders, *files)):
             folders.clear()
-        elif 'package.xml' in files and (manifest := _read_manifest(Path(place, 'package.xml'))):
-            found.append(manifest)
-            folders.clear()
-    return found
+            yield f'{_shown(folder, workspace)} is passed over: a {min(marks)} is in it'
+        elif 'package.xml' in files:
+            found = _read_manifest(folder / 'package.xml')
+            if isinstance(found, Manifest):
+                folders.clear()
+                yield found
+            elif found:
+                yield f'{_shown(folder, workspace)} is no package: {found}'
 
 
-def _read_manifest(path: Path) -> Manifest | None:
+def _shown(folder: Path, workspace: Path) -> str:
+    return printable(folder.relative_to(workspace).as_posix())
+
+
+def _read_manifest(path: Path) -> Manifest | str:
+    """Return a manifest, or why it is none; nothing where it is no file."""
     # Never a pipe or a device: to read one may take for ever.
     if path.is_symlink() or not path.is_file():
-        return None
+        return ''
     try:
         with path.open('rb') as stream:
-            root = ElementTree.fromstring(stream.read(MAX_MANIFEST))
-    except (ElementTree.ParseError, LookupError, ValueError, OSError):
-        return None  # LookupError and ValueError: an encoding that Python does not know
+            text = stream.read(MAX_MANIFEST + 1)
+        if len(text) > MAX_MANIFEST:
+            return f'its package.xml is larger than {MAX_MANIFEST} bytes'
+        root = ElementTree.fromstring(text)
+    except (ElementTree.ParseError, LookupError, ValueError, OSError) as error:
+        # LookupError and ValueError: an encoding that Python does not know
+        why = getattr(error, 'strerror', None) or error
+        return f'its package.xml cannot be read: {shortened(printable(str(why)))}'
     name = (root.findtext('name') or '').strip()
-    return Manifest(name, path.parent, root) if PACKAGE_NAME.fullmatch(name) else None
+    if not name:
+        return 'its package.xml has no <name>'
+    if not PACKAGE_NAME.fullmatch(name):
+        shown = shortened(printable(name), MOST_OF_A_NAME)
+        return f"its <name> is '{shown}': letters, digits and _ are allowed, a letter first"
+    return Manifest(name, path.parent, root)
 
 
 def _text(element: ElementTree.Element) -> str:
