@@ -130,6 +130,20 @@ def test_a_package_without_setup_py_is_told_of_cmake(tmp_path: Path) -> None:
         programs_of(workspace).command_of(DRIVE)
 
 
+def test_a_package_of_python_without_setup_py_is_told_so(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    python = '<export><build_type>ament_python</build_type></export>'
+    write_package(workspace / 'src' / 'my_driver', ABOUT, python)
+    makes_one = 'ros2 pkg create --build-type ament_python makes one'
+    (built := tmp_path / 'built').mkdir()
+    with Jail(find_sandbox('none'), built) as jail:
+        found = build_step(workspace, jail, tmp_path / 'build.log')
+    needs = 'my_driver has no setup.py, which the build type ament_python needs'
+    assert found.why == f'colcon build failed: {needs}; {makes_one}'
+    with pytest.raises(ProgramMissing, match=f'; it has no setup.py; {makes_one}'):
+        programs_of(workspace).command_of(DRIVE)
+
+
 def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path) -> None:
     workspace = tmp_path / 'workspace'
     write_package(workspace / 'src' / 'my_driver')

@@ -11,7 +11,12 @@ from husky_grader.jail import Jail
 from husky_grader.lab.file_steps import find_manifests, no_packages
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.programs import is_there
-from husky_grader.rubric.colcon_errors import first_error, printing_setup, without_own_errors
+from husky_grader.rubric.colcon_errors import (
+    first_error,
+    missing_setup,
+    printing_setup,
+    without_own_errors,
+)
 from husky_grader.run.diagnosis import crash, how_ended
 
 BUILD_WITHIN_SEC = 300.0
@@ -56,7 +61,8 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
             )
         how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
         told = without_own_errors(text).replace(f'{log.parent}/', '')  # before it is shortened
-        why = printing_setup(told) or crash(told) or first_error(told) or how
+        spoilt = printing_setup(told) or missing_setup(told)
+        why = spoilt or crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
 

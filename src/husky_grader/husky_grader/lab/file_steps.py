@@ -56,14 +56,14 @@ def package_step(step: PackageStep, workspace: Path) -> Finding:
 
 def _manifest_finding(step: PackageStep, manifest: Manifest) -> Finding:
     root, defects = manifest.root, {}
-    given = {_text(element) for element in root if element.tag.endswith('depend')}
+    given = {text_of(element) for element in root if element.tag.endswith('depend')}
     if missing := [wanted for wanted in step.dependencies if wanted not in given]:
         lines = ' '.join(f'<exec_depend>{wanted}</exec_depend>' for wanted in missing)
         defects['dependencies'] = f'package.xml lacks: {lines}'
-    if step.build_type not in map(_text, root.findall('export/build_type')):
+    if step.build_type not in map(text_of, root.findall('export/build_type')):
         line = f'<export><build_type>{step.build_type}</build_type></export>'
         defects['build_type'] = f'package.xml lacks {line}'
-    if todo := [element.tag for element in root if _text(element).startswith('TODO')]:
+    if todo := [element.tag for element in root if text_of(element).startswith('TODO')]:
         defects['todo'] = f'package.xml still says TODO: fill in its {" and ".join(todo)}'
     return Finding(f'package.xml of {manifest.name} is complete', defects=defects)
 
@@ -169,6 +169,6 @@ def _read_manifest(path: Path) -> Manifest | str:
     return Manifest(name, path.parent, root)
 
 
-def _text(element: ElementTree.Element) -> str:
+def text_of(element: ElementTree.Element) -> str:
     """Return the text of an element as ROS reads it: without the spaces around it."""
     return (element.text or '').strip()

@@ -12,7 +12,7 @@ from tempfile import mkdtemp
 
 from husky_grader.jail import Jail, remove, Sandbox
 from husky_grader.jail.folders import home_of
-from husky_grader.lab.file_steps import find_packages, Manifest
+from husky_grader.lab.file_steps import find_packages, Manifest, text_of
 from husky_grader.rubric.steps import ProgramStep
 
 MAX_DEPTH = 32  # folders in each other below share/PACKAGE, in which a launch file is looked for
@@ -186,4 +186,6 @@ def _what_to_do(programs: Path, manifest: Manifest, name: str) -> str:
         )
     if (manifest.folder / 'setup.py').is_file():
         return f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
+    if 'ament_python' in map(text_of, manifest.root.findall('export/build_type')):
+        return 'it has no setup.py; ros2 pkg create --build-type ament_python makes one'
     return f'install {name} into lib/{package} in its CMakeLists.txt'

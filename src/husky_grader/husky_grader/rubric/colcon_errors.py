@@ -18,6 +18,8 @@ _READS_SETUP = re.compile(
     r'/python_setup_py\.py", line \d+, in _get_setup_information\n'
     r' +(?:return ast\.literal_eval|output = result\.stdout\.decode)'
 )
+# What Python says where colcon has it run one that is not there.
+_NO_SETUP = re.compile(r"can't open file '(?:[^'\n]*/)?([^'/\n]+)/setup\.py': \[Errno 2\]")
 _BEGINS_SETUP = re.compile(
     r'^(Traceback .*\n)  File "<string>", line 1, in <module>\n', re.MULTILINE
 )
@@ -35,6 +37,16 @@ def printing_setup(printed: str) -> str:
         return ''
     package = printed[: spoilt.start()].rpartition(_BEGIN)[2].partition('\n')[0]
     return f'setup.py of {package} prints to its standard output, which colcon reads; let it not'
+
+
+def missing_setup(printed: str) -> str:
+    """Return that a package has no setup.py, though its manifest says it has; empty if it has."""
+    if not (missing := _NO_SETUP.search(printed)):
+        return ''
+    return (
+        f'{missing[1]} has no setup.py, which the build type ament_python needs; ros2 pkg create '
+        '--build-type ament_python makes one'
+    )
 
 
 def first_error(printed: str) -> str:
