@@ -3,16 +3,24 @@
 """Which packages of a workspace are looked at, and what their manifests say."""
 
 from dataclasses import replace
+import os
 from pathlib import Path
 import subprocess
 import sys
 
 from husky_grader.jail import find_sandbox, Jail, remove
+from husky_grader.jail.folders import CLONE
 from husky_grader.lab.build_step import build_step
 from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.programs import ProgramMissing, Programs
-from husky_grader.rubric.steps import DriveStep, PackageStep, Rubric, WorkspaceStep
+from husky_grader.rubric.steps import (
+    BuildStep,
+    DriveStep,
+    PackageStep,
+    Rubric,
+    WorkspaceStep,
+)
 from playpen_testing.jails import as_ordinary_user
 import pytest
 
@@ -22,6 +30,8 @@ ABOUT = (
     '<version>0.0.0</version><description>d</description><license>MIT</license>'
     '<maintainer email="a@example.org">a</maintainer>'
 )
+
+PYTHON = ('<export><build_type>ament_python</build_type>', '</export>')
 
 
 def write_package(folder: Path, *lines: str) -> Path:
@@ -132,8 +142,7 @@ def test_a_package_without_setup_py_is_told_of_cmake(tmp_path: Path) -> None:
 
 def test_a_package_of_python_without_setup_py_is_told_so(tmp_path: Path) -> None:
     workspace = tmp_path / 'workspace'
-    python = '<export><build_type>ament_python</build_type></export>'
-    write_package(workspace / 'src' / 'my_driver', ABOUT, python)
+    write_package(workspace / 'src' / 'my_driver', ABOUT, *PYTHON)
     makes_one = 'ros2 pkg create --build-type ament_python makes one'
     (built := tmp_path / 'built').mkdir()
     with Jail(find_sandbox('none'), built) as jail:
@@ -142,6 +151,24 @@ def test_a_package_of_python_without_setup_py_is_told_so(tmp_path: Path) -> None
     assert found.why == f'colcon build failed: {needs}; {makes_one}'
     with pytest.raises(ProgramMissing, match=f'; it has no setup.py; {makes_one}'):
         programs_of(workspace).command_of(DRIVE)
+
+
+def test_a_report_tells_nothing_of_where_the_lab_lies(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace, log = tmp_path / 'workspace', tmp_path / 'report' / 'build.log'
+    package = write_package(workspace / 'src' / 'my_driver', ABOUT, *PYTHON)
+    (package / 'setup.py').write_text('import os\nraise ValueError(os.__file__)\n')
+    library = Path(os.__file__).parent
+    monkeypatch.setenv('HOME', str(library.parent))
+    rubric = Rubric(title='R', steps=(BuildStep(points=10, name='build'),))
+    (step,) = grade_lab(workspace, rubric, log.parent, sandbox=find_sandbox('none'))
+    assert step.why == (
+        f'colcon build failed: setup.py line 2: ValueError: ~/{library.name}/os.py'
+    )
+    for place in (library.parent, CLONE):
+        assert f'{place}/' not in step.printed
+    assert f'{library}/' in log.read_text(), 'nothing was left out'
 
 
 def test_a_program_that_no_setup_cfg_has_put_in_its_place_is_told(tmp_path: Path) -> None:

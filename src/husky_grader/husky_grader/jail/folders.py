@@ -25,9 +25,9 @@ _ETC = (
     *('group', 'hosts', 'nsswitch.conf', 'passwd', 'protocols', 'services', 'os-release'),
     *('locale.alias', 'locale.conf', 'localtime', 'mime.types', 'timezone'),
 )
+CLONE = Path(__file__).resolve().parents[4]
 # The folders of the clone by which ROS runs; what else lies there may be reports of others.
 _ROS = ('.venv', 'underlay')
-_CLONE = Path(__file__).resolve().parents[4]
 # The lab's own packages: there are solutions among them, and how they are judged.
 _OWN_PACKAGES = (
     *('husky_course', 'husky_driver', 'husky_grader', 'husky_gym', 'husky_runtime', 'husky_sim'),
@@ -99,7 +99,7 @@ def _ros(apart: Iterable[Path]) -> set[Path]:
     Not what holds one of the folders apart: others' files lie beside it.
     """
     found = {INSIDE.parent, Path(sys.prefix), Path(sys.base_prefix), *_links_of(sys.executable)}
-    found |= {_CLONE / name for name in _ROS}
+    found |= {CLONE / name for name in _ROS}
     for variable in (*_PATHS, _LIBRARIES, _PROFILES):
         found |= {Path(entry) for entry in _without_own(os.environ.get(variable, ''))}
     return {

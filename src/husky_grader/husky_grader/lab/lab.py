@@ -32,7 +32,7 @@ from husky_grader.rubric.steps import (
 )
 from husky_grader.run.diagnosis import shortened
 from husky_grader.run.live import SimulatorNotStarted
-from husky_grader.run.printed import read_printed, shown
+from husky_grader.run.printed import read_printed, shown, without_machine
 from husky_grader.run.standstill import undisturbed
 from husky_grader.submission.limits import BUILT, IGNORED
 
@@ -122,8 +122,8 @@ class _Grading:
         # Where the grader keeps what was handed in is nobody's business, and nowhere the same.
         place = f'{self._folder}/'
         printed = shown(read_printed(log, without=place))
-        defects = {name: why.replace(place, '') for name, why in found.defects.items()}
-        why = found.why.replace(place, '')
+        defects = {name: _of_nowhere(why, place) for name, why in found.defects.items()}
+        why = _of_nowhere(found.why, place)
         return replace(found, why=why, defects=defects, printed=printed)
 
     def _found(self, step: Step, log: Path) -> Finding:
@@ -169,6 +169,10 @@ class _Grading:
             raise
         except ValueError as error:  # it costs this step, not the others
             return nothing(str(error))
+
+
+def _of_nowhere(why: str, place: str) -> str:
+    return without_machine(why.replace(place, ''))
 
 
 def _with_needs(steps: Sequence[Step], findings: Mapping[str, Finding]) -> Iterator[StepGrade]:

@@ -21,7 +21,7 @@ from husky_runtime.shared_memory import clean_shared_memory
 
 from husky_grader.jail import Jail, JailedProcess
 from husky_grader.run.diagnosis import reasons
-from husky_grader.run.printed import read_printed, shown
+from husky_grader.run.printed import read_printed, shown, without_machine
 from husky_grader.run.rest import tell_first
 from husky_grader.run.told import listen, Told
 from husky_grader.run.trusted import trusted
@@ -126,6 +126,7 @@ def drive_live(
     notes = reasons(
         printed, read_printed(folder / 'simulator.log'), last.notes, exit_code, last.unsent
     )
+    notes = tuple(map(without_machine, notes))
     return LiveRun(read_record(record), last.ending, last.pace, notes, shown(printed))
 
 

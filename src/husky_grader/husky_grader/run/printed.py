@@ -7,6 +7,8 @@ from pathlib import Path
 
 from husky_course.printable import printable
 
+from husky_grader.jail.folders import CLONE
+
 MAX_READ = 32_000  # bytes, of the beginning and of the end each
 MAX_SHOWN = 4_000  # characters
 MAX_LINES = 100  # that hold a word
@@ -49,12 +51,19 @@ def printed_lines(log: Path, word: str) -> list[str]:
 
 
 def shown(printed: str) -> str:
-    """Return what of it a report shows: its beginning and its end."""
-    half = MAX_SHOWN // 2
+    """Return what of it a report shows: its beginning and its end, nothing of the machine."""
+    printed, half = without_machine(printed), MAX_SHOWN // 2
     if len(printed) > MAX_SHOWN:
         left_out = f'\n[{len(printed) - MAX_SHOWN} characters are left out]\n'
         printed = printed[:half] + left_out + printed[-half:]
     return printable(printed, keep='\n\t')
+
+
+def without_machine(text: str) -> str:
+    """Return it without where the lab and the home of who grades lie: paths there begin so."""
+    home = os.path.expanduser('~')  # noqa: PTH111  # the other raises where there is none
+    text = text.replace(f'{CLONE}/', '')
+    return text.replace(f'{home}/', '~/') if home.strip('/~') else text
 
 
 def _text(data: bytes) -> str:
