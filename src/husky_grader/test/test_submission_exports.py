@@ -5,6 +5,7 @@
 from collections.abc import Mapping
 import io
 from pathlib import Path
+import unicodedata
 import zipfile
 
 from husky_grader.submission import find_submissions, Refused, Submission, unpack
@@ -126,6 +127,37 @@ def test_an_export_of_canvas_keeps_names_and_numbers(tmp_path: Path, as_zip: boo
     )
     with pytest.raises(Refused, match='a text or a link, and no file; hand in a zip'):
         unpack(by_user['5104'], tmp_path / 'out')
+
+
+@AS_ZIP
+def test_letters_with_marks_hide_no_export(tmp_path: Path, as_zip: bool) -> None:
+    # Ruby's small letter for the first one of "İnce", a name of Devanagari, and one that macOS has
+    # taken apart where it unpacked the export.
+    apart = unicodedata.normalize('NFD', 'Ömer Öz')
+    canvas = export(
+        tmp_path / 'canvas',
+        {
+            'i\u0307nceali_5101_90001_ws.zip': packed('ali'),
+            'वर्मामनीष_5102_90002_ws.zip': packed('manish'),
+            f'{apart.lower().replace(" ", "")}_5103_90003_ws.zip': packed('omer'),
+        },
+        as_zip=as_zip,
+    )
+    moodle = export(
+        tmp_path / 'moodle',
+        {
+            f'{apart}_101_assignsubmission_file_/a.zip': packed('omer'),
+            'मनीष वर्मा_102_assignsubmission_file_/a.zip': packed('manish'),
+        },
+        as_zip=as_zip,
+    )
+    assert facts(find_submissions([str(canvas), str(moodle)])) == [
+        ('i\u0307nceali_5101', 'i\u0307nceali', '5101'),
+        ('ömeröz_5103', 'ömeröz', '5103'),
+        ('वर्मामनीष_5102', 'वर्मामनीष', '5102'),
+        ('Ömer Öz_101', 'Ömer Öz', '101'),
+        ('मनीष वर्मा_102', 'मनीष वर्मा', '102'),
+    ]
 
 
 @AS_ZIP

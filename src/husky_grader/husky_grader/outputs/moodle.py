@@ -30,7 +30,7 @@ from husky_grader.outputs.matching import match, Matching, told
 from husky_grader.outputs.sheet import like, number_in, Sheet
 from husky_grader.outputs.student_page import feedback_files, why_refused
 from husky_grader.submission import Submission
-from husky_grader.submission.names import harmless
+from husky_grader.submission.names import composed, harmless
 
 LMS = 'moodle'
 _OURS = '<p>Graded by ./lab grade: '  # with this a comment begins that the next one replaces
@@ -251,7 +251,7 @@ def _participant(row: Sequence[str]) -> str:
 
 def _letters(name: str) -> str:
     """Return what Moodle leaves of a name when it makes one of a folder of it, and no more."""
-    return ''.join(filter(str.isalnum, name)).casefold()
+    return ''.join(filter(str.isalnum, composed(name))).casefold()
 
 
 def _html(text: str) -> str:

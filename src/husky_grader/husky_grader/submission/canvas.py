@@ -4,10 +4,11 @@
 What Canvas gives for "Download Submissions".
 
 All files lie side by side, as `NAME_[LATE_]USER_FILE_ORIGINAL`: the name of the student or group
-in small letters and without what is no letter, the number of the user, the number of the file,
-which grows with time, and the name it was handed in under. Anonymous ones have `anon_` and five
-characters for the name and the user. Texts and links end in `_text.html` and `_link.html`. Source:
-get_filename and add_upload_submission in lib/content_zipper.rb, github.com/instructure/canvas-lms.
+in small letters and without what is neither letter nor mark on one, the number of the user, the
+number of the file, which grows with time, and the name it was handed in under. Anonymous ones have
+`anon_` and five characters for the name and the user. Texts and links end in `_text.html` and
+`_link.html`. Source: get_filename and add_upload_submission in lib/content_zipper.rb,
+github.com/instructure/canvas-lms.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,6 +18,7 @@ import re
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
 from husky_grader.submission.limits import Refused
 from husky_grader.submission.listing import Listing
+from husky_grader.submission.names import composed, is_of_a_word
 from husky_grader.submission.submission import Submission
 
 _NUMBER = re.compile(r'[1-9]\d{0,17}', re.ASCII)
@@ -71,8 +73,8 @@ def _parse(top: str) -> _File | None:
 
 def _parsed(top: str, before: list[str], user: str, after: list[str]) -> _File | None:
     late = before[-1:] == ['LATE']
-    name = '_'.join(before[:-1] if late else before)
-    if name != name.lower() or not re.fullmatch(r'\w*', name):
+    name = composed('_'.join(before[:-1] if late else before))
+    if name != name.lower() or not all(map(is_of_a_word, name)):
         return None
     if len(after) == 1 and after[0] in _TEXTS:
         return _File(top, name, late, user, 0, after[0])

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from husky_grader.submission.listing import Listing
-from husky_grader.submission.names import without_ending
+from husky_grader.submission.names import composed, without_ending
 from husky_grader.submission.submission import Submission
 
 _MARK = '_assignsubmission_'
@@ -39,6 +39,7 @@ def moodle_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> l
         if not mark:
             found.append(_other(listing, top, names))
             continue
+        prefix = composed(prefix)
         name, _, user = prefix.rpartition('_')
         whose = (name, user) if name and user.isdecimal() else (prefix, '')
         of_student = handed.setdefault(whose, _Handed())

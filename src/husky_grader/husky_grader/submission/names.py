@@ -6,7 +6,9 @@ from collections.abc import Iterable, Sequence
 from itertools import count
 from pathlib import Path
 import re
+import unicodedata
 
+_HARMLESS = ' .+()=,@-'  # beside letters, digits and _
 _LONGEST_NAME = 100  # bytes
 _ENDINGS = re.compile(r'(?<=.)(\.tar)?\.(zip|tar|t[gbx]z|tbz2|gz|bz2|xz|ya?ml)$', re.IGNORECASE)
 
@@ -33,8 +35,19 @@ def folder_names(places: Sequence[Path], *, taken: Iterable[str] = ()) -> list[s
 
 def harmless(name: str) -> str:
     """Return a name that every file system takes, and that hides no file."""
-    name = re.sub(r'[^\w .+()=,@-]', '_', name, flags=re.UNICODE).strip(' .')
+    kept = (c if is_of_a_word(c) or c in _HARMLESS else '_' for c in composed(name))
+    name = ''.join(kept).strip(' .')
     return name.encode()[:_LONGEST_NAME].decode(errors='ignore') or 'unnamed'
+
+
+def composed(name: str) -> str:
+    """Return a name with each letter and its accents in one: macOS takes them apart in files."""
+    return unicodedata.normalize('NFC', name)
+
+
+def is_of_a_word(char: str) -> bool:
+    """Tell whether it is a letter, a digit, an underscore, or a mark on a letter."""
+    return char.isalnum() or unicodedata.category(char) in ('Mn', 'Mc', 'Me', 'Pc')
 
 
 def without_ending(name: str) -> str:
