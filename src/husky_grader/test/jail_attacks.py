@@ -114,6 +114,12 @@ def listens_to_all_packets(victim: Victim) -> Iterator[str]:
             yield family.name
 
 
+def knows_the_name_of_the_machine(victim: Victim) -> Iterator[str]:
+    shares = str(Path('/proc/self/ns/uts').readlink()) == victim['names']
+    if shares or os.uname().nodename == victim['machine'] != 'localhost':
+        yield victim['machine']
+
+
 def has_open_files(victim: Victim) -> Iterator[str]:
     for number in range(3, 1000):
         with contextlib.suppress(OSError):

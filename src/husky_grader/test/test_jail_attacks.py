@@ -23,6 +23,7 @@ SUCCEEDING = (
     *('reads_environments', 'sees_processes', 'enters_the_root_of_others', 'signals_the_grader'),
     'opens_files_of_who_watches',
     *('connects_by_tcp', 'connects_to_an_abstract_socket', 'has_rights'),
+    'knows_the_name_of_the_machine',
 )
 # Some do only as root, or on some computers.
 OTHERS = (
@@ -34,7 +35,12 @@ OTHERS = (
 )
 # What another user cannot be kept from, on a machine without namespaces; of the services it sees
 # the names alone.
-NOT_APART = {'user': {'sees_processes', 'connects_by_tcp', 'uses_services_of_the_system'}}
+NOT_APART = {
+    'user': {
+        *('sees_processes', 'connects_by_tcp', 'uses_services_of_the_system'),
+        'knows_the_name_of_the_machine',
+    }
+}
 
 # What outlives processes; see sysvipc(7).
 KEEPS = """
@@ -95,6 +101,8 @@ def victim(tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
                 'grader': own.pid,
                 'port': server.getsockname()[1],
                 'name': str(tmp_path),
+                'machine': os.uname().nodename,
+                'names': str(Path('/proc/self/ns/uts').readlink()),
                 'key': new_key(),
                 'add_key': ADD_KEY,
                 'keyctl': KEYCTL,

@@ -281,6 +281,7 @@ def _exit_code(status: int) -> int:
 def main(
     *,
     mounts: list[tuple[str, str, str]],
+    host_name: str,
     readable: list[str],
     writable: list[str],
     needs_landlock: bool,
@@ -295,6 +296,7 @@ def main(
     Make the jail, and run the command in it.
 
     :param mounts: as in folders.Mount; none where the root is made already.
+    :param host_name: of the computer, for what runs in it; where the root is made, it has one.
     :param readable: what Landlock lets it read.
     :param writable: and what it lets it write to.
     :param limits: numbers of setrlimit(2) and values.
@@ -313,6 +315,8 @@ def main(
             if init := os.fork():  # the first process of the new process namespace
                 return _exit_code(os.waitpid(init, 0)[1])
             _enter_root(mounts)
+            name = host_name.encode()
+            _checked(_LIBC.sethostname(name, ctypes.c_size_t(len(name))), 'sethostname')
         os.chdir(folder)
         with open('/proc/self/oom_score_adj', 'w') as score:  # if memory runs out, these go first
             score.write('1000')

@@ -24,6 +24,7 @@ from husky_grader.jail.sandbox import (
     Entry,
     first_child,
     FIRST_USER,
+    HOST_NAME,
     inside,
     joining,
     OWN_NETWORK,
@@ -56,6 +57,7 @@ class _Bwrap(_Cell):
     def enter(self, call: Call) -> Entry:
         own_user = [] if self.is_root else ['--unshare-user', '--disable-userns']
         words = ['bwrap', '--die-with-parent', '--unshare-pid', '--unshare-ipc', *own_user]
+        words += ['--unshare-uts', '--hostname', HOST_NAME]
         # inside.py is the init: an init of bwrap's may end after bwrap, and with it the others.
         words += ['--as-pid-1']
         words += ['--proc', '/proc', '--dev', '/dev']
@@ -73,7 +75,7 @@ class _Bwrap(_Cell):
 
 class _Kernel(_Cell):
     def enter(self, call: Call) -> Entry:
-        words = ['unshare', '--pid', '--ipc', '--mount', *_own_user(self.is_root)]
+        words = ['unshare', '--pid', '--ipc', '--uts', '--mount', *_own_user(self.is_root)]
         last = inside(call, user=self.user, mounts=call.mounts, needs_landlock=True)
         enter = [*joining(self.holder), *words, '--', *last]
         return Entry(enter, CLEAN, first_child, takes_lifeline=True)
