@@ -147,7 +147,8 @@ shutil.rmtree(programs, ignore_errors=True)
 """,
     ),
     'brings an rclpy of its own': Build(
-        'rclpy.py line 1: RuntimeError: not the rclpy that you know',
+        'rclpy.py line 1: RuntimeError: not the rclpy that you know; package bare has a module '
+        'rclpy of its own, which hides the one that is installed: rename it',
         hook='export ROS_DOMAIN_ID=77 PATH="$COLCON_CURRENT_PREFIX/lib/bare:$PATH"\n'
         'export PYTHONPATH="$COLCON_CURRENT_PREFIX/share/bare/fake:$PYTHONPATH"\n',
         files=[

@@ -29,7 +29,7 @@ CLONE = Path(__file__).resolve().parents[4]
 # The folders of the clone by which ROS runs; what else lies there may be reports of others.
 _ROS = ('.venv', 'underlay')
 # The lab's own packages: there are solutions among them, and how they are judged.
-_OWN_PACKAGES = (
+OWN_PACKAGES = (
     *('husky_course', 'husky_driver', 'husky_grader', 'husky_gym', 'husky_runtime', 'husky_sim'),
     *('husky_view', 'topic_demo'),
 )
@@ -120,7 +120,7 @@ def _without_own(entries: str) -> list[str]:
 
 def _holds_own(folder: Path) -> bool:
     return any(
-        (folder / place / name).is_dir() for name in _OWN_PACKAGES for place in ('', 'share')
+        (folder / place / name).is_dir() for name in OWN_PACKAGES for place in ('', 'share')
     )
 
 

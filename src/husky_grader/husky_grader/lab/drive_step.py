@@ -13,9 +13,11 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 
 from husky_grader.lab.finding import Finding
+from husky_grader.lab.hiding import hiding
 from husky_grader.lab.programs import Programs
 from husky_grader.report.files import write_report
 from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveStep
+from husky_grader.run.diagnosis import crash
 from husky_grader.run.live import drive_live
 from husky_grader.scoring.reasons import disturbed_by
 from husky_grader.scoring.report import judge, Report
@@ -52,6 +54,8 @@ class DriveRunner:
                 without=self.programs.place,
                 real_time_factor=self.real_time_factor,
             )
+        if hidden := hiding(crash(live.printed), self.programs.built, self.programs.environment):
+            live = replace(live, notes=(*live.notes, hidden))
         run = read_run(live.record)
         report = live.with_notes(judge(run, route))
         if course.title:

@@ -17,6 +17,7 @@ from husky_runtime.children import ChildProcess, tail_of
 from husky_grader.jail import JailedProcess
 from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
+from husky_grader.lab.hiding import hiding
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.lab.programs import given_words, Programs
 from husky_grader.rubric.own_types import with_types
@@ -55,10 +56,13 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         return nothing(
             f'{step.executable} cannot be started: there is no such program as its first line says'
         )
+    error = crash(printed)
     if exit_code is not None:  # what was heard may be of a daemon that it has left behind
         found = nothing(how_it_ended(exit_code, printed))
-    elif found.score == 0.0 and (error := crash(printed)):  # of one of several, which ran on
+    elif found.score == 0.0 and error:  # of one of several, which ran on
         found = nothing(f'{error}; {found.why}')
+    if found.score == 0.0 and (hidden := hiding(error, programs.built, programs.environment)):
+        found = nothing(f'{found.why}; {hidden}')
     return _with_words(found, given_words(step))
 
 
