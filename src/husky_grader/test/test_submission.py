@@ -231,10 +231,23 @@ def test_unpacking_again_replaces_what_was_there(tmp_path: Path) -> None:
         ({'report.pdf': '%PDF-'}, 'only report.pdf is in it; hand in the workspace'),
         (
             {'my_path.yaml': COURSE, 'b.yaml': COURSE},
-            'no package in it .* but: b.yaml, my_path.yaml; hand in',
+            'no package in it .* but: b.yaml, my_path.yaml; hand in the workspace, with your '
+            'packages in src, or the waypoint file alone where one is asked for',
+        ),
+        (
+            {'ws/ws.zip': '', 'ws/report.pdf': ''},
+            r'no package in it .* but: ws/ws\.zip; hand in that one',
+        ),
+        (
+            {'class/ann.zip': '', 'class/cem.TGZ': ''},
+            r'no package in it .* but: class/ann\.zip, class/cem\.TGZ; hand in one; a whole class '
+            'is given unpacked, or as the export that it was',
         ),
     ],
-    ids=['no package', 'empty', 'two', 'only built', 'a report', 'two courses'],
+    ids=[
+        *('no package', 'empty', 'two', 'only built', 'a report', 'two courses', 'an archive'),
+        'a class',
+    ],
 )
 def test_what_is_no_workspace_is_named(tmp_path: Path, files: dict[str, str], why: str) -> None:
     with pytest.raises(Refused, match=f'^[^\n]*ann.zip: {why}[^\n]*$'):

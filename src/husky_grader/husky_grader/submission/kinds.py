@@ -31,9 +31,12 @@ def kind_of(head: bytes, name: str) -> Kind:
         return 'zip'
     if head.startswith((GZIP, BZIP2, XZ)) or head[_USTAR_AT:].startswith(b'ustar'):
         return 'tar'
-    if name.lower().endswith(('.yaml', '.yml')):
-        return 'yaml'
-    return 'unknown'
+    return 'yaml' if is_called_yaml(name) else 'unknown'
+
+
+def is_called_yaml(name: str) -> bool:
+    """Tell whether a file has the ending of a waypoint file."""
+    return name.lower().endswith(('.yaml', '.yml'))
 
 
 def why_not(head: bytes) -> str:

@@ -8,6 +8,8 @@ from pathlib import Path
 import re
 import unicodedata
 
+from husky_grader.submission.kinds import is_called_yaml
+
 _HARMLESS = ' .+()=,@-'  # beside letters, digits and _
 _LONGEST_NAME = 100  # bytes
 _ENDINGS = re.compile(r'(?<=.)(\.tar)?\.(zip|tar|t[gbx]z|tbz2|gz|bz2|xz|ya?ml)$', re.IGNORECASE)
@@ -58,6 +60,11 @@ def without_ending(name: str) -> str:
     'CSE461_07_03'
     """
     return _ENDINGS.sub('', name)
+
+
+def is_called_archive(name: str) -> bool:
+    """Tell whether a file has the ending of an archive."""
+    return not is_called_yaml(name) and without_ending(name) != name
 
 
 def _unique(name: str, taken: set[str]) -> str:

@@ -8,9 +8,9 @@ from pathlib import Path
 import shutil
 from typing import Literal
 
-from husky_grader.submission.kinds import HEAD_BYTES, kind_of
+from husky_grader.submission.kinds import HEAD_BYTES, is_called_yaml, kind_of
 from husky_grader.submission.limits import BUILT, COPY, FOLDERS_OF_COLCON, IGNORED, Refused
-from husky_grader.submission.names import folder_names
+from husky_grader.submission.names import folder_names, is_called_archive
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
 _MANIFEST = 'package.xml'
@@ -108,8 +108,7 @@ def _find_root(tree: TreeWriter, made: Sequence[Parts]) -> _Root:
     if not packages:
         for parts, what in tree.others.items():
             raise _not_plain(parts, what)
-        found = _listed(sorted({parts[:1] for parts in tree.files}))
-        raise Refused(f'no package in it (no {_MANIFEST}), but: {found}; {_HAND_IN}')
+        raise Refused(f'no package in it (no {_MANIFEST}), but: {_instead(tree)}')
     roots = sorted({parts[: parts.index('src')] for parts in packages if 'src' in parts})
     if len(roots) > 1:
         raise Refused(f'{len(roots)} workspaces in it: {_listed(roots)}; hand in one')
@@ -118,6 +117,19 @@ def _find_root(tree: TreeWriter, made: Sequence[Parts]) -> _Root:
     if () in packages:
         return _Root((), 'package')
     return _Root(common_start([parts[:-1] for parts in packages]), 'packages')
+
+
+def _instead(tree: TreeWriter) -> str:
+    """Return what is there in the place of packages, and what to do."""
+    archives = sorted(parts for parts in tree.files if is_called_archive(parts[-1]))
+    if archives:
+        alone = 'hand in that one'
+        several = 'hand in one; a whole class is given unpacked, or as the export that it was'
+        return f'{_listed(archives)}; {several if len(archives) > 1 else alone}'
+    found = _listed(sorted({parts[:1] for parts in tree.files}))
+    if any(is_called_yaml(parts[-1]) for parts in tree.files):
+        return f'{found}; {_HAND_IN}, or the waypoint file alone where one is asked for'
+    return f'{found}; {_HAND_IN}'
 
 
 def _is_built(parts: Parts) -> bool:
