@@ -15,7 +15,7 @@ from husky_grader.outputs import write_outputs, write_student_page
 from husky_grader.outputs.class_page import class_page
 from husky_grader.outputs.class_summary import summarize, without_names
 from husky_grader.outputs.histogram import histogram
-from husky_grader.submission import Submission
+from husky_grader.submission import find_submissions, Refused, Submission, unpack
 from husky_grader.submission.limits import BUILT, COPY
 from playpen_testing.graded_class import a_class, full, HOSTILE, MOST, partial, refused, submission
 import pytest
@@ -150,6 +150,20 @@ def test_a_student_sees_the_drives_but_no_hidden_one(tmp_path: Path) -> None:
     (tmp_path / 'drive_4').mkdir()
     path = write_student_page(tmp_path, full(submission(1)))
     assert Page(path.read_text()).links == [f'{name}/report.html' for name in shown]
+
+
+def test_a_name_that_is_not_shown_as_it_is_tells_no_place(tmp_path: Path) -> None:
+    # With the character that joins no letters, as many Persian names have it.
+    source = tmp_path / 'علی\u200cرضا.zip'
+    source.write_bytes(b'Rar!\x1a\x07')
+    (one,) = find_submissions([str(source)])
+    with pytest.raises(Refused) as why:
+        unpack(one, tmp_path / 'unpacked')
+    page = Page(
+        write_student_page(tmp_path, replace(full(one), refused=str(why.value))).read_text()
+    )
+    assert 'a RAR archive; hand in' in page.text
+    assert str(tmp_path) not in page.text
 
 
 def test_a_student_sees_no_place_of_this_machine(tmp_path: Path) -> None:

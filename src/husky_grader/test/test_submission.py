@@ -7,11 +7,13 @@ import io
 import os
 from pathlib import Path
 import subprocess
+import sys
 import tarfile
 import zipfile
 
 from husky_grader.grade import main as grade
 from husky_grader.submission import find_submissions, Refused, Submission, unpack, Workspace
+from playpen_testing.jails import as_ordinary_user
 import pytest
 
 PACKAGE = {'topic_demo/package.xml': '<package/>', 'topic_demo/topic_demo/talk.py': 'pass\n'}
@@ -253,6 +255,29 @@ def test_what_is_no_workspace_is_named(tmp_path: Path, files: dict[str, str], wh
     with pytest.raises(Refused, match=f'^[^\n]*ann.zip: {why}[^\n]*$'):
         unpacked(in_zip(tmp_path / 'ann.zip', files))
     assert list((tmp_path / 'unpacked').iterdir()) == []
+
+
+UNPACKED = """
+from pathlib import Path
+import sys
+from husky_grader.submission import find_submissions, unpack
+try:
+    unpack(*find_submissions(sys.argv[1:2]), Path(sys.argv[2]))
+except ValueError as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize('closed', ['src', 'src/topic_demo/package.xml'])
+def test_what_may_not_be_read_is_told_by_its_own_path(tmp_path: Path, closed: str) -> None:
+    place = in_folder(tmp_path / 'ann', SOURCES)
+    mode = (place / closed).stat().st_mode
+    (place / closed).chmod(0)
+    command = [sys.executable, '-c', UNPACKED, str(place), str(tmp_path / 'out')]
+    done = subprocess.run(as_ordinary_user(command), capture_output=True, text=True)
+    (place / closed).chmod(mode)
+    told = f'{place}: {closed} may not be read; give the grader the right to\n'
+    assert (done.stdout, done.stderr) == (told, '')
 
 
 def test_an_archive_in_an_archive_is_not_unpacked(tmp_path: Path) -> None:

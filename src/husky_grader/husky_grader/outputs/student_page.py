@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from husky_course.files import replacing
+from husky_course.printable import printable
 
 from husky_grader.graded import Graded
 from husky_grader.outputs.class_summary import as_points
@@ -63,7 +64,8 @@ def student_page(graded: Graded, drives: Sequence[tuple[str, str]]) -> str:
 
 def why_refused(graded: Graded) -> str:
     """Return why it was refused, without the place where it lay on this machine."""
-    return graded.refused.removeprefix(f'{graded.submission.place}: ')
+    # As it is shown, for that it may be already.
+    return printable(graded.refused).removeprefix(f'{printable(graded.submission.place)}: ')
 
 
 def write_student_page(folder: Path, graded: Graded) -> Path:

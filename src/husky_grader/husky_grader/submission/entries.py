@@ -68,10 +68,11 @@ def what_is(mode: int) -> str:
 
 
 @contextmanager
-def refusing_what_is_broken() -> Iterator[None]:
+def refusing_what_is_broken(path: str = '') -> Iterator[None]:
     """
     Turn what goes wrong with the bytes of a submission into its refusal.
 
+    :param path: what its student calls what is read; else the message may have a folder of ours.
     :raises Refused: instead.
     """
     try:
@@ -79,16 +80,18 @@ def refusing_what_is_broken() -> Iterator[None]:
     except Refused:
         raise
     except PermissionError as error:
-        what = error.filename or 'it'
+        what = path or error.filename or 'it'
         raise Refused(f'{what} may not be read; give the grader the right to') from None
     except _BROKEN as error:
         why = ' '.join(str(error).split()) or type(error).__name__
         raise Refused(f'broken or incomplete ({why}); pack and hand it in again') from None
 
 
-def read_chunks(open_file: Callable[[], IO[bytes]], meter: Meter | None) -> Iterator[bytes]:
+def read_chunks(
+    open_file: Callable[[], IO[bytes]], meter: Meter | None, path: str = ''
+) -> Iterator[bytes]:
     """Read a file chunk by chunk; no meter where its bytes are counted already."""
-    with refusing_what_is_broken(), open_file() as file:
+    with refusing_what_is_broken(path), open_file() as file:
         while chunk := file.read(CHUNK_BYTES):
             if meter is not None:
                 meter.add_bytes(len(chunk))
@@ -97,11 +100,11 @@ def read_chunks(open_file: Callable[[], IO[bytes]], meter: Meter | None) -> Iter
 
 def file_entry(file: Path, path: str, meter: Meter) -> Entry:
     """Return the entry of a file on the disk; a link is not followed."""
-    with refusing_what_is_broken():
+    with refusing_what_is_broken(path):
         mode = file.lstat().st_mode
 
     def chunks() -> Iterator[bytes]:
-        return read_chunks(lambda: file.open('rb'), meter)
+        return read_chunks(lambda: file.open('rb'), meter, path)
 
     return Entry(path, what_is(mode), chunks, bool(mode & stat.S_IXUSR))
 
@@ -111,16 +114,16 @@ def folder_entries(folder: Path, meter: Meter) -> Iterator[Entry]:
     waiting = [(folder, '')]
     while waiting:
         path, given = waiting.pop()
-        for name in _names_in(path, meter):
+        for name in _names_in(path, given, meter):
             entry = file_entry(path / name, f'{given}{name}', meter)
             yield entry
             if entry.what == FOLDER:
                 waiting.append((path / name, f'{given}{name}/'))
 
 
-def _names_in(folder: Path, meter: Meter) -> list[str]:
+def _names_in(folder: Path, given: str, meter: Meter) -> list[str]:
     names = []
-    with refusing_what_is_broken(), os.scandir(folder) as found:
+    with refusing_what_is_broken(given.rstrip('/')), os.scandir(folder) as found:
         for each in found:
             meter.add_entry()
             if not is_left_out(each.name):

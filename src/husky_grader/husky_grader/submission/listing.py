@@ -132,7 +132,7 @@ def visible(folder: Path) -> list[str]:
 
     :raises Refused: when it cannot be read.
     """
-    with refusing_what_is_broken():
+    with refusing_what_is_broken(folder.name):
         names = [path.name for path in folder.iterdir()]
     return sorted(n for n in names if not (is_left_out(n) or n.startswith('.')))
 
@@ -142,7 +142,7 @@ def submission_at(path: Path, name: str = '') -> Submission:
     kind: Kind = 'unknown'
     refused = ''
     try:
-        with refusing_what_is_broken():
+        with refusing_what_is_broken(path.name):
             kind, refused = _kind_at(path)
     except Refused as error:
         refused = str(error)
@@ -165,5 +165,5 @@ def _kind_at(path: Path) -> tuple[Kind, str]:
 
 def head_of(path: Path, most: int) -> bytes:
     """Return the first bytes of a file; Refused where it cannot be read."""
-    with refusing_what_is_broken(), path.open('rb') as file:
+    with refusing_what_is_broken(path.name), path.open('rb') as file:
         return file.read(most)
