@@ -13,6 +13,7 @@ import zipfile
 
 from husky_grader.grade import main as grade
 from husky_grader.submission import find_submissions, Refused, Submission, unpack, Workspace
+from husky_grader.submission.git import why_not
 from playpen_testing.jails import as_ordinary_user
 import pytest
 
@@ -303,6 +304,18 @@ def test_git_obeys_nothing_of_a_bare_repository(tmp_path: Path) -> None:
     workspace = unpacked(bare)
     assert tree(workspace.path) == SOURCES
     assert not (tmp_path / 'sprung').exists()
+
+
+def test_a_bare_repository_of_another_user_is_not_called_broken(tmp_path: Path) -> None:
+    bare = in_bare_git(tmp_path / 'ann.git', SOURCES)
+    command = ['git', 'clone', '--bare', '--no-local', '--', str(bare), str(tmp_path / 'clone')]
+    other = {**os.environ, 'LC_ALL': 'C', 'GIT_TEST_ASSUME_DIFFERENT_OWNER': '1'}
+    done = subprocess.run(command, env=other, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert why_not(done.stderr) == (
+        'a bare repository of another user, which git does not read; copy it (cp -r), and give '
+        'the copy'
+    )
 
 
 def test_a_bare_repository_without_a_commit_is_refused(tmp_path: Path) -> None:

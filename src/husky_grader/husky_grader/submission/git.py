@@ -16,6 +16,9 @@ from husky_grader.submission.limits import Meter, Refused
 
 _GIT_WITHIN_SEC = 60.0  # wall time of each call
 
+# What it says where somebody else owns a repository, from 2.35.2 and from 2.36 on.
+_OF_ANOTHER = ('unsafe repository', 'dubious ownership')
+
 
 def is_bare(folder: Path) -> bool:
     """Tell whether a folder is a bare repository."""
@@ -83,8 +86,18 @@ def _run(*arguments: str) -> None:
     except subprocess.TimeoutExpired:
         raise Refused(f'git takes more than {_GIT_WITHIN_SEC:g} s; hand in a zip') from None
     if done.returncode != 0:
-        said = done.stderr.strip().splitlines() or ['there is no commit']
-        raise Refused(f'git cannot read it ({said[-1]}); push a commit, or hand in a zip')
+        raise Refused(why_not(done.stderr))
+
+
+def why_not(said: str) -> str:
+    """Return in one line why git cannot read a repository, from what it says of that."""
+    if any(words in said for words in _OF_ANOTHER):
+        return (
+            'a bare repository of another user, which git does not read; copy it (cp -r), and '
+            'give the copy'
+        )
+    lines = said.strip().splitlines() or ['there is no commit']
+    return f'git cannot read it ({lines[-1]}); push a commit, or hand in a zip'
 
 
 def _environment() -> dict[str, str]:
