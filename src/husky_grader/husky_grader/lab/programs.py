@@ -3,7 +3,7 @@
 """The programs of a workspace that was built."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 import json
 import os
@@ -16,6 +16,7 @@ from husky_grader.lab.file_steps import find_packages, Manifest, text_of
 from husky_grader.rubric.steps import ProgramStep
 
 MAX_DEPTH = 32  # folders in each other below share/PACKAGE, in which a launch file is looked for
+MAX_FIRST_LINE = 256  # bytes; Linux reads no more of one
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
 
 
@@ -104,6 +105,15 @@ def given_words(step: ProgramStep) -> list[str]:
         for name, value in step.parameters.items():
             words += ['-p', f'{name}:={json.dumps(value)}']  # JSON is YAML, as rcl reads it
     return words
+
+
+def of_windows(program: Path) -> str:
+    """Return that a script cannot be started for its line ends; nothing if they are those here."""
+    with suppress(OSError), program.open('rb') as stream:
+        line = stream.readline(MAX_FIRST_LINE)
+        if line.startswith(b'#!') and line.endswith(b'\r\n'):
+            return 'its lines end as on Windows (CRLF); save it with those of Linux (LF)'
+    return ''
 
 
 def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
