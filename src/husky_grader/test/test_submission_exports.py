@@ -323,13 +323,14 @@ def test_one_bad_entry_does_not_hide_the_others(tmp_path: Path) -> None:
 
 
 def test_ids_are_harmless_unique_and_always_the_same(tmp_path: Path) -> None:
-    for name in ('one/ann.zip', 'one/$(rm).tar', 'two/Ann.zip', 'two/ann.tar.gz'):
+    for name in ('one/ann.zip', 'one/$(rm).tar', 'two/Ann.zip', 'two/ann.tar.gz', 'three/-rf.zip'):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_bytes(packed())
     given = [str(tmp_path / 'one'), str(tmp_path / 'two')]
     found = find_submissions(given)
     assert [one.id for one in found] == ['one__(rm)', 'one_ann', 'two_Ann', 'two_ann_2']
     assert find_submissions(given) == found
+    assert [one.id for one in find_submissions([str(tmp_path / 'three')])] == ['rf']
 
 
 @pytest.mark.parametrize('inside', ['src', 'package.xml', 'a/package.xml', '.git'])

@@ -36,9 +36,9 @@ def folder_names(places: Sequence[Path], *, taken: Iterable[str] = ()) -> list[s
 
 
 def harmless(name: str) -> str:
-    """Return a name that every file system takes, and that hides no file."""
+    """Return a name that every file system takes, that hides no file, and is no option."""
     kept = (c if is_of_a_word(c) or c in _HARMLESS else '_' for c in composed(name))
-    name = ''.join(kept).strip(' .')
+    name = ''.join(kept).lstrip(' .-').rstrip(' .')
     return name.encode()[:_LONGEST_NAME].decode(errors='ignore') or 'unnamed'
 
 
