@@ -124,6 +124,27 @@ def test_of_a_launch_file_the_error_of_its_own_parser_is_told(tmp_path: Path) ->
     assert reasons(about, '', (), 1) == ('it crashed (exit code 1)',)
 
 
+@pytest.mark.parametrize(
+    ('program', 'told'),
+    [
+        (
+            'import faulthandler, ctypes\nfaulthandler.enable()\nctypes.string_at(0)',
+            'Segmentation',
+        ),
+        (
+            'import os, sys\nos.environ["PYTHONHOME"] = "/no"\nos.execv(sys.executable, ["x"])',
+            'init',
+        ),
+    ],
+    ids=['in a library', 'at the start'],
+)
+def test_where_python_itself_ends_its_own_word_is_told(
+    tmp_path: Path, program: str, told: str
+) -> None:
+    (reason,) = reasons(printed_by(program, tmp_path), '', (), 1)
+    assert reason.startswith(f'it crashed (exit code 1): Fatal Python error: {told}')
+
+
 def test_an_end_that_was_asked_for_is_no_error(
     domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -38,6 +38,7 @@ LIBRARIES = tuple(
 _LAUNCHED = re.compile(r'\[[\w.-]+-\d+\] ')  # what `ros2 launch` puts before each line
 _LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
 _OF_LAUNCH = '[INFO] [launch]: '  # where its logs are, and how much it tells
+_FATAL = 'Fatal Python error: '  # Python lists frames and modules below it
 _NOTE = '[ended by the grader: '
 _TRIED = ' - '  # before what each parser of upstream's launch says of a file that none can read
 _FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
@@ -112,6 +113,8 @@ def last_line(printed: str) -> str:
             return next((line for line in tried if not line.endswith(':')), tried[0])
         return ' '.join(map(str.strip, told))
     told = [line for line in lines if not line.startswith(_OF_LAUNCH)]
+    if not told[-1:] or not told[-1].startswith(_NOTE):
+        told = [line for line in told if line.startswith(_FATAL)] or told
     return told[-1].strip() if told else ''
 
 
