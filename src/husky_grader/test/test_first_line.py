@@ -18,6 +18,7 @@ import pytest
 (PUBLISHES,) = (
     step for step in load_rubric(default_rubric()).steps if isinstance(step, PublisherStep)
 )
+SAVE, ENV = 'save it as UTF-8 without one', '#!/usr/bin/env python3'
 ON_WINDOWS = 'its lines end as on Windows (CRLF); save it with those of Linux (LF)'
 
 
@@ -39,6 +40,9 @@ def built(folder: Path, package: str, executable: str, first_line: str) -> Progr
         ('#!/usr/bin/env no_such_python\n', 'there is no such program as its first line says'),
         ('#!/usr/bin/env python3\r\n', ON_WINDOWS),
         ('#!/usr/bin/python3\r\n', ON_WINDOWS),
+        ('\ufeff#!/usr/bin/env python3\n', f'it begins with a byte order mark; {SAVE}'),
+        ('import sys\n', f'its first line has to say by what it runs: {ENV}'),
+        ('', f'its first line has to say by what it runs: {ENV}'),
     ],
 )
 def test_a_program_that_cannot_be_started_is_told_why(

@@ -19,7 +19,7 @@ from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.hiding import hiding
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
-from husky_grader.lab.programs import given_words, of_windows, Programs
+from husky_grader.lab.programs import given_words, Programs, wrong_begin
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
 from husky_grader.run.diagnosis import crash, how_ended, last_line, shortened
@@ -52,9 +52,12 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         found = _observe(step, jail.beside, ours, program, log, programs.world)
         exit_code = program.exit_code
     printed = read_printed(log, without=programs.place)
-    if exit_code == NO_PROGRAM and step.executable and printed:
-        why = of_windows(Path(command[0])) or 'there is no such program as its first line says'
-        return nothing(f'{step.executable} cannot be started: {why}')
+    if exit_code is not None and step.executable:
+        why = wrong_begin(Path(command[0]))
+        if exit_code == NO_PROGRAM and printed:
+            why = why or 'there is no such program as its first line says'
+        if why:
+            return nothing(f'{step.executable} cannot be started: {why}')
     error = crash(printed)
     if exit_code is not None:  # what was heard may be of a daemon that it has left behind
         found = nothing(how_it_ended(exit_code, printed))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The programs of a workspace that was built."""
 
+from codecs import BOM_UTF8
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from husky_grader.rubric.steps import ProgramStep
 
 MAX_DEPTH = 32  # folders in each other below share/PACKAGE, in which a launch file is looked for
 MAX_FIRST_LINE = 256  # bytes; Linux reads no more of one
+_ELF = b'\x7fELF'  # elf(5): a program that was compiled
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
 
 
@@ -107,10 +109,14 @@ def given_words(step: ProgramStep) -> list[str]:
     return words
 
 
-def of_windows(program: Path) -> str:
-    """Return that a script cannot be started for its line ends; nothing if they are those here."""
+def wrong_begin(program: Path) -> str:
+    """Return why the first line of a program keeps it from being started; nothing if it does."""
     with suppress(OSError), program.open('rb') as stream:
         line = stream.readline(MAX_FIRST_LINE)
+        if line.startswith(BOM_UTF8):
+            return 'it begins with a byte order mark; save it as UTF-8 without one'
+        if not line.startswith((b'#!', _ELF)):
+            return 'its first line has to say by what it runs: #!/usr/bin/env python3'
         if line.startswith(b'#!') and line.endswith(b'\r\n'):
             return 'its lines end as on Windows (CRLF); save it with those of Linux (LF)'
     return ''
