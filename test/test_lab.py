@@ -253,19 +253,61 @@ def test_a_full_disk_loses_the_report_not_the_result(
     assert 'Traceback' not in run.output
 
 
+def in_small_shared_memory(processes: Processes, *words: str | Path) -> Process:
+    # Enough for one of the two nodes: Fast DDS then loses what the other sends, and says nothing.
+    small = 'mount -t tmpfs -o size=1300k tmpfs /dev/shm && exec "$0" "$@"'
+    unshare = ('unshare', '--map-root-user', '--mount', 'bash', '-c', small)
+    return processes.start(*unshare, LAB, *map(str, words))
+
+
 def test_shared_memory_that_is_too_small_for_a_run_is_refused(
     processes: Processes, tmp_path: Path, short_course: Path
 ) -> None:
-    # Enough for one of the two nodes: Fast DDS then loses what the other sends, and says nothing.
-    small = 'mount -t tmpfs -o size=1300k tmpfs /dev/shm && exec "$0" "$@"'
-    run = processes.start(
-        *('unshare', '--map-root-user', '--mount', 'bash', '-c', small, LAB),
-        *('drive', '--fast', '--no-view', '--report', str(tmp_path), str(short_course)),
+    run = in_small_shared_memory(
+        processes, 'drive', '--fast', '--no-view', '--report', tmp_path, short_course
     )
     refused = rclpy.get_rmw_implementation_identifier() == FAST_DDS
     assert run.wait(timeout_sec=60.0) == (2 if refused else 0), run.output
     said = 'lab drive: /dev/shm has less than 4 MB left, too few for the messages of a run: remove'
     assert [line for line in run.lines if line.startswith(said)] != [] or not refused, run.output
+
+
+def test_a_simulator_and_a_grading_refuse_it_too(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    refused = rclpy.get_rmw_implementation_identifier() == FAST_DDS
+    launch = ('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py')
+    run = in_small_shared_memory(processes, 'exec', *launch)
+    said = 'husky_sim: /dev/shm has less than 2 MB left, too few' if refused else '34 obstacles'
+    run.wait_for_text(said, timeout_sec=60.0)
+    driver = f'ros2 run husky_driver follow_path --waypoints {short_course}'
+    given = ('--controller', driver, '--waypoints', short_course, '--report', tmp_path)
+    grading = in_small_shared_memory(processes, 'grade', *given)
+    assert grading.wait(timeout_sec=60.0) == (2 if refused else 0), grading.output
+    said = '/dev/shm has less than 4 MB left, too few for the messages of a run: remove'
+    assert grading.lines[-1].startswith(said) or not refused, grading.output
+
+
+FILLED_MEANWHILE = """
+mount -t tmpfs -o size=2300k tmpfs /dev/shm
+"$0" exec ros2 run husky_sim husky_sim > "$2" 2>&1 &
+until grep -q 'real time' "$2"; do sleep 0.1; done
+head -c 1M /dev/zero > /dev/shm/filling
+"$0" exec ros2 run husky_driver follow_path --waypoints "$1"
+kill %1
+wait
+"""
+
+
+def test_a_driver_names_shared_memory_that_was_filled_meanwhile(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    words = ('unshare', '--map-root-user', '--mount', 'bash', '-c', FILLED_MEANWHILE, LAB)
+    run = processes.start(*words, str(short_course), str(tmp_path / 'simulator.log'))
+    loses = rclpy.get_rmw_implementation_identifier() == FAST_DDS
+    said = 'is silent; messages get lost where /dev/shm is full: remove' if loses else 'done: '
+    run.wait_for_text(said, timeout_sec=60.0)
+    run.wait(timeout_sec=30.0)
 
 
 def no_home(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:

@@ -23,10 +23,12 @@ _NAME = re.compile(rf'{_MARK}[^\s/]+')
 _CAP_SYS_PTRACE = 19  # <linux/capability.h>
 _MADE_SEC = 0.2  # a younger file may not be mapped yet
 _LOCK_SEC, _POLL_SEC = 5.0, 0.01  # of waiting for another clean-up
-_FREE_BYTES = 4_000_000  # enough for a drive with its page and two commands that look on
+OF_A_RUN_MB = 4  # enough for a drive with its page and two commands that look on
+OF_A_SIMULATOR_MB = 2  # for itself, a driver and a command: those of a drive start beside it
+OF_A_NODE_MB = 1
 
 
-def check_shared_memory() -> None:
+def check_shared_memory(needed_mb: int = OF_A_RUN_MB) -> None:
     """
     Check that there is room for the messages of a run.
 
@@ -35,25 +37,34 @@ def check_shared_memory() -> None:
 
     :raises ValueError: if there is too little.
     """
-    if not os.environ.get('RMW_IMPLEMENTATION', 'rmw_fastrtps').startswith('rmw_fastrtps'):
-        return
-    if _is_short():
+    if lacks_shared_memory(needed_mb):
         clean_shared_memory()
-        if _is_short():
+        if lacks_shared_memory(needed_mb):
             raise ValueError(
-                f'{FOLDER} has less than {_FREE_BYTES // 1_000_000} MB left, too few for the '
-                'messages of a run: remove what is not needed there, or give a container more '
-                '(--shm-size=64m)'
+                f'{FOLDER} has less than {needed_mb} MB left, too few for the messages of a run: '
+                'remove what is not needed there, or give a container more (--shm-size=64m)'
             )
 
 
-def _is_short() -> bool:
+def sends_by_shared_memory() -> bool:
+    """Return whether a node does, in this process's environment."""
+    given = os.environ.get
+    if given('ROS_AUTOMATIC_DISCOVERY_RANGE') == 'LOCALHOST' or given('ROS_LOCALHOST_ONLY') == '1':
+        return True  # rmw_fastrtps adds it, whatever a profile says
+    profile = given('FASTRTPS_DEFAULT_PROFILES_FILE')
+    return not (profile or given('FASTDDS_BUILTIN_TRANSPORTS', '').startswith('UDP'))
+
+
+def lacks_shared_memory(needed_mb: int) -> bool:
+    """Return whether Fast DDS is used and has less left than this."""
+    if not os.environ.get('RMW_IMPLEMENTATION', 'rmw_fastrtps').startswith('rmw_fastrtps'):
+        return False
     try:
         status = os.statvfs(FOLDER)
     except OSError:  # not Linux
         return False
     # One without a limit tells of no blocks at all.
-    return status.f_blocks > 0 and status.f_bavail * status.f_frsize < _FREE_BYTES
+    return status.f_blocks > 0 and status.f_bavail * status.f_frsize < needed_mb * 1_000_000
 
 
 def clean_shared_memory() -> None:

@@ -4,6 +4,7 @@
 
 import os
 
+from husky_runtime.shared_memory import lacks_shared_memory, OF_A_NODE_MB
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
@@ -23,4 +24,9 @@ def what_is_missing(odometry: Subscription, commands: Publisher) -> str:
         return f'nobody publishes {odometry.topic_name}; {where}'
     if commands.get_subscription_count() == 0:
         return f'nobody listens to {commands.topic_name}; {where}'
+    if lacks_shared_memory(OF_A_NODE_MB):
+        return (
+            f'{odometry.topic_name} is silent; messages get lost where /dev/shm is full: remove '
+            'what is not needed there, and start the simulator again'
+        )
     return f'{odometry.topic_name} is silent; is the simulation paused, or that of another user?'

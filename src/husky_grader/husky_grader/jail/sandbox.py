@@ -13,6 +13,7 @@ from typing import Protocol
 from husky_runtime.children import ChildProcess
 from husky_runtime.descendants import descendants_ended
 from husky_runtime.domains import NO_OTHER_WAY, OwnDomain
+from husky_runtime.shared_memory import check_shared_memory
 import psutil
 
 from husky_grader.jail.folders import INSIDE, Mount, PYTHON
@@ -159,6 +160,10 @@ class Nothing:
 
     @contextmanager
     def open(self) -> Iterator[Cell]:
+        try:
+            check_shared_memory()
+        except ValueError as error:
+            raise SandboxFails(str(error)) from None
         with OwnDomain() as domain, descendants_ended():
             yield _Open(domain.environment)
 

@@ -11,6 +11,11 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from husky_runtime.domains import DomainError, lock_simulator
 from husky_runtime.executor import future_of_signal, spin
+from husky_runtime.shared_memory import (
+    check_shared_memory,
+    OF_A_SIMULATOR_MB,
+    sends_by_shared_memory,
+)
 from rcl_interfaces.msg import SetParametersResult
 import rclpy
 from rclpy.clock import Clock as RosClock
@@ -255,6 +260,12 @@ class SimulatorNode(SettingsNode):
 
 def main(args: list[str] | None = None) -> int:
     """Run the simulator until it is interrupted."""
+    try:
+        if sends_by_shared_memory():
+            check_shared_memory(OF_A_SIMULATOR_MB)
+    except ValueError as error:
+        print(f'husky_sim: {error}', file=sys.stderr)
+        return 2
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     interrupted = future_of_signal()
     node: SimulatorNode | None = None
