@@ -214,6 +214,14 @@ def test_an_odd_world_is_driven_in_like_any_other(
             mjcf('<body name="husky/base_link"/>' + FLOOR),
             r"repeated name 'husky/base_link' in body, line 4$",
         ),
+        (
+            mjcf(before='<asset><material name="husky/husky_yellow"/></asset>'),
+            r"repeated name 'husky/husky_yellow' in material, line 2$",
+        ),
+        (
+            mjcf(FLOOR + '<geom name="flat ground 0" size="0.1" pos="3 0 0"/>'),
+            r"repeated name 'flat ground 0' in geom, line 4$",
+        ),
     ],
 )
 def test_a_broken_world_is_refused_with_file_and_reason(
@@ -224,6 +232,25 @@ def test_a_broken_world_is_refused_with_file_and_reason(
         load_world(path, [RobotStart()])
     assert path in str(refused.value)
     assert '\n' not in str(refused.value)
+
+
+def test_names_in_another_encoding_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / 'world.xml'
+    door = '<body name="Tür" pos="3 0 1"><geom size="0.1"/></body>'
+    path.write_text(mjcf(FLOOR + door), encoding='latin-1')
+    with pytest.raises(WorldError, match=r"the name 'T.r' is not UTF-8; save .*, line 4$"):
+        load_world(str(path), [RobotStart()])
+
+
+def test_thousands_of_obstacles_get_the_memory_they_ask_for(
+    write: Callable[[str], str],
+) -> None:
+    crate = '<body name="{0}" pos="{0} 5 0.3"><geom type="box" size="0.3 0.3 0.3"/></body>'
+    forest = mjcf(FLOOR + ''.join(crate.format(number) for number in range(3000)))
+    with pytest.raises(WorldError, match=r'than 14 MB; give it more, as by <size memory="500M"/>'):
+        load_world(write(forest), [RobotStart()])
+    wide = forest.replace('<worldbody>', '<size memory="500M"/><worldbody>')
+    assert len(load_world(write(wide), [RobotStart()]).obstacles) == 3000
 
 
 def test_a_file_that_is_not_there_or_not_xml_is_refused(tmp_path: Path) -> None:

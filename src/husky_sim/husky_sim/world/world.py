@@ -9,7 +9,8 @@ one of GROUND_NAMES. Every other geom that touches belongs to an obstacle, named
 outermost body around it (or after itself where it lies in the world body).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 import hashlib
 import math
@@ -31,6 +32,7 @@ from husky_sim.world.flat_ground import (
 )
 from husky_sim.world.silhouette import outline_of
 from husky_sim.world.world_file import (
+    check_names,
     check_numbers,
     check_settings,
     line_of,
@@ -100,24 +102,28 @@ def load_world(
             f'robots={[robot.name for robot in robots]}: every robot needs a name of its own'
         )
     empty = _compiled(path, _parsed(path))
+    check_names(path, empty)
     check_numbers(path, empty)
     steps = steps_per_period(path, empty.opt.timestep)
-    data = mujoco.MjData(empty)
-    mujoco.mj_forward(empty, data)
+    data = _standing(path, empty)
     ground = {geom for geom in range(empty.ngeom) if _is_ground(empty, geom)}
     heights = [_height_under(path, empty, data, ground, robot) for robot in robots]
     faces = find_flat_ground(empty, data, ground)
     spec = _parsed(path)
     check_settings(path, spec)
     husky = husky or _husky_beside(path)
-    add_planes(spec, faces)
-    for robot, height in zip(robots, heights, strict=True):
-        _attach(spec, husky, robot, height, load_y_m)
-        add_contacts(spec, husky, robot.name, faces)
+    memory = spec.memory
+    with _mujoco_refusals(path):  # as of a name that the world has, too
+        add_planes(spec, faces)
+        for robot, height in zip(robots, heights, strict=True):
+            _attach(spec, husky, robot, height, load_y_m)
+            add_contacts(spec, husky, robot.name, faces)
     spec.compiler.discardvisual = not visual
     model = _compiled(path, spec)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
+    if memory > model.narena:
+        spec.memory = memory
+        model = _compiled(path, spec)
+    data = _standing(path, model)
     # In a model without what is only seen, geoms have other numbers.
     numbers = [geom for geom in range(empty.ngeom) if _is_fixed_obstacle(empty, geom)]
     names, owners = _owners(model, robots, numbers)
@@ -141,22 +147,40 @@ def _parsed(path: str) -> mujoco.MjSpec:
         raise WorldError(f'world={path!r}: no such file; give the path of an MJCF file (.xml)')
     if Path(path).suffix.lower() != '.xml':
         raise WorldError(f'world={path!r}: not an .xml file; give an MJCF file')
-    try:
+    with _mujoco_refusals(path):
         spec = mujoco.MjSpec.from_file(path)
-    except (ValueError, mujoco.FatalError) as error:
-        raise refused(path, error) from error
     spec.compiler.fusestatic = False  # fused bodies lose their names
     return spec
 
 
 def _compiled(path: str, spec: mujoco.MjSpec) -> mujoco.MjModel:
+    with _mujoco_refusals(path), warnings.catch_warnings():
+        # One is about a body that cannot sleep because a robot stands in it: refused later.
+        warnings.simplefilter('ignore')
+        return spec.compile()
+
+
+@contextmanager
+def _mujoco_refusals(path: str) -> Iterator[None]:
     try:
-        with warnings.catch_warnings():
-            # One is about a body that cannot sleep because a robot stands in it: refused later.
-            warnings.simplefilter('ignore')
-            return spec.compile()
+        yield
     except (ValueError, mujoco.FatalError) as error:
         raise refused(path, error) from error
+
+
+def _standing(path: str, model: mujoco.MjModel) -> mujoco.MjData:
+    """Return the state in which everything stands as the file has it."""
+    data = mujoco.MjData(model)
+    try:
+        mujoco.mj_forward(model, data)
+    except mujoco.FatalError as error:
+        # MuJoCo guesses how much memory a world needs, too little for thousands of obstacles.
+        raise refused(
+            path,
+            f'MuJoCo needs more memory for it than {model.narena / 2**20:.0f} MB; give it more, '
+            'as by <size memory="500M"/>',
+        ) from error
+    return data
 
 
 def _husky_beside(path: str) -> str:
@@ -197,7 +221,7 @@ def _attach(
         quat=[math.cos(robot.yaw / 2.0), 0.0, 0.0, math.sin(robot.yaw / 2.0)],
     )
     child.option.timestep = spec.option.timestep
-    spec.memory = -1  # automatic: the size that a world sets does not suffice with robots
+    spec.memory = -1  # automatic: a size that a world sets may not suffice with robots
     frame.attach_body(base, f'{robot.name}/', '')
 
 

@@ -72,6 +72,22 @@ def steps_per_period(path: str, timestep_sec: float) -> int:
     return round(steps)
 
 
+def check_names(path: str, model: mujoco.MjModel) -> None:
+    """
+    Check that names can be read.
+
+    :raises WorldError: if one is not UTF-8, as in a file that was saved in another encoding.
+    """
+    try:
+        model.names.decode('utf-8')
+    except UnicodeDecodeError as error:
+        begin = model.names.rfind(b'\0', 0, error.start) + 1
+        name = model.names[begin : model.names.find(b'\0', begin)].decode(errors='replace')
+        raise refused(
+            path, f'the name {name!r} is not UTF-8; save the file in this encoding', word=name
+        ) from None
+
+
 def check_numbers(path: str, model: mujoco.MjModel) -> None:
     """
     Check the places, sizes and materials of all bodies and their geoms and joints.
