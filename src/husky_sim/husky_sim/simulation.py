@@ -11,6 +11,7 @@ import math
 
 from husky_course.robot import RobotStart
 import mujoco
+import numpy as np
 
 from husky_sim.config import CONTROL_PERIOD_SEC, FLOORS, SimulationConfig
 from husky_sim.robot.battery import Battery
@@ -171,6 +172,25 @@ class Simulation:
     def physics_warnings(self) -> int:
         """Return how often MuJoCo has warned since the last reset; 0 in a healthy run."""
         return int(sum(self.data.warning.number.tolist()))
+
+    @property
+    def broken_down(self) -> str:
+        """
+        Return the name of what MuJoCo could not compute, or nothing.
+
+        It then puts everything back to its start, and begins to count its warnings anew.
+        """
+        warnings = self.data.warning
+        for kind, starts in (
+            (mujoco.mjtWarning.mjWARN_BADQPOS, self.model.jnt_qposadr),
+            (mujoco.mjtWarning.mjWARN_BADQVEL, self.model.jnt_dofadr),
+            (mujoco.mjtWarning.mjWARN_BADQACC, self.model.jnt_dofadr),
+        ):
+            if warnings[kind].number:
+                after = np.searchsorted(starts, warnings[kind].lastinfo, side='right')
+                body = int(self.model.jnt_bodyid[after - 1])
+                return self.model.body(body).name or f'body {body}'
+        return ''
 
     def advance(self) -> None:
         """

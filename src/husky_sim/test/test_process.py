@@ -45,6 +45,22 @@ def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     assert said.startswith(f"husky_sim: world='{Path.cwd()}/nowhere.xml': no such file")
 
 
+def test_physics_that_breaks_down_are_told_of_once(domain_id: int, tmp_path: Path) -> None:
+    del domain_id
+    world = tmp_path / 'world.xml'
+    world.write_text(
+        '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/><body name="gate">'
+        '<joint type="slide" stiffness="1e12"/><geom size="0.1" mass="1" pos="3 0 1"/></body>'
+        '</worldbody></mujoco>',
+        encoding='utf-8',
+    )
+    process = run_process('-p', f'world:={world}', '-p', 'limit_sec:=3.0')
+    _, said = process.communicate(timeout=30.0)
+    (line,) = [line for line in said.splitlines() if 'broke down' in line]
+    assert 'the physics broke down at gate, and everything is back at its start: this run' in line
+    assert f'more mass in {world}, or' in line
+
+
 @pytest.mark.parametrize('factor', ['1.0e-12', '1.0e-300', '0.0009'])
 def test_a_pace_too_slow_for_a_timer_gives_one_line(domain_id: int, factor: str) -> None:
     del domain_id

@@ -9,6 +9,7 @@ import sys
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
+from husky_course.printable import printable
 from husky_runtime.domains import DomainError, lock_simulator
 from husky_runtime.executor import future_of_signal, spin
 from husky_runtime.shared_memory import (
@@ -82,6 +83,7 @@ class SimulatorNode(SettingsNode):
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         self.over: Future[None] = Future()
         self.paused = False  # time stands still
+        self._has_broken_down = False  # the physics, in this run
         self._topics = SimulationTopics(
             self,
             self.simulation,
@@ -217,6 +219,18 @@ class SimulatorNode(SettingsNode):
         message.header.stamp = time_message(self.simulation.stamp)
         self._diagnostics.publish(message)
         self._topics.warn_of_other_types()
+        self._tell_of_breakdown()
+
+    def _tell_of_breakdown(self) -> None:
+        """Log, once a run, that the physics has failed; seldom, because it takes time to look."""
+        name = '' if self._has_broken_down else self.simulation.broken_down
+        if name:
+            self._has_broken_down = True
+            self.get_logger().error(
+                f'the physics broke down at {printable(name)}, and everything is back at its '
+                'start: this run is not to be trusted; give it a softer spring or more mass in '
+                f'{self._run.world}, or that a shorter timestep'
+            )
 
     @property
     def at_start(self) -> bool:
@@ -237,6 +251,7 @@ class SimulatorNode(SettingsNode):
     def reset(self) -> None:
         """Put everything back as it was at the start."""
         self.simulation.reset()
+        self._has_broken_down = False
         if self._record is not None:
             self._record.restart()
         self._interference.restart()
@@ -275,7 +290,7 @@ def main(args: list[str] | None = None) -> int:
         node.over.add_done_callback(lambda _: interrupted.done() or interrupted.set_result(None))
         spin(node, until=interrupted)
     except (SimulatorError, DomainError) as error:
-        print(f'husky_sim: {error}', file=sys.stderr)
+        print(printable(f'husky_sim: {error}'), file=sys.stderr)
         return 2
     finally:
         if node is not None:
