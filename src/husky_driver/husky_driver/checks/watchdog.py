@@ -37,13 +37,13 @@ class Watchdog:
             return (
                 f'the robot does not move: told to drive {command.speed_m_s:.2f} m/s and turn '
                 f'{command.yaw_rate_rad_s:.2f} rad/s, but for {STUCK_SEC:g} s its odometry has '
-                f'stayed at {place}'
+                f'stayed at {place}; does an emergency stop (e_stop) hold it?'
             )
         if self._is_slipping(odometry, command):
             return (
                 f'the wheels slip: told to turn {command.yaw_rate_rad_s:.2f} rad/s, but it turns '
-                f'{odometry.yaw_rate_rad_s:.2f} rad/s; is something in its way near {place}, or '
-                'its battery empty?'
+                f'{odometry.yaw_rate_rad_s:.2f} rad/s; is something in its way near {place}, its '
+                'battery empty, or its emergency stop (e_stop) pressed?'
             )
         if self.bump.is_held(odometry.time_sec, odometry.speed_m_s, odometry.yaw_rate_rad_s):
             return (
