@@ -94,6 +94,10 @@ class PowerConfig:
     )
 
 
+LEAST_RATE_HZ = 0.001
+"""A message tells the time to the next one, which must be a number."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class SensorConfig:
     """Which sensors measure, how often, and how well."""
@@ -103,9 +107,15 @@ class SensorConfig:
     localization: bool = setting(
         True, 'Publish odometry/filtered; false where robot_localization does.'
     )
-    navsat_rate_hz: float = setting(40.0, 'Rate of navsat/fix; 0: off.', 0.0, 50.0)
-    lidar_rate_hz: float = setting(0.0, 'Rate of front/scan; 0: off.', 0.0, 50.0)
-    camera_rate_hz: float = setting(0.0, 'Rate of camera/image_raw; 0: off.', 0.0, 50.0)
+    navsat_rate_hz: float = setting(
+        40.0, 'Rate of navsat/fix; 0: off.', LEAST_RATE_HZ, 50.0, or_zero=True
+    )
+    lidar_rate_hz: float = setting(
+        0.0, 'Rate of front/scan; 0: off.', LEAST_RATE_HZ, 50.0, or_zero=True
+    )
+    camera_rate_hz: float = setting(
+        0.0, 'Rate of camera/image_raw; 0: off.', LEAST_RATE_HZ, 50.0, or_zero=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -476,6 +476,7 @@ def test_each_of_many_robots_has_its_own_topics(domain_id: int) -> None:
         ({'speed_limit_m_s': -1.0}, SettingError, 'speed_limit_m_s'),
         ({'real_time_factor': 'fast'}, SettingError, 'real_time_factor'),
         ({'lidar_rate': 20.0}, SettingError, 'did you mean lidar_rate_hz'),
+        ({'lidar_rate_hz': 1e-300}, SettingError, '0 or a number from 0.001 to 50 is allowed'),
         (
             {'floor': 'ice'},
             SettingError,
