@@ -24,7 +24,12 @@ class MetadataIo:
 
     def write_metadata(self, uri: str, metadata: BagMetadata) -> None:
         content = {_ROOT: to_dict(metadata)}
-        Path(uri, FILE_NAME).write_text(dump(content), encoding='utf-8')
+        path = Path(uri, FILE_NAME)
+        try:
+            path.write_text(dump(content), encoding='utf-8')
+        except OSError:
+            path.unlink(missing_ok=True)  # half of it would hide a bag that can be read without
+            raise
 
     def read_metadata(self, uri: str) -> BagMetadata:
         """Read it; the size is that of all files in the folder.

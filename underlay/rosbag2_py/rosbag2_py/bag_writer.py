@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -71,7 +73,7 @@ class BagWriter:
 
     It is not for several threads, and what is interrupted within a call is not whole.
 
-    :raises BagError: the folder exists or cannot be made.
+    :raises BagError: the folder exists or cannot be made; every method: the disk is full.
     """
 
     def __init__(
@@ -98,7 +100,8 @@ class BagWriter:
         self._topics: dict[str, _Topic] = {}
         self._all = Span()
         self._files: list[tuple[str, Span]] = []
-        self._begin_file()
+        with self._refusals():
+            self._begin_file()
 
     def __enter__(self) -> BagWriter:
         return self
@@ -122,7 +125,8 @@ class BagWriter:
         if definition is None:
             definition = definition_or_empty(metadata.type)
         self._topics[metadata.name] = _Topic(metadata, definition)
-        self._file.add_topic(metadata, definition)
+        with self._refusals():
+            self._file.add_topic(metadata, definition)
 
     def remove_topic(self, name: str) -> None:
         """Leave a topic out of metadata.yaml, and of the files as far as the storage can."""
@@ -133,27 +137,43 @@ class BagWriter:
         topic = self._topics[topic_name]
         if self._is_full(received_ns):
             self.split()
-        self._file.write(topic_name, data, received_ns, published_ns, topic.count)
+        try:
+            self._file.write(topic_name, data, received_ns, published_ns, topic.count)
+        except OSError as error:
+            raise self._refusal(error) from None
         topic.count += 1
         self._all.add(received_ns)
         self._files[-1][1].add(received_ns)
 
     def flush(self) -> None:
         """Let other programs read what was written, as far as that is cheap."""
-        self._file.flush()
+        with self._refusals():
+            self._file.flush()
 
     def split(self) -> None:
         """Begin a new file."""
-        self._file.finish(self._metadata())
-        self._begin_file()
+        with self._refusals():
+            self._file.finish(self._metadata())
+            self._begin_file()
 
     def close(self) -> None:
         """Finish the files; may be called twice."""
         if self._is_closed:
             return
         self._is_closed = True
-        self._file.finish(self._metadata())
-        MetadataIo().write_metadata(str(self.folder), self._metadata())
+        with self._refusals():
+            self._file.finish(self._metadata())
+            MetadataIo().write_metadata(str(self.folder), self._metadata())
+
+    @contextmanager
+    def _refusals(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise self._refusal(error) from None
+
+    def _refusal(self, error: OSError) -> BagError:
+        return BagError(f"'{self.folder}' cannot be written: {error.strerror or error}")
 
     def _is_full(self, time_ns: int) -> bool:
         span, limits = self._files[-1][1], self._limits

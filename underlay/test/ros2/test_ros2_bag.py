@@ -9,6 +9,7 @@ from contextlib import closing
 import importlib
 from itertools import islice
 from pathlib import Path
+import resource
 import signal
 import sqlite3
 import sys
@@ -23,7 +24,14 @@ from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
-from rosbag2_py import bag_files, Info, SequentialReader, TopicMetadata
+from rosbag2_py import (
+    bag_files,
+    BagMetadata,
+    Info,
+    MetadataIo,
+    SequentialReader,
+    TopicMetadata,
+)
 from rosbag2_py.errors import BagError
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
@@ -178,6 +186,27 @@ def test_sigterm_ends_a_recording_as_ctrl_c_does(talk: Any, tmp_path: Path) -> N
     out, _ = recorder.communicate(timeout=10)
     assert 'Recording stopped: ' in out
     assert recorder.returncode == 0
+
+
+def test_a_recording_on_a_full_disk_ends_in_one_line(talk: Any, tmp_path: Path) -> None:
+    recorder = talk.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
+    find_line(recorder.stdout, 'Recording...')
+    resource.prlimit(recorder.pid, resource.RLIMIT_FSIZE, (100, 100))
+    recorder.send_signal(signal.SIGINT)
+    out, _ = recorder.communicate(timeout=10)
+    assert out.splitlines()[-1] == f"'{tmp_path / 'run'}' cannot be written: File too large"
+    assert recorder.returncode == 1
+
+
+def test_half_a_metadata_hides_no_bag(tmp_path: Path) -> None:
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))  # as on a disk that gets full
+    try:
+        with pytest.raises(OSError, match='File too large'):
+            MetadataIo().write_metadata(str(tmp_path), BagMetadata())
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGHUP])
