@@ -110,9 +110,13 @@ def kill_in_a_run(processes: Processes, folder: Path, name: str) -> Files:
     return shared
 
 
-def test_a_killed_simulator_ends_its_launch(processes: Processes) -> None:
-    run = processes.start('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py')
+@pytest.mark.parametrize('viewer', ['false', 'true'])
+def test_a_killed_simulator_ends_its_launch(processes: Processes, viewer: str) -> None:
+    launch = ('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py', f'viewer:={viewer}')
+    run = processes.start(*launch)
     run.wait_for_text('34 obstacles')
+    if viewer == 'true':  # it has what the simulator shares with it
+        run.wait_for_text('look at http://')
     members = family(run)
     simulator = part(run, PARTS['simulator'])
     assert simulator is not None

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulate a Husky in the playpen."""
 
+import atexit
+
 from ament_index_python import get_resource, get_resources
 from husky_runtime.shared_memory import clean_shared_memory
 from launch import LaunchContext, LaunchDescription
@@ -49,9 +51,13 @@ ARGUMENTS = (
 )
 
 
+def _clean_after_killed(event: ProcessExited, _context: LaunchContext) -> None:
+    if event.returncode < 0:  # it leaves its shared memory, which others use until they end
+        atexit.register(clean_shared_memory)
+
+
 def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
-    if event.returncode < 0:
-        clean_shared_memory()  # a killed process leaves its own
+    _clean_after_killed(event, context)
     return None if context.is_shutdown else Shutdown(reason='the simulator has ended')
 
 
@@ -67,6 +73,7 @@ def _views(_context: LaunchContext, page: dict[str, ParameterValue]) -> list[Nod
             namespace=LaunchConfiguration('namespace'),
             output='screen',
             parameters=[page],
+            on_exit=_clean_after_killed,
         )
         for package in packages
     ]
