@@ -130,6 +130,22 @@ def test_a_killed_simulator_ends_its_launch(processes: Processes, viewer: str) -
     assert left(shared) == [], 'shared memory is left'
 
 
+def test_a_killed_view_leaves_nothing_when_its_launch_ends(processes: Processes) -> None:
+    launch = ('ros2', 'launch', 'husky_sim', 'husky_playpen.launch.py', 'viewer:=true')
+    run = processes.start(*launch)
+    run.wait_for_text('look at http://')
+    members = family(run)
+    shared = own_files(each.pid for each in members)
+    view = part(run, PARTS['view'])
+    assert view is not None
+    view.send_signal(signal.SIGKILL)
+    run.wait_for_text('process has died')
+    run.signal(signal.SIGINT)
+    run.wait(timeout_sec=10.0)
+    assert running(members) == []
+    assert left(shared) == [], 'shared memory is left'
+
+
 def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
     tests = str(ROOT / 'test' / 'test_view_process.py')
     run = processes.start(LAB, 'test', tests)

@@ -51,13 +51,13 @@ ARGUMENTS = (
 )
 
 
-def _clean_after_killed(event: ProcessExited, _context: LaunchContext) -> None:
-    if event.returncode < 0:  # it leaves its shared memory, which others use until they end
-        atexit.register(clean_shared_memory)
+def _clean_at_the_end(*_: object) -> None:
+    atexit.register(clean_shared_memory)
 
 
 def _end_all(event: ProcessExited, context: LaunchContext) -> Shutdown | None:
-    _clean_after_killed(event, context)
+    if event.returncode < 0:  # it leaves its shared memory, which others use until they end
+        _clean_at_the_end()
     return None if context.is_shutdown else Shutdown(reason='the simulator has ended')
 
 
@@ -73,7 +73,7 @@ def _views(_context: LaunchContext, page: dict[str, ParameterValue]) -> list[Nod
             namespace=LaunchConfiguration('namespace'),
             output='screen',
             parameters=[page],
-            on_exit=_clean_after_killed,
+            on_exit=_clean_at_the_end,  # one that is busy ends hard, with status 0
         )
         for package in packages
     ]
