@@ -55,3 +55,15 @@ def test_one_process_drives_the_trajectory_of_two_nodes(
     in_process = judge(read_run(drive_route(route)[0]), route)
     assert over_dds.trajectory_sha256 == in_process.trajectory_sha256
     assert over_dds.score == in_process.score
+
+
+def test_a_world_whose_physics_breaks_down_gives_no_score(courses: Path, tmp_path: Path) -> None:
+    world = tmp_path / 'world.xml'
+    world.write_text(
+        '<mujoco><worldbody><geom name="floor" type="plane" size="9 9 1"/><body name="gate">'
+        '<joint type="slide" stiffness="1e12"/><geom size="0.1" mass="1" pos="3 0 5"/></body>'
+        '</worldbody></mujoco>'
+    )
+    route = plan_route(load_course(courses / 'straight.yaml'))
+    with pytest.raises(ValueError, match='the physics broke down at gate, and everything'):
+        drive_route(route, world=str(world))

@@ -174,7 +174,17 @@ class Simulation:
         return int(sum(self.data.warning.number.tolist()))
 
     @property
-    def broken_down(self) -> str:
+    def breakdown(self) -> str:
+        """Return in one line that MuJoCo could not compute something, and where; or nothing."""
+        if not (name := self._broken_down()):
+            return ''
+        return (
+            f'the physics broke down at {name}, and everything is back at its start: this run is '
+            f'not to be trusted; give it a softer spring or more mass in {self.world.path}, or '
+            'that a shorter timestep'
+        )
+
+    def _broken_down(self) -> str:
         """
         Return the name of what MuJoCo could not compute, or nothing.
 

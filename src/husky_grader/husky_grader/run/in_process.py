@@ -68,7 +68,7 @@ def drive_route(
     :param odometry: which pose to follow: filtered, wheel or ground_truth.
     :param record: the file to keep the record in; None keeps none.
     :param each_second: called with every second of simulated time.
-    :raises ValueError: when the world or the start cannot be used.
+    :raises ValueError: when the world or the start cannot be used, or the physics breaks down.
     :raises OSError: when the record cannot be written.
     """
     drive = Drive(route, slip=odometry != 'ground_truth')
@@ -102,6 +102,7 @@ def drive_with(
 
     :param on_imu: called with each sample of the IMU.
     :param limit_sec: for a controller that never answers None; a `Drive` has a limit of its own.
+    :raises ValueError: when the world or the start cannot be used, or the physics breaks down.
     """
     simulation = _at_start(world, start, conditions or Conditions())
     with TemporaryDirectory() as folder:
@@ -118,6 +119,8 @@ def drive_with(
                 recorder.append()
                 if simulation.periods % PERIODS_A_SECOND == 0:
                     each_second()
+        if wrong := simulation.breakdown:
+            raise ValueError(wrong)  # of the world; what it has recorded is no drive
         return read_record(file)
 
 

@@ -223,14 +223,10 @@ class SimulatorNode(SettingsNode):
 
     def _tell_of_breakdown(self) -> None:
         """Log, once a run, that the physics has failed; seldom, because it takes time to look."""
-        name = '' if self._has_broken_down else self.simulation.broken_down
-        if name:
+        what = '' if self._has_broken_down else self.simulation.breakdown
+        if what:
             self._has_broken_down = True
-            self.get_logger().error(
-                f'the physics broke down at {printable(name)}, and everything is back at its '
-                'start: this run is not to be trusted; give it a softer spring or more mass in '
-                f'{self._run.world}, or that a shorter timestep'
-            )
+            self.get_logger().error(printable(what))
 
     @property
     def at_start(self) -> bool:
