@@ -43,8 +43,15 @@ def known(kind: str = '') -> list[str]:
 
 
 def check_full_name(name: str) -> None:
-    if len(name.split('/')) != 3:
-        raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'")
+    parts = name.split('/')
+    if len(parts) == 3:
+        return
+    # As in ROS 1, where there was no kind between, or without the package.
+    meant = [
+        repr(each) for each in known() if parts in (each.split('/')[::2], each.split('/')[2:])
+    ]
+    near = f'; did you mean {" or ".join(meant[:3])}?' if meant else ''
+    raise CommandError(f"Invalid name '{name}'. Expected three parts separated by '/'{near}")
 
 
 def filled_in(interface: Any) -> Any:

@@ -8,13 +8,14 @@ import argparse
 from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue, SetParametersResult
+from ros2_diagnosis import nearest
 from ros2cli import arguments, remote_nodes
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node
 from rtps_graph.graph import Node, Role
 import yaml
 
-from ros2param.api import call_set_parameters, ParameterNameCompleter
+from ros2param.api import call_set_parameters, list_names, ParameterNameCompleter
 
 _INT64 = range(-(2**63), 2**63)
 
@@ -51,7 +52,23 @@ def set_one(args: argparse.Namespace, value: ParameterValue) -> SetParametersRes
         (result,) = call_set_parameters(
             node=node, node_name=node_name, parameters=[parameter]
         ).results
+        if not result.successful:
+            result.reason += _what_to_write(value, result.reason) or near_names(
+                node, node_name, args.parameter_name
+            )
     return result
+
+
+def near_names(node: Any, node_name: str, name: str) -> str:
+    """Return a clause for an error message: the parameters that may be meant by a missing one."""
+    names = list_names(node=node, node_name=node_name)
+    return '' if name in names else nearest.hint(name, names)
+
+
+def _what_to_write(value: ParameterValue, reason: str) -> str:
+    if value.type == ParameterType.PARAMETER_INTEGER and "expected 'Type.DOUBLE'" in reason:
+        return f'; write {value.integer_value}.0'
+    return ''
 
 
 def from_text(text: str) -> ParameterValue:

@@ -214,6 +214,11 @@ def test_an_interface_is_shown_with_what_it_contains(ros2: Callable[..., Any]) -
     ]  # fmt: skip
     piped = ros2('interface', 'show', '-', text='std_srvs/srv/Trigger\n')
     assert '---' in piped.lines
+    for short in ('geometry_msgs/Twist', 'Twist'):  # as ROS 1 has it, or by its name alone
+        wrong = ros2('interface', 'show', short)
+        assert f"Invalid name '{short}'. Expected three parts separated by '/'; did" in wrong.err
+        assert "you mean 'geometry_msgs/msg/Twist'?" in wrong.err
+        assert wrong.status == 1
     wrong = ros2('interface', 'show', 'std_msgs/msg/Sting')
     assert wrong.status == 1
     assert "did you mean 'std_msgs/msg/String'" in wrong.err

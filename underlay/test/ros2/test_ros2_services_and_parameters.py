@@ -138,6 +138,9 @@ def test_a_parameter_that_is_set_stays_set(ros2: Callable[..., Any]) -> None:
 def test_what_cannot_be_done_is_said(ros2: Callable[..., Any]) -> None:
     bad = {
         ('get', '/owner', 'nothing'): (1, 'Parameter not set'),
+        ('get', '/owner', 'sped'): (1, "Parameter not set; did you mean 'speed'?"),
+        ('set', '/owner', 'sped', '0.7'): (0, "parameter(s): []; did you mean 'speed'?"),
+        ('set', '/owner', 'speed', '1'): (0, "got 'Type.INTEGER'; write 1.0"),
         ('get', '/owne', 'speed'): (1, "Node not found: '/owne'; did you mean '/owner'?"),
         ('set', '/owner', 'speed', '7.0'): (0, 'Setting parameter failed: Parameter speed out'),
         ('set', '/owner', 'speed', 'fast'): (0, 'Setting parameter failed: Wrong parameter type'),

@@ -27,8 +27,9 @@ class GetVerb(VerbExtension):
             values = api.call_get_parameters(
                 node=node, node_name=node_name, parameter_names=[args.parameter_name]
             ).values
-        if not values:
-            raise CommandError('Parameter not set')
+            if not values:
+                near = params.near_names(node, node_name, args.parameter_name)
+                raise CommandError(f'Parameter not set{near}')
         value = values[0]
         if value.type == ParameterType.PARAMETER_NOT_SET:
             print('Parameter not set.')
