@@ -260,6 +260,16 @@ def test_a_missing_parameter_file_is_warned_about(
     assert 'plain_node-1' in _nodes(launched.output)
 
 
+def test_a_parameter_file_that_no_node_reads_is_warned_about(
+    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path, tmp_path: Path
+) -> None:
+    del ros_package
+    file = tmp_path / 'tab.yaml'
+    file.write_text('/**:\n\tros__parameters: {a: 1}\n')
+    path = python_launch_file(f"node(parameters=['{file}']),", before=BEFORE)
+    assert f'{file}: line 2 begins with a tab; YAML takes' in run_launch(path).output
+
+
 def test_a_script_with_line_ends_of_windows_is_warned_about(
     python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
 ) -> None:

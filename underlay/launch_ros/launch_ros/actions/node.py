@@ -21,6 +21,7 @@ from launch.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from ros2_diagnosis import parameter_files
 import yaml
 
 from ..parameter_descriptions import Parameter
@@ -217,6 +218,8 @@ class Node(ExecuteProcess):
             path = item if isinstance(item, Path) else self.__write_parameters(item)
             if path.is_file():
                 arguments.append((str(path), True))
+                if isinstance(item, Path) and (why := parameter_files.why_refused(item)):
+                    get_logger(_LOGGER).warning(f'{path}: {"; ".join(why)}')
             else:
                 get_logger(_LOGGER).warning(f'Parameter file path is not a file: {path}')
         return arguments
