@@ -9,6 +9,7 @@ It is installed with the wheels of ROS alone. What is wrong says ros2_diagnosis.
 from __future__ import annotations
 
 from pathlib import Path
+import sys
 from typing import Any
 
 from colcon_core.event.output import StderrLine
@@ -26,6 +27,10 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
 
     PRIORITY = 160  # before colcon-ros, which passes over a package.xml that it cannot read
 
+    def __init__(self) -> None:
+        super().__init__()
+        self._may_be_in_src = sys.argv[1:2] == ['build'] and Path.cwd().name == 'src'
+
     def identify(self, desc: Any) -> None:
         folder = Path(desc.path)
         if (
@@ -35,6 +40,13 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
             or any((folder / name).exists() for name in _IGNORED)
         ):
             return
+        if self._may_be_in_src:
+            self._may_be_in_src = False
+            print(
+                f'hint: {Path.cwd()}: `colcon build` is called among the sources, where it makes '
+                f'build, install and log of its own; call it in {Path.cwd().parent}',
+                file=sys.stderr,
+            )
         if package_files.why_refused(folder):
             desc.type = _TYPE
             desc.name = packages.name_in(folder)

@@ -90,7 +90,7 @@ def find_executable(package: str, name: str) -> Path:
     if source is not None and _declares(source, name):
         why = package_files.why_not_run(source, package) or (
             f"but package '{package}' was built before that; run `colcon build --packages-select "
-            f'{package}` in {workspace_of(source)}'
+            f'{package}` in {_workspace_of_built(package, source)}'
         )
         raise PackageError(
             f"No executable found: '{name}' is declared in {source / 'setup.py'}, {why}"
@@ -128,7 +128,8 @@ def why_not_installed(package: str, name: str) -> str | None:
     if source is None or not found:
         return None
     folder = found[0].parent.relative_to(source)
-    build = f'run `colcon build --packages-select {package}` in {workspace_of(source)}'
+    workspace = _workspace_of_built(package, source)
+    build = f'run `colcon build --packages-select {package}` in {workspace}'
     if not (source / 'setup.py').is_file():
         line = f'install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})'
         return f'{found[0]} is not installed: write {line} in CMakeLists.txt, and {build}'
@@ -206,7 +207,7 @@ def why_unbuilt(workspace: Path, package: str) -> str | None:
         return (
             f'it is in {source}, but colcon passes over it for {ignored}; remove that and {build}'
         )
-    failure = _failure_of(workspace, package)
+    failure = failure_of(workspace, package)
     if failure is not None:
         return f'it is in {source}, but `colcon build` failed: {failure}; mend that, and {build}'
     return f'it is in {source}, but not built; {build}'
@@ -222,16 +223,21 @@ def _ignored(source: Path, workspace: Path) -> Path | None:
     return None
 
 
-def _failure_of(workspace: Path, package: str) -> str | None:
-    """Return the last line that the last build of a package wrote, None where it did not fail."""
+def failure_of(workspace: Path, package: str) -> str | None:
+    """Say why the last build of a package failed, None where it did not."""
     try:
         status = (workspace / 'build' / package / 'colcon_build.rc').read_text().strip()
         log = workspace / 'log' / 'latest_build' / package / 'stderr.log'
-        lines = log.read_text(encoding='utf-8', errors='replace').split('\n')
+        text = log.read_text(encoding='utf-8', errors='replace')
     except OSError:
         return None
-    said = [line.strip() for line in lines if line.strip()]
-    return None if status == '0' or not said else said[-1]
+    said = [line.strip() for line in text.split('\n') if line.strip()]
+    if status == '0' or not said:
+        return None
+    if said[-1].startswith('subprocess.CalledProcessError') and 'get_setup_information' in text:
+        source = source_in(workspace, package)
+        return f'setup.py ends with an error, which `python3 setup.py --name` in {source} shows'
+    return said[-1].removeprefix(f'{package}: ')
 
 
 def workspace_of(path: Path) -> Path | None:
@@ -240,6 +246,11 @@ def workspace_of(path: Path) -> Path | None:
         if (folder / 'install' / 'setup.bash').is_file() or any(sources_in(folder / 'src')):
             return folder
     return None
+
+
+def _workspace_of_built(package: str, source: Path) -> Path | None:
+    """Return the workspace that a package is built in: `src` may be one as well, by mistake."""
+    return workspace_of(installed().get(package, source))
 
 
 def sources_in(folder: Path, *, depth: int = 4) -> dict[str, Path]:
@@ -306,7 +317,7 @@ def how_to_declare(source: Path, package: str, program: str) -> str:
     return (
         f"add '{program} = {package}.{program}:main' to 'console_scripts' in "
         f'{source / "setup.py"}, then run `colcon build --packages-select {package}` in '
-        f'{workspace_of(source)}'
+        f'{_workspace_of_built(package, source)}'
     )
 
 

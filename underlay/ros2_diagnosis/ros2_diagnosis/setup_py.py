@@ -98,6 +98,20 @@ def _why_broken(folder: Path, package: str, module: str, function: str | None) -
     return None
 
 
+def module_of(folder: Path, program: str) -> Path | None:
+    """Return the file with the function of a program; None where that is not certain."""
+    try:
+        tree = _parsed(folder / 'setup.py')
+    except (OSError, SyntaxError, ValueError):
+        return None
+    for _, text in _scripts(_call_of_setup(tree), _constants(tree)):
+        entry = _ENTRY_POINT.fullmatch(text)
+        if entry is not None and entry[1] == program:
+            path = folder.joinpath(*entry[2].split('.')).with_suffix('.py')
+            return path if path.is_file() else None
+    return None
+
+
 def has_console_scripts(folder: Path) -> bool:
     """Tell whether a setup.py that can be read declares programs."""
     groups = _argument(_call_of_setup(_parsed(folder / 'setup.py')), 'entry_points')

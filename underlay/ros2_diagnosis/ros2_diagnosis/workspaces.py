@@ -27,13 +27,17 @@ def check_workspaces(folder: Path) -> Iterator[Finding]:
         yield from check_built_and_sourced(here)
     for package, prefix in packages.installed().items():
         yield from check_changed(package, prefix)
+        workspace = packages.workspace_of(prefix)
+        source = packages.source_in(workspace, package) if workspace is not None else None
+        if source is not None and (workspace != here or not package_files.why_refused(source)):
+            yield from _check_failed(package, prefix)
 
 
 def print_hints(package: str) -> None:
     """Tell on stderr where a package that is about to run is not what its sources say."""
     prefix = packages.installed().get(package)
     if prefix is not None:
-        for finding in check_changed(package, prefix):
+        for finding in (*_check_failed(package, prefix), *check_changed(package, prefix)):
             print(f'hint: {finding}', file=sys.stderr)
 
 
@@ -81,12 +85,31 @@ def _build(workspace: Path) -> str:
     return f'run `colcon build` in {workspace}, then {packages.how_to_source(workspace)}'
 
 
+def _check_failed(package: str, prefix: Path) -> Iterator[Finding]:
+    workspace = packages.workspace_of(prefix)
+    failure = packages.failure_of(workspace, package) if workspace is not None else None
+    if failure is not None:
+        yield Finding(
+            package,
+            f'the last `colcon build` of it failed, so that an older one runs: {failure}',
+            f'mend that, then run `colcon build --packages-select {package}` in {workspace}',
+        )
+
+
 def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
     """Compare the sources of a package with what was built of them."""
     workspace = packages.workspace_of(prefix)
     if workspace is None:
         return
     source = packages.source_in(workspace, package)
+    if source is None and workspace.name == 'src' and package in packages.sources_in(workspace):
+        made = ' '.join(str(workspace / name) for name in ('build', 'install', 'log'))
+        yield Finding(
+            package,
+            f'`colcon build` was called in {workspace}, and what that made runs here',
+            f'`rm -r {made}`, run `colcon build` in {workspace.parent}, then open a new terminal',
+        )
+        return
     if source is None:
         yield from _check_orphaned(package, prefix, workspace)
         return

@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 import shlex
 
-from ros2_diagnosis import packages, programs, ros_arguments, workspaces
+from ros2_diagnosis import early_ends, packages, programs, ros_arguments, workspaces
 from ros2cli import arguments
 from ros2cli.command import CommandExtension
 from ros2cli.discovery import settings_from_environment
@@ -53,7 +53,10 @@ class RunCommand(CommandExtension):
             raise UsageError(f'--prefix {args.prefix!r} is refused: {error}') from None
         workspaces.print_hints(args.package_name)
         ros_arguments.print_hints(args.package_name, args.executable_name, args.argv)
-        return _run(str(path), args.argv, prefix)
+        status = _run(str(path), args.argv, prefix)
+        if status == 0:
+            early_ends.print_hint(args.package_name, args.executable_name)
+        return status
 
 
 def _run(path: str, words: list[str], prefix: list[str]) -> int:

@@ -1,0 +1,125 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""What `ros2 run` and `ros2 launch` say of a package that was built wrong, or ends too early."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+_ENTRY = "'hello = mine.hello:main',"
+_NO_SPIN = """import rclpy
+from rclpy.node import Node
+
+
+def main():
+    rclpy.init()
+    node = Node('hello')
+    node.timer = node.create_timer(0.1, lambda: None)
+    # rclpy.spin(node)
+"""
+
+
+@pytest.fixture
+def workspace(
+    ros2: Callable[..., Any], tmp_path: Path, domain: int, monkeypatch: pytest.MonkeyPatch
+) -> Path:
+    """Return a workspace with the package `mine`, where AMENT_PREFIX_PATH says it is sourced."""
+    assert domain
+    source = tmp_path / 'src'
+    source.mkdir()
+    ros2(
+        'pkg', 'create', 'mine', '--build-type', 'ament_python', '--node-name', 'hello',
+        '--license', 'MIT', folder=source,
+    )  # fmt: skip
+    (source / 'mine' / 'launch').mkdir()
+    (source / 'mine' / 'launch' / 'hello.launch.py').touch()
+    prefixes = [str(tmp_path / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
+    monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
+    modules = tmp_path / 'build' / 'mine'
+    monkeypatch.setenv('PYTHONPATH', f'{os.environ.get("PYTHONPATH", "")}{os.pathsep}{modules}')
+    return tmp_path
+
+
+def build(folder: Path) -> subprocess.CompletedProcess[str]:
+    colcon = shutil.which('colcon')
+    assert colcon
+    words = (colcon, 'build', '--symlink-install')
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., Any]) -> None:
+    built = build(workspace)
+    assert (built.returncode, built.stderr) == (0, '')
+    setup = workspace / 'src' / 'mine' / 'setup.py'
+    right = setup.read_text()
+    setup.write_text(right.replace(_ENTRY, f'{_ENTRY[:-1]} {_ENTRY}'))
+    assert build(workspace).returncode == 2
+    ran = ros2('run', 'mine', 'hello')
+    assert ran.out == 'Hi from mine.\n'
+    told = 'the last `colcon build` of it failed, so that an older one runs: setup.py:'
+    assert ran.err.startswith(f'hint: mine: {told}')
+    assert 'is there no comma behind the line before?; mend that, then run' in ran.err
+    # The doctor has looked at the sources, and says it once.
+    of_workspace = [x for x in ros2('doctor', folder=workspace).lines if '(workspace)' in x]
+    assert len(of_workspace) == 1, of_workspace
+    assert 'mine: colcon cannot build it: setup.py:' in of_workspace[0]
+
+    setup.write_text(f'{right}\nraise RuntimeError("of the student")\n')
+    assert build(workspace).returncode == 1
+    (line,) = ros2('run', 'mine', 'hello').err.splitlines()
+    ends = 'setup.py ends with an error, which `python3 setup.py --name` in '
+    assert f'{told.removesuffix("setup.py:")}{ends}{setup.parent} shows; mend that' in line
+    shows = subprocess.run(
+        [sys.executable, 'setup.py', '--name'],
+        cwd=setup.parent,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert shows.stderr.endswith('RuntimeError: of the student\n')
+    assert line.removeprefix('hint: ') in ros2('doctor', folder=workspace).of_check('workspace')
+
+    setup.write_text(right)
+    (workspace / 'src' / 'mine' / 'mine' / 'hello.py').write_text(_NO_SPIN)
+    assert build(workspace).returncode == 0
+    ran = ros2('run', 'mine', 'hello')
+    assert ran.status == 0
+    (line,) = ran.err.splitlines()
+    assert line.startswith('hint: mine: hello has ended, because ')
+    assert 'mine/hello.py has a timer, but calls no rclpy.spin(), without which' in line
+
+
+def test_a_build_among_the_sources_is_told_and_does_not_mislead(
+    workspace: Path, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = workspace / 'src'
+    among = build(source)
+    assert among.returncode == 0
+    assert among.stderr.count('hint: ') == 1
+    assert among.stderr.startswith(
+        f'hint: {source}: `colcon build` is called among the sources, where it makes build, '
+        f'install and log of its own; call it in {workspace}\n'
+    )
+    assert 'hint: ' not in build(workspace).stderr
+    # What is left there is not where the package is built from now on.
+    refused = ros2('launch', 'mine', 'hello.launch.py', folder=source)
+    assert refused.err.endswith(f'run `colcon build --packages-select mine` in {workspace}\n')
+    (source / 'mine' / 'mine' / 'other.py').write_text('def main():\n    pass\n')
+    refused = ros2('run', 'mine', 'other', folder=source)
+    assert refused.err.endswith(f'run `colcon build --packages-select mine` in {workspace}\n')
+
+    prefixes = [str(source / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
+    monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
+    (line,) = ros2('run', 'mine', 'hello').err.splitlines()
+    assert line.startswith(
+        f'hint: mine: `colcon build` was called in {source}, and what that made'
+    )
+    assert f'run `colcon build` in {workspace}, then open a new terminal' in line
