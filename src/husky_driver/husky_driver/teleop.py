@@ -31,6 +31,7 @@ from rclpy.utilities import remove_ros_args
 from husky_driver.keys import HELP, Keyboard, MAX_SPEED_M_S, MAX_TURN_RAD_S, split_keys
 from husky_driver.motion import Command, STOP
 from husky_driver.ros.commands import Commands
+from husky_driver.ros.missing import in_another_namespace
 from husky_driver.ros.settings import INTERFACES, refuse
 
 PERIOD_SEC = 0.05
@@ -81,11 +82,11 @@ class Teleop(Node):
         self._hint.cancel()
         if not self._commands.publisher.get_subscription_count():
             topic, domain = self._commands.publisher.topic_name, self.context.get_domain_id()
-            print(
-                f'\rnobody takes {topic} yet: is the simulator running, with '
-                f'ROS_DOMAIN_ID={domain} as here? `ros2 launch husky_sim husky_playpen.launch.py`',
-                file=sys.stderr,
+            why = in_another_namespace(self, topic, self.count_subscribers) or (
+                f'is the simulator running, with ROS_DOMAIN_ID={domain} as here? '
+                '`ros2 launch husky_sim husky_playpen.launch.py`'
             )
+            print(f'\rnobody takes {topic} yet: {why}', file=sys.stderr)
 
     def _read(self, now: float) -> None:
         try:

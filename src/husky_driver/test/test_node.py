@@ -233,6 +233,20 @@ def test_without_a_simulator_it_gives_up_with_a_reason(
     assert 'Traceback' not in output
 
 
+def test_a_robot_in_another_namespace_is_named(
+    plant_node: PlantNode, follow_path: Any, course: Path
+) -> None:
+    assert plant_node.count_publishers('/odometry/filtered') == 1
+    words = ('--waypoints', course, '--ros-args', '-p', 'startup_timeout_sec:=1.5')
+    # Another driver that waits is no robot.
+    follow_path(*words[:3], '-r', '__ns:=/also_lost')
+    output, _ = follow_path(*words, '-r', '__ns:=/lost').communicate(timeout=20)
+    assert (
+        'gave up: no odometry for 2 s; nobody publishes /lost/odometry/filtered; it is in the '
+        'namespace /: write `--ros-args -r __ns:=/`'
+    ) in output
+
+
 @pytest.mark.parametrize(
     ('name', 'value', 'said'),
     [

@@ -307,4 +307,4 @@ class FollowPath(Node):
         return f'no odometry for {waited_sec:.0f} s; {self._missing()}'
 
     def _missing(self) -> str:
-        return what_is_missing(self._odometry, self._commands.publisher)
+        return what_is_missing(self, self._odometry, self._commands.publisher)
