@@ -12,6 +12,7 @@ looks at every obstacle. The paths must be the same, bit for bit; exit status 1 
 Run it with:  ./lab exec python3 benchmark/control_period.py [COURSE]
 """
 
+from argparse import ArgumentParser
 from pathlib import Path
 from statistics import median
 import sys
@@ -102,7 +103,11 @@ class Kind:
 
 
 def main() -> int:
-    course = Path(sys.argv[1]) if len(sys.argv) > 1 else COURSE
+    parser = ArgumentParser(description=__doc__)
+    parser.add_argument('course', metavar='COURSE', nargs='?', type=Path, default=COURSE)
+    course = parser.parse_args().course
+    if not course.is_file():
+        parser.error(f'{course}: no such file')
     bare = Bare()
     with TemporaryDirectory() as folder:
         kinds = [

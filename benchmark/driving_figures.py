@@ -6,6 +6,7 @@ Print how the simulated Husky drives, as the tables of docs/simulator.md.
 Run it with:  ./lab exec python benchmark/driving_figures.py
 """
 
+from argparse import ArgumentParser
 from collections.abc import Iterable, Iterator
 from itertools import repeat
 import math
@@ -177,6 +178,7 @@ def print_power() -> None:
 
 def main() -> None:
     """Print the tables."""
+    ArgumentParser(description=__doc__).parse_args()
     print('Effective track on asphalt, m:\n')
     print('| speed m/s | ' + ' | '.join(f'{rate:g} rad/s' for rate in YAW_RATES) + ' |')
     print('|---|' + '---|' * len(YAW_RATES))

@@ -13,6 +13,7 @@ periods.
 Run it with:  ./lab exec python3 benchmark/environment_speed.py [EPISODES]
 """
 
+from argparse import ArgumentParser
 from statistics import median
 import sys
 import time
@@ -89,7 +90,9 @@ class Kind:
 
 
 def main() -> int:
-    episodes = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    parser = ArgumentParser(description=__doc__)
+    parser.add_argument('episodes', metavar='EPISODES', nargs='?', type=int, default=5)
+    episodes = parser.parse_args().episodes
     print(f'{"":<28}{"a period":>10}{"bare":>10}{"of bare":>9}{"frames a second":>17}{"score":>7}')
     for name, settings in KINDS.items():
         kind = Kind(settings)

@@ -11,7 +11,8 @@ A cgroup takes the right to make one (root, in a container often not): where the
 says so. Exit status 1 if two differ.
 """
 
-from collections.abc import Iterator, Sequence
+from argparse import ArgumentParser
+from collections.abc import Iterator
 from contextlib import contextmanager
 import json
 import os
@@ -95,7 +96,12 @@ def show(name: str, quiet: str, other: str) -> None:
             print(f'  {name}\n    {before.strip()}\n    {after.strip()}')
 
 
-def main(names: Sequence[str]) -> int:
+def main() -> int:
+    parser = ArgumentParser(description=__doc__)
+    parser.add_argument('names', metavar='NAME', nargs='*')
+    names = parser.parse_args().names
+    if unknown := set(names) - set(SUBMISSIONS):
+        parser.error(f'{", ".join(sorted(unknown))}: allowed are {", ".join(SUBMISSIONS)}')
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         hand_in(folder / 'handed_in')
@@ -125,4 +131,4 @@ def main(names: Sequence[str]) -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

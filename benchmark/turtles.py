@@ -11,6 +11,7 @@ and what the page is sent.
 
 from __future__ import annotations
 
+from argparse import ArgumentParser
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -107,6 +108,7 @@ def measure(count: int) -> str:
 
 
 def main() -> int:
+    ArgumentParser(description=__doc__.splitlines()[1]).parse_args()
     with in_own_domain():
         for count in NUMBERS:
             print(measure(count), flush=True)

@@ -5,6 +5,7 @@
 from importlib import metadata
 from pathlib import Path
 import re
+import sys
 
 from ament_index_python.packages import get_package_share_directory
 from playpen_testing.processes import Processes
@@ -55,6 +56,18 @@ def test_every_word_of_the_lab_and_its_options_are_known(processes: Processes) -
     options = {option for line in lines for option in re.findall(r'--[a-z][a-z-]+', line)}
     known = shown.output + (ROOT / 'src/husky_grader/husky_grader/grade.py').read_text()
     assert {option for option in options if option not in known} == set()
+
+
+@pytest.mark.parametrize(
+    'measurement',
+    [file for file in (ROOT / 'benchmark').glob('*.py') if '__main__' in file.read_text()],
+    ids=lambda measurement: measurement.stem,
+)
+def test_every_measurement_says_how_it_is_called(measurement: Path, processes: Processes) -> None:
+    refused = processes.start(sys.executable, str(measurement), '--no-such-option')
+    assert refused.wait(timeout_sec=60.0) == 2, refused.output
+    assert f'{measurement.name}: error: ' in refused.lines[-1]
+    assert 'Traceback' not in refused.output
 
 
 def test_a_drive_prints_what_the_readme_shows(processes: Processes, tmp_path: Path) -> None:
