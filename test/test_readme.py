@@ -8,6 +8,7 @@ import re
 import sys
 
 from ament_index_python.packages import get_package_share_directory
+from husky_grader.scoring.report import COLLISION_FACTOR, FULL_TRACKING_M
 from playpen_testing.processes import Processes
 from playpen_testing.which_ros import lacks
 import pytest
@@ -86,6 +87,14 @@ def test_a_drive_prints_what_the_readme_shows(processes: Processes, tmp_path: Pa
         [float(n) for line in lines for n in NUMBER.findall(line)] for lines in (shown, printed)
     ]
     assert values[1] == pytest.approx(values[0], rel=0.05, abs=0.01)
+
+
+def test_the_lab_sheet_tells_what_the_score_is_made_of() -> None:
+    sheet = (ROOT / 'docs' / 'lab_sheet.md').read_text()
+    assert (
+        f'each touch costs {1 - COLLISION_FACTOR:.0%} of what is left'.replace('%', ' %') in sheet
+    )
+    assert f'| tracking | less than {FULL_TRACKING_M:.2f} m off the path on average' in sheet
 
 
 def test_the_architecture_names_every_module_and_dependency() -> None:
