@@ -69,6 +69,11 @@ def refusal(folder: Path, name: str, text: str, dependencies: str = 'geometry_ms
         ('Int64 a', 'msg/Own.msg:1: Int64: CMakeLists.txt names no msg/Int64.msg; its messages'),
         ('Int64 a', 'did you mean int64?'),
         ('float a', "msg/Own.msg:1: 'float' is no type: did you mean float"),
+        ('double a', "msg/Own.msg:1: 'double' is no type: did you mean float64?"),
+        (
+            'geometry_msgs/msg/Point a',
+            "'geometry_msgs/msg/Point' is no type: did you mean geometry_msgs/Point?",
+        ),
         ('int64', "msg/Own.msg:1: 'int64' is no field: write TYPE NAME, as in 'int64 num'"),
         ('int64 Num', "'Num' is no name of a field: allowed are small letters, digits and"),
         ('int64 a__b', "'a__b' is no name of a field"),

@@ -22,6 +22,7 @@ NUMBERS = tuple(name for name in parser.PRIMITIVE_TYPES if name not in ('time', 
 
 _FIELD_NAME = 'small letters, digits and single underscores, beginning with a letter'
 _CONSTANT_NAME = 'capital letters, digits and single underscores, beginning with a letter'
+_OF_C = {'double': 'float64', 'short': 'int16', 'long': 'int64'}
 _OF_ROS_1 = {'time': 'builtin_interfaces/Time', 'duration': 'builtin_interfaces/Duration'}
 
 Known = Callable[[str, str], str]
@@ -167,6 +168,10 @@ def _check_words(kind: str) -> None:
 def _no_type(kind: str) -> str:
     base = re.split(r'[\[<]', kind)[0]
     close = get_close_matches(base.lower(), NUMBERS, 1, 0.5)
+    if base in _OF_C:
+        close = [_OF_C[base]]
+    elif full := re.fullmatch(r'(\w+)/msg/(\w+)', base):  # as programs write it
+        close = ['/'.join(full.groups())]
     hint = f'did you mean {close[0]}? ' if close else ''
     return (
         f'{base!r} is no type: {hint}allowed are {", ".join(NUMBERS)}, messages of this package '
