@@ -33,6 +33,8 @@ def find(path: Path, storage_id: str = '') -> Files:
     :raises BagError: there is no bag, or it is stored in another way.
     """
     asked = storage_of(storage_id) if storage_id else None
+    if path.is_file() and path.name == FILE_NAME:
+        raise BagError(f"'{path}' is a part of a bag: name its folder, '{path.parent}'")
     if path.is_file():
         return Files(asked or _storage_of_file(path), [path])
     if not path.is_dir():

@@ -334,6 +334,7 @@ def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: 
         (('record', '-a', '-o', '.'), 1, 'already exists'),
         (('info', 'nothing'), 1, "Bag path 'nothing' does not exist!"),
         (('info', 'broken.mcap'), 1, 'cannot be read as MCAP'),
+        (('play', 'part/metadata.yaml'), 1, "is a part of a bag: name its folder, 'part'"),
         (('info', 'folder'), 1, 'holds no file of a bag that ends with .mcap'),
         (('play', 'broken.mcap'), 1, 'cannot be read as MCAP'),
         (('play', 'x', '-r', '-1'), 2, 'must be a number above 0'),
@@ -342,6 +343,8 @@ def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: 
     (tmp_path / 'broken.db3').write_bytes(b'SQLite format 3\0' + bytes(200))
     (tmp_path / 'empty.mcap').touch()
     (tmp_path / 'folder').mkdir()
+    (tmp_path / 'part').mkdir()
+    (tmp_path / 'part' / 'metadata.yaml').touch()
     calls = [('ros2cli.cli', 'bag', *words) for words, _, _ in bad]
     results = run_forked(*calls, preload=('rclpy', 'rosbag2_py'))
     for (words, status, message), ended in zip(bad, results, strict=True):

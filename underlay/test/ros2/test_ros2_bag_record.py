@@ -211,6 +211,12 @@ def test_a_service_that_does_not_tell_is_waited_for(processes: Any, tmp_path: Pa
     processes.ros2(*words, ready=f'Waiting for /mute{EVENTS}; a service tells of its calls only')
 
 
+def test_a_topic_that_is_misspelt_is_told_from_one_to_come(processes: Any, tmp_path: Path) -> None:
+    processes.node('talker', 'talker')
+    words = ('bag', 'record', '-o', str(tmp_path / 'bag'), '--topics', '/chater', '/later')
+    processes.ros2(*words, ready="Waiting for /chater, /later; did you mean '/chatter'?")
+
+
 def test_a_wrong_value_is_refused() -> None:
     bad = {
         ('--custom-data', 'husky'): "'husky' is no KEY=VALUE",

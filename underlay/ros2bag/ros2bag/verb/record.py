@@ -16,6 +16,7 @@ from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.selection import EVENTS
 from rosbag2_py.storages import DEFAULT_ID, STORAGES
 from rosbag2_py.storages.interface import Storage
+from rtps_graph.graph import Graph
 
 from ros2bag import choice, node_options, qos_overrides, without_effect
 from ros2bag.keyboard import controls, Keyboard
@@ -129,11 +130,12 @@ def _record(
     """Record until a signal comes."""
     log = node.node.get_logger()
     log.info('Listening for topics...')
-    recorder.subscribe_to_new_topics(discovery.read_graph())
+    graph = discovery.read_graph()
+    recorder.subscribe_to_new_topics(graph)
     by_key = '; SPACE pauses and resumes' if keyboard.is_there else ''
     log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
     if missing := recorder.missing():
-        log.info(f'Waiting for {", ".join(missing)}{_hint(missing)}')
+        log.info(f'Waiting for {", ".join(missing)}{_hint(missing, graph)}')
 
     def never() -> bool:
         keyboard.serve()
@@ -251,10 +253,12 @@ def _key_and_value(text: str) -> tuple[str, str]:
     return key, value
 
 
-def _hint(missing: list[str]) -> str:
-    if not any(topic.endswith(EVENTS) for topic in missing):
-        return ''
-    return '; a service tells of its calls only while its introspection is on'
+def _hint(missing: list[str], graph: Graph) -> str:
+    """Say why a topic may be missing: its service does not tell, or another name was meant."""
+    if any(topic.endswith(EVENTS) for topic in missing):
+        return '; a service tells of its calls only while its introspection is on'
+    known = graph.topics()
+    return next(filter(None, (discovery.near(each, known) for each in missing)), '')
 
 
 def _presets() -> str:
