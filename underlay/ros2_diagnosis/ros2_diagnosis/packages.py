@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+import contextlib
 import os
 from pathlib import Path
 import re
@@ -162,6 +164,12 @@ def why_missing(package: str, program: str = '') -> str:
     instead = stand_ins.hint(package, program)
     if instead:
         return instead
+    elsewhere = next(_workspaces_at_home_with(package), None)
+    if elsewhere is not None:
+        return (
+            f'it is built in {elsewhere}, but not sourced in this terminal; '
+            f'run {how_to_source(elsewhere)}'
+        )
     near = nearest.hint(package, installed(), at_most=0)
     if near:
         return f'no such package is sourced or installed{near}'
@@ -186,6 +194,14 @@ def how_to_source(workspace: Path) -> str:
     if shell == 'fish':  # for which colcon makes no set-up files
         return f'`bash -c "source {setup} && exec fish"`'
     return f'`source {setup}`'
+
+
+def _workspaces_at_home_with(package: str) -> Iterator[Path]:
+    """Yield the workspaces that lie in the home folder, as in tutorials, and have a package."""
+    with contextlib.suppress(OSError, RuntimeError):  # RuntimeError: there is no home
+        for folder in sorted(Path.home().iterdir()):
+            if (folder / 'install' / 'setup.bash').is_file() and built_prefix(folder, package):
+                yield folder
 
 
 def why_unbuilt(workspace: Path, package: str) -> str | None:

@@ -123,3 +123,23 @@ def test_a_build_among_the_sources_is_told_and_does_not_mislead(
         f'hint: mine: `colcon build` was called in {source}, and what that made'
     )
     assert f'run `colcon build` in {workspace}, then open a new terminal' in line
+
+
+def test_a_workspace_at_home_that_is_not_sourced_is_named(
+    ros2: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('HOME', str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    install = tmp_path / 'my_ws' / 'install'
+    index = install / 'husky_drive' / 'share' / 'ament_index' / 'resource_index' / 'packages'
+    index.mkdir(parents=True)
+    (index / 'husky_drive').touch()
+    (install / 'setup.bash').touch()
+    told = (
+        f'it is built in {tmp_path}/my_ws, but not sourced in this terminal; run '
+        f'`source {install}/setup.bash`'
+    )
+    for words in (('run', 'husky_drive', 'x'), ('launch', 'husky_drive', 'x.launch.py')):
+        assert ros2(*words).err.endswith(f"'husky_drive' not found: {told}\n")
+    # What is nowhere may be misspelt.
+    assert "did you mean 'husky_driver'" in ros2('run', 'husky_drivr', 'x').err
