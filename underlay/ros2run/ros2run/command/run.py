@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 import shlex
 
-from ros2_diagnosis import early_ends, packages, programs, ros_arguments, workspaces
+from ros2_diagnosis import packages, programs, workspaces
 from ros2cli import arguments
 from ros2cli.command import CommandExtension
 from ros2cli.discovery import settings_from_environment
@@ -52,9 +52,14 @@ class RunCommand(CommandExtension):
         except ValueError as error:
             raise UsageError(f'--prefix {args.prefix!r} is refused: {error}') from None
         workspaces.print_hints(args.package_name)
-        ros_arguments.print_hints(args.package_name, args.executable_name, args.argv)
+        if args.argv:
+            from ros2_diagnosis import ros_arguments  # most programs are given none
+
+            ros_arguments.print_hints(args.package_name, args.executable_name, args.argv)
         status = _run(str(path), args.argv, prefix)
         if status == 0:
+            from ros2_diagnosis import early_ends  # the program shall not wait for it
+
             early_ends.print_hint(args.package_name, args.executable_name)
         return status
 
