@@ -19,6 +19,7 @@ LAUNCH_SUFFIXES = (
 
 _INDEX = 'share/ament_index/resource_index/packages'
 _PROGRAM = re.compile(r'^def main\(', re.MULTILINE)
+_NOT_COPIED = re.compile(r"error: can't copy '(.+)': doesn't exist or not a regular file")
 _PACKAGE_NAME = re.compile(r'<name>\s*([^<\s]+)\s*</name>')
 
 
@@ -253,6 +254,12 @@ def failure_of(workspace: Path, package: str) -> str | None:
     if said[-1].startswith('subprocess.CalledProcessError') and 'get_setup_information' in text:
         source = source_in(workspace, package)
         return f'setup.py ends with an error, which `python3 setup.py --name` in {source} shows'
+    copied = _NOT_COPIED.fullmatch(said[-1])
+    if copied is not None and Path(copied[1]).is_symlink():  # --symlink-install leaves it there
+        build = workspace / 'build' / package
+        return (
+            f'{copied[1]} leads to a file that was renamed or removed; `rm -r {build}` clears it'
+        )
     return said[-1].removeprefix(f'{package}: ')
 
 

@@ -97,6 +97,25 @@ def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., 
     assert 'mine/hello.py has a timer, but calls no rclpy.spin(), without which' in line
 
 
+def test_a_launch_file_that_was_renamed_stops_no_build_for_ever(
+    workspace: Path, ros2: Callable[..., Any]
+) -> None:
+    source = workspace / 'src' / 'mine'
+    setup = source / 'setup.py'
+    files = "data_files=[('share/mine/launch', glob('launch/*')),"
+    text = setup.read_text().replace('data_files=[', files)
+    setup.write_text(f'from glob import glob\n{text}')
+    assert build(workspace).returncode == 0
+    (source / 'launch' / 'hello.launch.py').rename(source / 'launch' / 'hi.launch.py')
+    assert build(workspace).returncode == 1
+    (line,) = ros2('run', 'mine', 'hello').err.splitlines()
+    assert 'build/mine/launch/hello.launch.py leads to a file that was renamed or removed' in line
+    assert f'`rm -r {workspace}/build/mine` clears it; mend that, then run `colcon b' in line
+    shutil.rmtree(workspace / 'build' / 'mine')
+    assert build(workspace).returncode == 0
+    assert ros2('run', 'mine', 'hello').err == ''
+
+
 def test_a_build_among_the_sources_is_told_and_does_not_mislead(
     workspace: Path, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
