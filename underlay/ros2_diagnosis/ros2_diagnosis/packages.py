@@ -260,7 +260,7 @@ def failure_of(workspace: Path, package: str) -> str | None:
         return (
             f'{copied[1]} leads to a file that was renamed or removed; `rm -r {build}` clears it'
         )
-    return said[-1].removeprefix(f'{package}: ')
+    return said[-1]
 
 
 def workspace_of(path: Path) -> Path | None:

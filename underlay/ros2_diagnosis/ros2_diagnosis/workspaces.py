@@ -89,9 +89,10 @@ def _check_failed(package: str, prefix: Path) -> Iterator[Finding]:
     workspace = packages.workspace_of(prefix)
     failure = packages.failure_of(workspace, package) if workspace is not None else None
     if failure is not None:
+        why = failure.removeprefix(f'{package}: ')
         yield Finding(
             package,
-            f'the last `colcon build` of it failed, so that an older one runs: {failure}',
+            f'the last `colcon build` of it failed, so that an older one runs: {why}',
             f'mend that, then run `colcon build --packages-select {package}` in {workspace}',
         )
 
