@@ -73,12 +73,15 @@ def test_tab_completes_ros2_once_a_workspace_is_sourced(tmp_path: Path) -> None:
         shell.kill()
 
 
-def test_the_shell_of_the_lab_has_what_colcon_brings(tmp_path: Path) -> None:
+# What the set-up files of a sourced ROS define in a shell does not come along into another.
+@pytest.mark.parametrize('ros', ['pip', 'sourced'])
+def test_the_shell_of_the_lab_has_what_colcon_brings(tmp_path: Path, ros: str) -> None:
     shell = ('bash', '--rcfile', 'config/shell/bashrc', '-ic')
     asked = 'type -t colcon_cd; complete -p | grep -c " \\(ros2\\|colcon\\)$"; true'
-    here = {'LAB_VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path)}
-    # Of a sourced ROS the setup files do that.
-    expected = ['0'] if SOURCED else ['function', '2']
+    here = {'LAB_VIRTUAL_ENV': sys.prefix, 'HOME': str(tmp_path), 'HUSKY_LAB_ROS': ros}
+    expected = ['function', '2']
+    if SOURCED and not Path(sys.prefix, 'share', 'colcon_cd').exists():
+        expected = ['2']  # colcon is the system's
     assert run(*shell, asked, cwd=ROOT, **here).splitlines() == expected
 
 
@@ -131,7 +134,7 @@ def test_settings_of_a_user_take_nothing_from_the_shell_of_the_lab(
     same = ('VIRTUAL_ENV', 'AMENT_PREFIX_PATH')
     assert [told[name] for name in same] == [lab[name] for name in same], shown
     assert ('ZDOTDIR' in told, 'LAB_VIRTUAL_ENV' in told) == (False, False), shown
-    if not SOURCED:  # whose setup files complete, where they do
+    if not SOURCED:  # there no program finds the middleware that these settings name
         assert (tmp_path / 'helped').read_text().startswith('usage: ros2 topic'), shown
     assert told.get('RMW_IMPLEMENTATION') == ('of_mine' if SOURCED else None), shown
 

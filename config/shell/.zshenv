@@ -11,10 +11,12 @@ enter_lab() {
     precmd_functions=(${precmd_functions:#enter_lab})
     source $lab_shell/lab.sh
     unset lab_shell
-    [[ $HUSKY_LAB_ROS == pip ]] || return 0
     (( $+functions[compdef] )) || { autoload -U +X compinit && compinit -i }
-    eval "$(register-python-argcomplete ros2 colcon)"
-    source $VIRTUAL_ENV/share/colcon_cd/function/colcon_cd.sh
+    # An argcomplete of the system's may speak bash alone; for the rest see bashrc.
+    (( $+functions[complete] )) || { autoload -U +X bashcompinit && bashcompinit }
+    (( ! $+commands[register-python-argcomplete] )) || eval "$(register-python-argcomplete ros2 colcon)"
+    local colcon_cd=$VIRTUAL_ENV/share/colcon_cd/function/colcon_cd.sh
+    [[ ! -f $colcon_cd ]] || source $colcon_cd
 }
 precmd_functions+=(enter_lab)
 

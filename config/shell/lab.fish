@@ -13,6 +13,8 @@ test $PATH[1] = $VIRTUAL_ENV/bin; or set -gx PATH $VIRTUAL_ENV/bin $PATH
 set -e LAB_VIRTUAL_ENV
 if test $HUSKY_LAB_ROS = pip
     set -e RMW_IMPLEMENTATION
+end
+if type -q register-python-argcomplete  # see bashrc
     register-python-argcomplete --shell fish ros2 colcon | source
 end
 functions -c fish_prompt lab_fish_prompt
