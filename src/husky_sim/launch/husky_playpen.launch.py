@@ -19,14 +19,24 @@ VIEWS = 'husky_sim.view'  # the type of the resource in the ament index
 SHARE = FindPackageShare('husky_sim')
 PLAYPEN = PathJoinSubstitution([SHARE, 'worlds', 'playpen.xml'])
 DEFAULTS = PathJoinSubstitution([SHARE, 'config', 'husky_sim.yaml'])
-NOT_HEADLESS = NotSubstitution(LaunchConfiguration('headless'))
 ROBOTS = "Several robots, as a list of 'NAME X Y YAW'; else one at x, y, yaw"
+
+
+class NotHeadless(NotSubstitution):
+    """The default of viewer, of which `--show-args` would show the address of an object."""
+
+    def __init__(self) -> None:
+        super().__init__(LaunchConfiguration('headless'))
+
+    def describe(self) -> str:
+        return 'not headless'
+
 
 # Name, default, type as a parameter of the simulator or of the view, description.
 ARGUMENTS = (
     ('namespace', '', None, 'Namespace of all topics but /clock'),
     ('headless', 'true', None, 'false: show the browser view'),
-    ('viewer', NOT_HEADLESS, None, 'true: the same as headless:=false'),
+    ('viewer', NotHeadless(), None, 'true: the same as headless:=false'),
     ('viewer_host', '127.0.0.1', str, 'Address to serve the view at; 0.0.0.0 lets others look'),
     ('viewer_port', '8080', int, 'Port of the view; the next free one if it is taken'),
     ('viewer_names', '', str, 'More names of this machine that the view is served under'),

@@ -61,6 +61,14 @@ def test_physics_that_breaks_down_are_told_of_once(domain_id: int, tmp_path: Pat
     assert f'more mass in {world}, or' in line
 
 
+@pytest.mark.parametrize('file', ['husky_playpen.launch.py', 'multi_husky_playpen.launch.py'])
+def test_arguments_of_launch_files_are_shown_in_words(file: str) -> None:
+    process = Child(['ros2', 'launch', 'husky_sim', file, '--show-args'], stdout=subprocess.PIPE)
+    shown, _ = process.communicate(timeout=20.0)
+    assert '(default: not headless)' in shown
+    assert ' object at 0x' not in shown
+
+
 @pytest.mark.parametrize('factor', ['1.0e-12', '1.0e-300', '0.0009'])
 def test_a_pace_too_slow_for_a_timer_gives_one_line(domain_id: int, factor: str) -> None:
     del domain_id
