@@ -75,11 +75,12 @@ def _ask(
     service: str,
     requests: Mapping[str, Any],
     attribute: str,
-    **options: bool,
+    *,
+    may_take_long: bool = False,
 ) -> dict[str, Any]:
     """Call a service of each node; return one attribute of each response."""
     named = {f'{name}/{service}': request for name, request in requests.items()}
-    answers = calls.call_all(node, service_class, named, **options).values()
+    answers = calls.call_all(node, service_class, named, may_take_long=may_take_long).values()
     return {
         name: answer if isinstance(answer, Exception) else getattr(answer, attribute)
         for name, answer in zip(requests, answers, strict=True)
