@@ -457,11 +457,11 @@ def test_a_blocked_interrupt_is_seen_whatever_else_the_kernel_tells() -> None:
 
 
 def test_interrupts_are_kept_by_the_kernel_but_in_a_set_up(clone: Path, tmp_path: Path) -> None:
-    # Bash loses one of some hundred that come while it starts or ends a command.
+    # Bash loses one of some hundred that come as it starts or ends one. It forks with all held.
     masks = tmp_path / 'masks'
-    folder = tmp_path / 'bin'
-    program(folder, 'sha256sum', f'grep SigBlk /proc/$PPID/status >>{masks}; exec cksum')
-    path = program(folder, 'df', 'printf "h\\nfs 1 1 90000 1%% /\\n"')
+    look = f's=/proc/$PPID/status; until grep -q sleeping $s; do :; done; grep SigBlk $s >>{masks}'
+    program(tmp_path, 'sha256sum', f'{look}; exec cksum')
+    path = program(tmp_path, 'df', 'printf "h\\nfs 1 1 90000 1%% /\\n"')
     refused(lab(clone, 'exec', 'true', PATH=path), 'disk is full')
     blocked = [int(line.split()[1], 16) for line in masks.read_text().splitlines()]
     assert [bool(mask & 1 << signal.SIGINT - 1) for mask in blocked] == [True, False]

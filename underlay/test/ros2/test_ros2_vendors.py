@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import pytest
 import rclpy
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
 from ros2_diagnosis import nodes
 from ros2cli import calls
 from ros2cli.errors import CommandError
@@ -29,6 +30,7 @@ def foreign_server(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[str
     yield '/ask'
     node.destroy_node()
     rclpy.shutdown(context=context)
+    uninstall_signal_handlers()  # command_node leaves its own, as a process that ends may
 
 
 def test_a_service_on_another_dds_is_not_waited_for(
