@@ -4,8 +4,10 @@
 What every test relies on.
 
 `./lab test` runs two tests at a time for each processor, four at least and eight at most: most
-wait for a clock more than they compute. The tests of a file stay in one process. Each test that
-uses DDS has a domain of its own, see husky_runtime.domains.
+wait for a clock more than they compute. With `CI` set it is one for each, two at least: nobody
+waits there, and on a shared machine in a slow hour all compute, so that what has to end in time
+would not. The tests of a file stay in one process. Each test that uses DDS has a domain of its
+own, see husky_runtime.domains.
 """
 
 from collections.abc import Iterator
@@ -63,7 +65,8 @@ def pytest_sessionstart() -> Iterator[None]:
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """Tell how many tests run at a time where nobody says so."""
-    return min(max(4, 2 * usable_processors()), 8)
+    of_each = 1 if os.environ.get('CI') else 2
+    return min(of_each * max(2, usable_processors()), 8)
 
 
 # Files whose tests share what takes long: a browser that draws without a graphics processor, which
