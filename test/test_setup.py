@@ -2,20 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `./lab` says when it cannot set up: one line, exit status 2, nothing broken."""
 
-import fcntl
 import os
 from pathlib import Path
 import shutil
-import signal
 import subprocess
 import sys
 
-from playpen_testing.processes import Processes
-from playpen_testing.waiting import wait_until
-from psutil import process_iter
+from playpen_testing.lab_script import (
+    bare_clone,
+    lab,
+    plain_environment,
+    program,
+    refused,
+    ROOT,
+    sourced,
+)
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
 NO_PROC = (
     'exec unshare --map-root-user --mount '
     'bash -c \'mount -t tmpfs none /proc; exec "$0" exec true\' "$0"'
@@ -25,58 +28,7 @@ NOBODY = 'http://127.0.0.1:9/simple'  # an index of packages that does not answe
 
 @pytest.fixture
 def clone(tmp_path: Path) -> Path:
-    """Return a folder with what the set-up reads of a fresh clone, and nothing set up."""
-    folder = tmp_path / 'clone'
-    (folder / 'underlay').mkdir(parents=True)
-    shutil.copy(ROOT / 'lab', folder)
-    shutil.copytree(ROOT / 'requirements', folder / 'requirements')
-    no_modules = shutil.ignore_patterns('src', 'test')
-    shutil.copytree(ROOT / 'underlay', folder / 'underlay', ignore=no_modules, dirs_exist_ok=True)
-    programs = Path('src', 'husky_runtime', 'husky_runtime')
-    (folder / programs).mkdir(parents=True)
-    for name in ('parent_death.py', 'set_up_progress.py'):
-        shutil.copy(ROOT / programs / name, folder / programs)
-    return folder
-
-
-def plain_environment() -> dict[str, str]:
-    """Return the environment of a terminal in which nothing of ROS or the lab is set up."""
-    ours = ('ROS_', 'AMENT_', 'COLCON_', 'HUSKY_', '_ROS_', 'VIRTUAL_ENV', 'LD_LIBRARY', 'PYTHON')
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(ours)}
-    venv = os.environ.get('VIRTUAL_ENV', '')
-    folders = kept['PATH'].split(os.pathsep)
-    kept['PATH'] = os.pathsep.join(
-        folder for folder in folders if not (venv and folder.startswith(venv))
-    )
-    return kept
-
-
-def lab(clone: Path, *words: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [str(clone / 'lab'), *words],
-        cwd='/',
-        env={**plain_environment(), **environment},
-        capture_output=True,
-        text=True,
-        timeout=100,
-    )
-
-
-def program(folder: Path, name: str, text: str) -> str:
-    """Put a program into a folder and return a PATH on which it comes first."""
-    folder.mkdir(exist_ok=True)
-    (folder / name).write_text(f'#!/bin/sh\n{text}\n')
-    (folder / name).chmod(0o755)
-    return f'{folder}{os.pathsep}{plain_environment()["PATH"]}'
-
-
-def refused(done: subprocess.CompletedProcess[str], *words: str) -> None:
-    """Hold that the last line printed says why and that the exit status is 2."""
-    lines = done.stderr.splitlines()
-    assert done.returncode == 2, done.stderr
-    assert lines[-1].startswith('lab: ')
-    assert [word for word in words if word not in lines[-1]] == [], done.stderr
-    assert len(lines) <= 2, 'at most one line of progress and one of refusal'
+    return bare_clone(tmp_path / 'clone')
 
 
 @pytest.mark.parametrize('char', [':', ';', '=', '$', '{', '}', '\\'])
@@ -120,16 +72,6 @@ def test_a_terminal_in_which_no_program_can_run_is_refused(
         timeout=20,
     )
     assert (done.returncode, said in done.stderr.splitlines()[-1]) == (2, True), done.stderr
-
-
-def sourced(function: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Call functions of ./lab, which are not yet in the environment of the wheels."""
-    return subprocess.run(
-        ['bash', '-c', f'source "$0" help >/dev/null; venv=/no/venv; {function}', ROOT / 'lab'],
-        env={**plain_environment(), **environment},
-        capture_output=True,
-        text=True,
-    )
 
 
 @pytest.mark.parametrize('file', ['numpy.py', 'mujoco/__init__.py', 'launch.py'])
@@ -425,63 +367,6 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> Non
     refused(done, 'no network', 'call ./lab again')
     done = lab(clone, 'exec', 'true', PIP_NO_INDEX='1', PIP_CONFIG_FILE=os.devnull)
     refused(done, 'pip finds no ros-rclpy', 'PIP_INDEX_URL to one and PIP_NO_INDEX to 0')
-
-
-# Makes the count of signals that wait, which /proc/PID/status tells, a digit longer and shorter.
-COUNTS = """
-import ctypes, re
-libc, timer = ctypes.CDLL(None), ctypes.c_void_p()
-make = lambda: libc.timer_create(1, None, ctypes.byref(timer))
-count = lambda: int(re.search(r'SigQ:\\t(\\d+)', open('/proc/self/status').read())[1])
-while not set(str(count())) == {'9'}:
-    make()
-print('counts', flush=True)
-while True:
-    make()
-    libc.timer_delete(timer)
-"""
-
-
-def test_a_blocked_interrupt_is_seen_whatever_else_the_kernel_tells() -> None:
-    look = 'for ((i = 0; i < 500; i++)); do interrupts_are_held || echo missed; done'
-    with subprocess.Popen([sys.executable, '-c', COUNTS], stdout=subprocess.PIPE) as counting:
-        assert counting.stdout is not None
-        assert counting.stdout.readline() == b'counts\n'
-        try:
-            told = sourced(
-                f'exec env --block-signal=INT bash -c \'. "$0" help >/dev/null; {look}\' "$0"'
-            )
-        finally:
-            counting.kill()
-    assert (told.stdout, told.stderr) == ('', '')
-
-
-def test_interrupts_are_kept_by_the_kernel_but_in_a_set_up(clone: Path, tmp_path: Path) -> None:
-    # Bash loses one of some hundred that come as it starts or ends one. It forks with all held.
-    masks = tmp_path / 'masks'
-    look = f's=/proc/$PPID/status; until grep -q sleeping $s; do :; done; grep SigBlk $s >>{masks}'
-    program(tmp_path, 'sha256sum', f'{look}; exec cksum')
-    path = program(tmp_path, 'df', 'printf "h\\nfs 1 1 90000 1%% /\\n"')
-    refused(lab(clone, 'exec', 'true', PATH=path), 'disk is full')
-    blocked = [int(line.split()[1], 16) for line in masks.read_text().splitlines()]
-    assert [bool(mask & 1 << signal.SIGINT - 1) for mask in blocked] == [True, False]
-
-
-def test_an_interrupt_ends_the_wait_for_another_set_up(processes: Processes, clone: Path) -> None:
-    with (clone / '.lab.lock').open('w') as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        run = processes.start(str(clone / 'lab'), 'exec', 'true')
-        wait_until(
-            lambda: any(
-                each.info == {'cmdline': ['flock', '9'], 'ppid': run.pid}
-                for each in process_iter(['cmdline', 'ppid'])
-            ),
-            timeout_sec=20.0,
-            what='./lab that waits for the lock',
-        )
-        run.signal(signal.SIGINT)
-        assert run.wait(timeout_sec=2.0) == 128 + signal.SIGINT
-    assert run.lines[-1:] == ['lab: interrupted']
 
 
 @pytest.mark.parametrize(
