@@ -57,7 +57,8 @@ def sends_by_shared_memory() -> bool:
 
 def lacks_shared_memory(needed_mb: int) -> bool:
     """Return whether Fast DDS is used and has less left than this."""
-    if not os.environ.get('RMW_IMPLEMENTATION', 'rmw_fastrtps').startswith('rmw_fastrtps'):
+    middleware = os.environ.get('RMW_IMPLEMENTATION') or 'rmw_fastrtps_cpp'  # empty is unset
+    if not middleware.startswith('rmw_fastrtps'):
         return False
     try:
         status = os.statvfs(FOLDER)

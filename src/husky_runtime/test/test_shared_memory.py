@@ -249,6 +249,23 @@ def open_files(pid: int) -> set[Path]:
     return {Path(file.path) for file in psutil.Process(pid).open_files()}
 
 
+@pytest.mark.parametrize(
+    ('middleware', 'looks'),
+    [('rmw_fastrtps_cpp', True), ('', True), ('rmw_cyclonedds_cpp', False)],
+)
+def test_too_little_is_refused_where_fast_dds_is_used(middleware: str, *, looks: bool) -> None:
+    small = 'mount -t tmpfs -o size=1300k tmpfs /dev/shm && exec "$0" -c "$1"'
+    check = 'from husky_runtime.shared_memory import check_shared_memory as check; check()'
+    done = subprocess.run(
+        ['unshare', '--map-root-user', '--mount', 'bash', '-c', small, sys.executable, check],
+        env={**os.environ, 'RMW_IMPLEMENTATION': middleware},
+        capture_output=True,
+        text=True,
+    )
+    assert ('/dev/shm has less than 4 MB left' in done.stderr) == looks, done
+    assert (done.returncode == 0) != looks, done
+
+
 def participant(domain: int) -> Process:
     """Start a node in a domain, and wait until it is there."""
     started = begin(domain)
