@@ -14,7 +14,7 @@ from husky_course.waypoints import load_course
 
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.hiding import hiding
-from husky_grader.lab.programs import Programs, wrong_begin
+from husky_grader.lab.programs import Programs, wrong_first_line
 from husky_grader.report.files import write_report
 from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveStep
 from husky_grader.run.diagnosis import crash
@@ -54,7 +54,7 @@ class DriveRunner:
                 without=self.programs.place,
                 real_time_factor=self.real_time_factor,
             )
-        if step.executable and (wrong := wrong_begin(Path(command[0]))):
+        if step.executable and (wrong := wrong_first_line(Path(command[0]))):
             live = replace(live, notes=(f'{step.executable} cannot be started: {wrong}',))
         elif hidden := hiding(crash(live.printed), self.programs.built, self.programs.environment):
             live = replace(live, notes=(*live.notes, hidden))

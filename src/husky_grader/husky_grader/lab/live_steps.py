@@ -19,7 +19,7 @@ from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.hiding import hiding
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
-from husky_grader.lab.programs import given_words, Programs, wrong_begin
+from husky_grader.lab.programs import given_words, Programs, wrong_first_line
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
 from husky_grader.run.diagnosis import crash, how_ended, last_line, shortened
@@ -53,7 +53,7 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         exit_code = program.exit_code
     printed = read_printed(log, without=programs.place)
     if exit_code is not None and step.executable:
-        why = wrong_begin(Path(command[0]))
+        why = wrong_first_line(Path(command[0]))
         if exit_code == NO_PROGRAM and printed:
             why = why or 'there is no such program as its first line says'
         if why:

@@ -109,7 +109,7 @@ def given_words(step: ProgramStep) -> list[str]:
     return words
 
 
-def wrong_begin(program: Path) -> str:
+def wrong_first_line(program: Path) -> str:
     """Return why the first line of a program keeps it from being started; nothing if it does."""
     with suppress(OSError), program.open('rb') as stream:
         line = stream.readline(MAX_FIRST_LINE)
