@@ -218,6 +218,19 @@ def make_package(prefix: Path, name: str, **programs: str) -> Path:
 
 
 @pytest.fixture
+def sources(ros2: Ros2, domain: int, tmp_path: Path) -> Path:
+    """Return the `src` of a workspace with the package `mine`, whose program `hello` says Hi."""
+    del domain  # it has a folder of logs
+    source = tmp_path / 'src'
+    source.mkdir()
+    ros2(
+        'pkg', 'create', 'mine', '--build-type', 'ament_python', '--node-name', 'hello',
+        '--license', 'MIT', folder=source,
+    )  # fmt: skip
+    return source
+
+
+@pytest.fixture
 def installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
     """Return a function that installs a package in a prefix of the test."""
 

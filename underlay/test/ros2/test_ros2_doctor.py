@@ -273,14 +273,8 @@ def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., An
 
 
 def test_a_workspace_not_built_not_sourced_or_out_of_date(
-    ros2: Callable[..., Any], tmp_path: Path, domain: int, monkeypatch: pytest.MonkeyPatch
+    sources: Path, ros2: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    source = tmp_path / 'src'
-    source.mkdir()
-    ros2(
-        'pkg', 'create', 'mine', '--build-type', 'ament_python', '--node-name', 'hello',
-        '--license', 'MIT', folder=source,
-    )  # fmt: skip
     answer = ros2('doctor', folder=tmp_path)
     assert 'package' in answer.lines[-1].removeprefix('Failed modules: ').split()
     line = answer.of_check('workspace')
@@ -290,7 +284,7 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
     colcon = shutil.which('colcon')
     assert colcon
     subprocess.run([colcon, 'build'], cwd=tmp_path, check=True, capture_output=True)
-    line = ros2('doctor', folder=source).of_check('workspace')
+    line = ros2('doctor', folder=sources).of_check('workspace')
     assert f'mine: built in {tmp_path}, but not sourced in this terminal' in line
     assert f'`source {tmp_path}/install/setup.bash`' in line
 
@@ -300,16 +294,15 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
     monkeypatch.setenv('PYTHONPATH', f'{os.environ.get("PYTHONPATH", "")}{os.pathsep}{modules}')
     assert not [x for x in ros2('doctor', folder=tmp_path).lines if '(workspace)' in x]
 
-    (source / 'mine' / 'mine' / 'hello.py').write_text('def main():\n    print("changed")\n')
+    (sources / 'mine' / 'mine' / 'hello.py').write_text('def main():\n    print("changed")\n')
     line = ros2('doctor', folder=tmp_path).of_check('workspace')
     assert 'hello.py has changed since the package was built, so that the old one runs' in line
     assert f'run `colcon build --packages-select mine` in {tmp_path}' in line
     ran = ros2('run', 'mine', 'hello')
     assert ran.err.startswith('hint: mine: ')
     assert ran.out == 'Hi from mine.\n'
-    assert domain
 
-    (source / 'mine' / 'mine' / 'subscriber.py').write_text('def main():\n    pass\n')
+    (sources / 'mine' / 'mine' / 'subscriber.py').write_text('def main():\n    pass\n')
     told = 'subscriber.py has a main(), but no entry point'
     assert any(told in line for line in ros2('doctor', folder=tmp_path).lines)
     for name in ('subscriber', 'subscriber.py'):

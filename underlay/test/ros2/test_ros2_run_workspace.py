@@ -28,24 +28,16 @@ def main():
 
 
 @pytest.fixture
-def workspace(
-    ros2: Callable[..., Any], tmp_path: Path, domain: int, monkeypatch: pytest.MonkeyPatch
-) -> Path:
+def workspace(sources: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a workspace with the package `mine`, where AMENT_PREFIX_PATH says it is sourced."""
-    assert domain
-    source = tmp_path / 'src'
-    source.mkdir()
-    ros2(
-        'pkg', 'create', 'mine', '--build-type', 'ament_python', '--node-name', 'hello',
-        '--license', 'MIT', folder=source,
-    )  # fmt: skip
-    (source / 'mine' / 'launch').mkdir()
-    (source / 'mine' / 'launch' / 'hello.launch.py').touch()
-    prefixes = [str(tmp_path / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
+    folder = sources.parent
+    (sources / 'mine' / 'launch').mkdir()
+    (sources / 'mine' / 'launch' / 'hello.launch.py').touch()
+    prefixes = [str(folder / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
     monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
-    modules = tmp_path / 'build' / 'mine'
+    modules = folder / 'build' / 'mine'
     monkeypatch.setenv('PYTHONPATH', f'{os.environ.get("PYTHONPATH", "")}{os.pathsep}{modules}')
-    return tmp_path
+    return folder
 
 
 def build(folder: Path) -> subprocess.CompletedProcess[str]:
