@@ -123,26 +123,31 @@ def test_a_distance_is_driven_from_any_start_pose(
     assert max(abs(o.speed_m_s) for o in run.track) == pytest.approx(0.6, abs=0.02)
 
 
-def test_a_robot_that_does_not_move_is_given_up_with_a_message() -> None:
-    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
+@pytest.mark.parametrize(
+    ('to', 'why', 'asked'),
+    [
+        (
+            '[2, 0]',
+            'the robot does not move: told to drive 0.50 m/s',
+            'stayed at (0.00, 0.00); does an emergency stop (e_stop) hold it?',
+        ),
+        (
+            '[-2, 0]',
+            'the wheels slip: told to turn',
+            'battery empty, or its emergency stop (e_stop) pressed?',
+        ),
+    ],
+)
+def test_a_robot_that_does_not_move_is_given_up_with_a_message(
+    to: str, why: str, asked: str
+) -> None:
+    drive = drive_of(parse_course(f'waypoints: [[0, 0], {to}]'))
     periods = 0
     while drive.step(Odometry(periods * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0)) is not None:
         periods += 1
         assert periods < 1000
-    assert 'the robot does not move: told to drive 0.50 m/s' in drive.failure
-    assert drive.failure.endswith(
-        'stayed at (0.00, 0.00); does an emergency stop (e_stop) hold it?'
-    )
-
-
-def test_an_emergency_stop_in_a_turn_is_among_the_reasons() -> None:
-    drive = drive_of(parse_course('waypoints: [[0, 0], [-2, 0]]'))
-    periods = 0
-    while drive.step(Odometry(periods * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0)) is not None:
-        periods += 1
-        assert periods < 1000
-    assert 'the wheels slip: told to turn' in drive.failure
-    assert drive.failure.endswith('battery empty, or its emergency stop (e_stop) pressed?')
+    assert why in drive.failure
+    assert drive.failure.endswith(asked)
 
 
 def test_one_that_gave_up_is_stopped_until_it_stays_at_rest() -> None:
