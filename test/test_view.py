@@ -15,7 +15,7 @@ from husky_view.gate.front_page import NO_WEBGL
 from husky_view.live.links import LATCHED
 from nav_msgs.msg import Path
 from playpen_testing import chromium
-from playpen_testing.browser import button, errors, FLAGS, launch, number, wait_for
+from playpen_testing.browser import button, errors, FLAGS, launch, number, places, wait_for
 from playpen_testing.spinning import do_in_thread_of
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
@@ -91,6 +91,19 @@ def test_a_browser_that_draws_nothing_in_3d_is_told_what_to_do(lab: Lab) -> None
         page = browser.new_page()
         page.goto(lab.address, wait_until='commit')
         expect(page.get_by_text(NO_WEBGL)).to_be_visible(timeout=30_000)
+
+
+@pytest.mark.timeout(120)
+def test_no_button_moves_when_time_is_paused(page: Page) -> None:
+    wait_for(page, f"{TROUBLE} === ''")  # a warning at the top would move all
+    before = places(page)
+    button(page, 'Pause').click()
+    expect(number(page, 'factor')).to_have_text('paused')
+    while_paused = places(page)
+    button(page, 'Resume').click()
+    expect(number(page, 'factor')).not_to_have_text('paused')
+    assert {'STOP', 'Plots over the time', 'Waypoints'} <= before.keys()
+    assert while_paused == {{'Pause': 'Resume'}.get(k, k): v for k, v in before.items()}
 
 
 @pytest.mark.timeout(120)

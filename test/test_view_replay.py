@@ -12,7 +12,7 @@ from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
 from husky_view.gate.front_page import ALIVE, LOST, SILENT
-from playpen_testing.browser import button, errors, number, open_page, wait_for
+from playpen_testing.browser import button, errors, number, open_page, places, wait_for
 from playpen_testing.processes import Process, Processes
 from playwright.sync_api import Browser, expect, Page
 import pytest
@@ -73,10 +73,21 @@ def test_a_replay_jumps_to_the_collision_and_stands_there(page: Page) -> None:
 
 
 @pytest.mark.timeout(120)
-def test_the_slider_reaches_the_end_and_play_begins_again(page: Page) -> None:
+def test_no_button_moves_as_there_is_more_to_be_seen(page: Page) -> None:
+    slider, legend = page.get_by_role('slider'), page.locator('.husky-legend')
     # A key that is pressed while the page still hears of the jump would be lost.
     wait_for(page, f'Math.abs({SLIDER} - {TIME}) < 0.06')
-    page.get_by_role('slider').press('End')
+    slider.press('Home')
+    expect(legend).to_have_text('')
+    before = places(page)
+    slider.press('End')
+    expect(legend).to_contain_text('collision')
+    assert {'Plots over the time', 'From the start'} <= before.keys()
+    assert places(page) == before
+
+
+@pytest.mark.timeout(120)
+def test_the_slider_reaches_the_end_and_play_begins_again(page: Page) -> None:
     wait_for(page, f'{TIME} === {SECONDS}')
     button(page, 'Play').click()
     wait_for(page, f'{TIME} < {SECONDS}')

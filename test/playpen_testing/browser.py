@@ -52,6 +52,11 @@ _IS_CANVAS_LOST = """(() => {
   const drawing = canvas && canvas.getContext("webgl2");
   return Boolean(drawing && drawing.isContextLost());
 })()"""
+_PLACES = """() => {
+  const all = [...document.querySelectorAll('button, [style*="cursor: pointer"]')];
+  return all.map((each) => [each.textContent.trim(), each.getBoundingClientRect()])
+    .map(([name, box]) => [name, [box.left + box.width / 2, box.top]]);
+}"""
 _ASPHALT = np.array([75, 75, 77])
 
 expect.set_options(timeout=30_000)
@@ -107,6 +112,12 @@ def number(page: Page, key: str) -> Locator:
 def wait_for(page: Page, script: str) -> None:
     """Wait until a JavaScript expression is true."""
     page.wait_for_function(script, polling=50)  # a page that draws has few frames to poll in
+
+
+def places(page: Page) -> dict[str, Place]:
+    """Return where on the page each button and the head of each folder is, in px."""
+    found = list[tuple[str, Place]](page.evaluate(_PLACES))
+    return {name: place for name, place in found if name}
 
 
 def errors(page: Page) -> list[str]:

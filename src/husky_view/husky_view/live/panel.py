@@ -19,6 +19,7 @@ from husky_view.picture.page import (
     Direction,
     figures_html,
     in_decimals,
+    LAST,
     legend_html,
     page_html,
     RELEASE,
@@ -84,7 +85,7 @@ class Panel:
             )
         self._add_drive_buttons(gui)
         self._page = gui.add_html(page_html())
-        self._legend = gui.add_html('')
+        self._legend = gui.add_html('', order=LAST)
         self._ground = gui.add_html('')
         self._plots = RunPlots(gui)
 
@@ -160,21 +161,20 @@ class Panel:
             self._paused = paused
             self._time.options = (RESUME if paused else PAUSE, STEP, RESET)
         factor = '–' if real_time_factor is None else f'{real_time_factor:.2f}'
+        # In the place of a figure: a line that comes and goes would move the buttons.
+        factor = '<span style="color:#e80">paused</span>' if paused else factor
         cross = '–' if cross_track_m is None else f'{in_decimals(cross_track_m, 3, sign="+")} m'
         left = '–' if waypoints_left is None else str(waypoints_left)
-        table = figures_html(
-            (
-                ('sim time', f'{time_sec:.1f} s', 'time'),
-                ('real time ×', factor, 'factor'),
-                ('speed', f'{in_decimals(speed_m_s, 2)} m/s', 'speed'),
-                ('off the path', cross, 'cross'),
-                ('waypoints left', left, 'left'),
-                ('collisions', str(collisions), 'collisions'),
-            ),
-            red='collisions' if collisions else '',
+        figures = (
+            ('sim time', f'{time_sec:.1f} s', 'time'),
+            ('real time ×', factor, 'factor'),
+            ('speed', f'{in_decimals(speed_m_s, 2)} m/s', 'speed'),
+            ('off the path', cross, 'cross'),
+            ('waypoints left', left, 'left'),
+            ('collisions', str(collisions), 'collisions'),
         )
-        state = '<b style="color:#e80">paused</b>' if paused else ''
-        show_html(self._figures, f'{table}<div style="padding:0 1em .3em">{state}</div>')
+        red = 'collisions' if collisions else ''
+        show_html(self._figures, figures_html(figures, red=red))
         show_html(self._legend, legend_html(colors))
         show_html(self._ground, ground)
         self._plots.show(history)
