@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the programs of this user were told by --ros-args, and the nodes that they hold."""
+"""What the programs of this user were told, by --ros-args or not, and the nodes they hold."""
 
 from __future__ import annotations
 
@@ -18,15 +18,26 @@ from rtps_graph.graph import Graph, Node
 class CommandLine:
     """A program that runs.
 
+    :param file: the program, as it was called.
     :param folder: the one that it was started in.
-    :param options: each word behind --ros-args with the next one.
+    :param words: what stands behind the program.
     :param nodes: those of a graph that it holds, one at least.
     """
 
-    program: str
+    file: Path
     folder: Path
-    options: tuple[tuple[str, str], ...]
+    words: tuple[str, ...]
     nodes: tuple[Node, ...]
+
+    @property
+    def program(self) -> str:
+        return self.file.name
+
+    @property
+    def options(self) -> tuple[tuple[str, str], ...]:
+        """Return each word behind --ros-args with the next one."""
+        begin = self.words.index('--ros-args') if '--ros-args' in self.words else len(self.words)
+        return tuple(itertools.pairwise(self.words[begin:]))
 
 
 def with_nodes_in(graph: Graph) -> Iterator[CommandLine]:
@@ -37,15 +48,16 @@ def with_nodes_in(graph: Graph) -> Iterator[CommandLine]:
     for process in sorted(Path('/proc').glob('[0-9]*')):
         with contextlib.suppress(OSError):  # it has ended, or is another user's
             words = (process / 'cmdline').read_bytes().decode(errors='replace').split('\0')
-            if '--ros-args' not in words:
+            if '--ros-args' not in words and not any(':=' in word for word in words):
                 continue
             ports = host.ports_of(process)
             nodes = tuple(node for node in graph.nodes if node.port in ports)
             if nodes:
-                program = words[1] if 'python' in Path(words[0]).name else words[0]
+                if 'python' in Path(words[0]).name:
+                    del words[0]
                 yield CommandLine(
-                    program=Path(program).name,
+                    file=Path(words[0]),
                     folder=(process / 'cwd').readlink(),
-                    options=tuple(itertools.pairwise(words[words.index('--ros-args') :])),
+                    words=tuple(words[1:]),
                     nodes=nodes,
                 )

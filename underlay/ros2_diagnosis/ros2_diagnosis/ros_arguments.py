@@ -35,18 +35,22 @@ def print_hints(package: str, program: str, words: Sequence[str]) -> None:
     """Tell on stderr what is wrong with the words behind a program that is about to run."""
     for finding in itertools.islice(refused(words), 1):  # a node ends at the first
         print(f'hint: {finding}', file=sys.stderr)
-    if _is_of_a_student(package):
-        for finding in passed_over(f'{package} {program}', words):
+    if is_of_a_student(package):
+        for finding in passed_over(f'ros2 run {package} {program}', words):
             print(f'hint: {finding}', file=sys.stderr)
 
 
-def passed_over(program: str, words: Sequence[str]) -> Iterator[Finding]:
-    """Find what looks like a parameter or another name, but stands before no --ros-args."""
+def passed_over(command: str, words: Sequence[str]) -> Iterator[Finding]:
+    """
+    Find what looks like a parameter or another name, but stands behind no --ros-args.
+
+    :param command: what the words stand behind.
+    """
     for option, word in zip(['', *words], _for_the_program(words), strict=False):
         if word is None or not (_ASSIGNS.fullmatch(word) or option == '--params-file'):
             continue
         if option in (*_PARAMETER, *_REMAP, '--params-file'):
-            shown, mend = f'{option} {word}', f'`ros2 run {program} {_BEGIN} {option} {word}`'
+            shown, mend = f'{option} {word}', f'`{command} {_BEGIN} {option} {word}`'
         else:
             shown = word
             mend = f'`{_BEGIN} -p {word}` for a parameter, `{_BEGIN} -r {word}` for another name'
@@ -70,7 +74,8 @@ def refused(words: Sequence[str]) -> Iterator[Finding]:
             yield from _wrong_rule(option, value)
 
 
-def _is_of_a_student(package: str) -> bool:
+def is_of_a_student(package: str) -> bool:
+    """Return whether a package is built here and has no programs that refuse words themselves."""
     source = packages.source_of(package)
     if source is None:
         return False

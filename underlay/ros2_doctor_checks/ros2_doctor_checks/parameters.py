@@ -1,17 +1,18 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters that a program is given, and that none of its nodes has: they set nothing."""
+"""Parameters that a program is given and that set nothing: none of its nodes has or hears them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 import contextlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 import re
 from typing import Any
 
-from ros2_diagnosis import command_lines, nearest
+from ros2_diagnosis import command_lines, nearest, ros_arguments
+from ros2_diagnosis.command_lines import CommandLine
 from ros2_diagnosis.finding import Finding
 from rtps_graph.graph import Graph
 import yaml
@@ -48,7 +49,14 @@ class _Source:
 
 def check_parameters(graph: Graph) -> Iterator[Finding]:
     """Compare what the programs of this user are given with what their nodes have declared."""
-    sources = _sources(graph)
+    lines = [
+        line
+        for line in command_lines.with_nodes_in(graph)
+        if any(not node.is_hidden for node in line.nodes)
+    ]
+    for line in lines:
+        yield from _passed_over(line)
+    sources = _sources(lines)
     if not sources:
         return
     known = answers.parameter_names(graph)
@@ -83,11 +91,21 @@ def check_parameters(graph: Graph) -> Iterator[Finding]:
     yield from of_nobody
 
 
-def _sources(graph: Graph) -> list[_Source]:
+def _passed_over(line: CommandLine) -> Iterator[Finding]:
+    """Find what stands behind no --ros-args, as the `arguments` of a launch file do."""
+    package = line.file.parent.name if line.file.parent.parent.name == 'lib' else ''
+    command = f'ros2 run {package} {line.program}' if package else line.program
+    if ros_arguments.is_of_a_student(package) if package else line.file.suffix == '.py':
+        for found in ros_arguments.passed_over(command, line.words):
+            mend = f'{found.mend}; in a launch file, `parameters` or `remappings` of its Node'
+            yield replace(found, where=f'{line.program} {found.where}', mend=mend)
+
+
+def _sources(lines: list[CommandLine]) -> list[_Source]:
     found: dict[tuple[str, str, str], _Source] = {}
-    for line in command_lines.with_nodes_in(graph):
+    for line in lines:
         held = {node.full_name for node in line.nodes if not node.is_hidden}
-        for option, value in line.options if held else ():
+        for option, value in line.options:
             given = sorted(set(_given(line.folder, option, value)), key=lambda each: each.name)
             where = f'{line.program} {option} {value}'
             is_file = option == '--params-file'

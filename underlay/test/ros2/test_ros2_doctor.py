@@ -100,6 +100,20 @@ def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any
     assert '`ros2 param set /waits use_sim_time false`' in line
 
 
+def test_words_that_stand_behind_no_ros_args(processes: Any, ros2: Callable[..., Any]) -> None:
+    processes.node('plain', 'first', '-p', 'rate:=5.0', '--ros-args', '-r', '__node:=one')
+    processes.node('plain', 'second', 'rate:=5.0')
+    in_launch = 'in a launch file, `parameters` or `remappings` of its Node'
+    why = 'ROS takes parameters and other names behind --ros-args alone'
+    answer = ros2('doctor')
+    assert sorted(line for line in answer.lines if ' (parameters): ' in line) == [
+        f'problem (parameters): nodes.py -p rate:=5.0: {why}; write '
+        f'`nodes.py --ros-args -p rate:=5.0`; {in_launch}',
+        f'problem (parameters): nodes.py rate:=5.0: {why}; write `--ros-args -p rate:=5.0` for a '
+        f'parameter, `--ros-args -r rate:=5.0` for another name; {in_launch}',
+    ], answer
+
+
 def test_options_that_set_and_rename_nothing(
     processes: Any, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:
