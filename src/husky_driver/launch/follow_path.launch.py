@@ -32,8 +32,9 @@ def generate_launch_description() -> LaunchDescription:
                 namespace=LaunchConfiguration('namespace'),
                 output='screen',
                 emulate_tty=True,
+                # Not by `parameters`: of a file that is not there launch warns alone, and goes on.
+                ros_arguments=['--params-file', LaunchConfiguration('params_file')],
                 parameters=[
-                    LaunchConfiguration('params_file'),
                     {
                         name: ParameterValue(LaunchConfiguration(name), value_type=kind)
                         for name, kind in (

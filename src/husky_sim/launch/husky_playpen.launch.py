@@ -108,7 +108,9 @@ class _Simulator:
                 executable='husky_sim',
                 namespace=LaunchConfiguration('namespace'),
                 output='screen',
-                parameters=[LaunchConfiguration('params_file'), self._given],
+                # Not by `parameters`: of a file that is not there launch warns alone, and goes on.
+                ros_arguments=['--params-file', LaunchConfiguration('params_file')],
+                parameters=[self._given],
                 on_exit=_end_all,
             )
         ]
