@@ -30,6 +30,21 @@ FAIL_AS_IN_MINUTES = """() => Promise.all([...Array(80)].map(() => new Promise((
 })))"""
 
 
+# As where a scene takes long to draw: the page presses Play when the test lets it look.
+HOLD_LOOKS = """
+const soon = window.setInterval.bind(window);
+window.looks = -1;
+window.setInterval = (look, ms) => look.name !== 'arrange' ? soon(look, ms) : soon(() => {
+  if (window.looks < 0) return;
+  look();
+  window.looks += 1;
+}, ms);
+"""
+DRAW_TWICE = 'new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))'
+# As two tabs do it: neither has heard of the other's press.
+PRESS_TWICE = 'each => { each.click(); each.click(); }'
+
+
 @pytest.fixture(scope='module')
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Drive into the barrier in the middle, and keep the record as a report does."""
@@ -92,6 +107,45 @@ def test_the_slider_reaches_the_end_and_play_begins_again(page: Page) -> None:
     button(page, 'Play').click()
     wait_for(page, f'{TIME} < {SECONDS}')
     assert errors(page) == []
+
+
+@pytest.mark.timeout(120)
+def test_a_button_that_is_pressed_twice_does_what_it_says(page: Page) -> None:
+    collision = page.get_by_role('button', name='jersey_barrier_15')
+    collision.click()
+    at_sec = float(collision.inner_text().split()[0])
+    wait_for(page, f'{TIME} === {at_sec}')
+    button(page, '¼×').click()
+    button(page, 'Play').evaluate(PRESS_TWICE)
+    wait_for(page, f'{TIME} > {at_sec}')
+    button(page, 'Pause').evaluate(PRESS_TWICE)
+    button(page, 'Play').wait_for()
+    button(page, '1×').click()
+
+
+@pytest.mark.timeout(120)
+def test_a_collision_clicked_before_the_scene_is_drawn_stands(
+    report: Path, browser: Browser
+) -> None:
+    with Processes() as processes:
+        replay = processes.start('ros2', 'run', 'husky_view', 'replay', str(report))
+        replay.wait_for_text('look at http://')
+        page = browser.new_page()
+        page.add_init_script(HOLD_LOOKS)
+        page.goto(replay.output.split('look at ')[1].split()[0], wait_until='commit')
+        collision = page.get_by_role('button', name='jersey_barrier_15')
+        at_sec = float(collision.inner_text().split()[0])
+        wait_for(page, 'window.__viserMutable?.scene?.visible')
+        collision.click()
+        wait_for(page, f'{TIME} === {at_sec}')
+        page.evaluate('window.looks = 0')
+        wait_for(page, 'window.looks > 5')
+        page.evaluate(DRAW_TWICE)
+        button(page, '2×').click()  # the server has heard all that came before
+        expect(button(page, '2×')).to_have_attribute('aria-pressed', 'true')
+        assert button(page, 'Play').is_visible()
+        assert page.evaluate(TIME) == at_sec
+        page.close()
 
 
 @pytest.mark.timeout(60)

@@ -184,7 +184,7 @@ def test_a_playback_stops_at_its_end_and_begins_again() -> None:
     assert playback.time_sec == 8.0
     playback.step(2.0)
     assert (playback.time_sec, playback.playing) == (10.0, False)
-    playback.toggle()
+    playback.play()
     assert (playback.time_sec, playback.playing) == (0.0, True)
     playback.jump(99.0)
     assert playback.time_sec == 10.0

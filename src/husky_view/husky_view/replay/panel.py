@@ -49,11 +49,15 @@ class Playback:
         self.time_sec = min(max(time_sec, 0.0), self.duration_sec)
         self._jumped = True
 
-    def toggle(self) -> None:
-        """Play or pause; at the end, play from the start."""
-        self.playing = not self.playing or self.at_end
-        if self.playing and self.at_end:
+    def play(self) -> None:
+        """Play; at the end, from the start."""
+        self.playing = True
+        if self.at_end:
             self.jump(0.0)
+
+    def pause(self) -> None:
+        """Stand still; may be called twice."""
+        self.playing = False
 
     def step(self, wall_sec: float) -> bool:
         """
@@ -73,7 +77,8 @@ class ReplayPanel:
     """
     The elements of the panel; what is clicked is left as actions.
 
-    It stands at first: the first tab presses Play, when it has drawn the scene.
+    It stands at first: the first tab presses Play, when it has drawn the scene, unless somebody
+    has gone to a collision before.
     """
 
     def __init__(
@@ -121,10 +126,12 @@ class ReplayPanel:
         return page_html(active=active, plays=not self._has_begun)
 
     def _on_time(self, word: str) -> None:
+        # What the word says, and no toggle: two tabs may press the same one at a time.
+        playback = self._playback
         if word == RESTART:
-            self._later(lambda: self._playback.jump(0.0))
+            self._later(lambda: playback.jump(0.0))
         else:
-            self._later(self._playback.toggle)
+            self._later(playback.play if word == PLAY else playback.pause)
 
     def _on_slider(self, event: Any) -> None:
         # Updates by the server itself have no client.
@@ -142,7 +149,8 @@ class ReplayPanel:
 
     def _jumper(self, time_sec: float) -> Callable[[Any], None]:
         def jump() -> None:
-            self._playback.playing = False
+            self._has_begun = True  # it stands there, also where the scene is drawn only later
+            self._playback.pause()
             self._playback.jump(time_sec)
 
         return lambda _: self._later(jump)
