@@ -11,7 +11,7 @@ from husky_course.waypoints import load_course
 from husky_sim.world import default_worlds, load_world
 from husky_view.picture.camera import PANEL_PX, TOP_MARGIN
 from husky_view.picture.geometry import bounds
-from playpen_testing.browser import button, drag, errors, Place
+from playpen_testing.browser import button, drag, errors, Place, places
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
 from playwright.sync_api import Browser, expect, Page
@@ -70,10 +70,14 @@ def distances(ones: Sequence[Place], others: Sequence[Place]) -> float:
 def test_what_is_clicked_and_dragged_is_saved_and_valid(
     lab: Lab, page: Page, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    before = places(page)
     for count, place in enumerate(PLACES, start=1):
         page.mouse.click(*on_screen(*place))
         verdict = 'two waypoints' if count == 1 else f'{count} waypoints'
         expect(page.locator('[data-verdict]')).to_contain_text(verdict)
+    after = places(page)
+    for name in ('Undo', 'Save', 'Save and drive it'):
+        assert after[name] == before[name], f'a press would end beside {name}'
     page.locator('//label[.="Save as"]/following::input').first.fill(NAME)
     button(page, 'Save').click()
     file = lab.folder / f'{NAME}.yaml'

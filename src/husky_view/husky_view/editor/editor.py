@@ -35,6 +35,9 @@ EDIT = 'Edit: click on the ground'
 ENOUGH_M, SCARCE_M = 0.30, 0.15
 """Clearances: comfortable from the first on; a good drive needs the second."""
 
+_ROOM = 'height:4.7em;overflow-y:auto;margin:0 1em .6em;font-size:.85em'
+"""Of the verdict: three lines, also where it has fewer, or it would move the buttons below it."""
+
 _PATH, _TOO_NEAR = '/editor/path', f'{ON_TOP}editor/too_near'
 
 
@@ -122,7 +125,7 @@ class Editor:
         self._loop = gui.add_checkbox('Back to the first (loop)', False)
         self._speed.on_update(in_order(lambda event: event.client and later(self._on_speed)))
         self._loop.on_update(in_order(lambda event: event.client and later(self._on_loop)))
-        self._verdict = gui.add_html('')
+        self._verdict = gui.add_html(f'<div style="{_ROOM}"></div>')
         self._name = gui.add_text('Save as', 'my_path')
         gui.add_button('Save').on_click(in_order(lambda _: later(self._save)))
         drive = gui.add_button(DRIVE, color='green')
@@ -268,7 +271,7 @@ class Editor:
 
     def _say(self, text: str, color: palette.Rgb) -> None:
         self._verdict.content = (
-            '<div data-verdict style="margin:0 1em .6em;padding-left:.6em;font-size:.85em;'
+            f'<div data-verdict style="{_ROOM};padding-left:.6em;'
             f'white-space:pre-wrap;border-left:.4em solid {palette.css(color)}">'
             f'{escape(text)}</div>'
         )
