@@ -158,6 +158,18 @@ def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Page) -> None:
 
 
 @pytest.mark.timeout(120)
+def test_the_arrow_keys_drive_when_a_box_was_ticked(lab: Lab) -> None:
+    page = lab.open()
+    page.get_by_text('Waypoints', exact=True).click()
+    page.get_by_label('Back to the first (loop)').click()
+    page.keyboard.down('ArrowUp')
+    wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')
+    page.keyboard.up('ArrowUp')
+    wait_until(lab.stands, timeout_sec=10.0, what='a robot that stands')
+    page.close()
+
+
+@pytest.mark.timeout(120)
 def test_the_page_publishes_commands_only_while_it_drives(lab: Lab, page: Page) -> None:
     def publishers() -> int:
         infos = lab.listener.get_publishers_info_by_topic('/' + COMMANDS)
@@ -428,6 +440,11 @@ def test_the_page_is_made_anew_for_other_robots_and_knows_what_holds_them(
         do_in_thread_of(lab.listener, lab.listener.destroy_publisher, stop)
     wait_for(page, f'{FACTOR} > 0.5')
     wait_for(page, f'!{TROUBLE}')
+    page.get_by_label('Robot', exact=True).click()
+    page.get_by_role('option', name='beta', exact=True).click()
+    page.keyboard.down('ArrowUp')  # it drives the one that was chosen, and opens no list
+    wait_for(page, "parseFloat(document.querySelector('[data-number=speed]').textContent) > 0.2")
+    page.keyboard.up('ArrowUp')
     assert errors(page) == []
 
 

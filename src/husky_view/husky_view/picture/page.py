@@ -93,8 +93,9 @@ const release = (key) => {
   send(keys[key], 'pointerup');
   send(keys[key], 'click');
 };
-const typing = (e) => e.target.closest &&
-  e.target.closest('input, textarea, select, [role=slider], [role=tab], [contenteditable]');
+// A box that is ticked has no use for these keys.
+const typing = (e) => e.target.closest && e.target.closest(
+  'input:not([type=checkbox]), textarea, select, [role=slider], [role=tab], [contenteditable]');
 const consume = (e) => { e.preventDefault(); e.stopImmediatePropagation(); };
 window.addEventListener('keydown', (e) => {
   if (!(e.key in keys) || e.ctrlKey || e.altKey || e.metaKey || typing(e)) return;
@@ -111,6 +112,10 @@ window.addEventListener('lostpointercapture', (e) => {
   const sign = e.target.closest && e.target.closest('button')?.textContent.trim();
   if (sign in areas) send(sign, 'click');
 }, true);
+// Who has chosen from a list, as the robot, drives on by the keys: they would open it again.
+window.addEventListener('click', (e) => {
+  if (e.target.closest?.('[role=option]')) setTimeout(() => document.activeElement?.blur());
+});
 window.addEventListener('blur', releaseAll);
 window.addEventListener('pagehide', releaseAll);
 document.addEventListener('visibilitychange', releaseAll);
