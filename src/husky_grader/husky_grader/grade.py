@@ -232,7 +232,7 @@ def _waypoint_files(given: str) -> list[str]:
     """
     if not Path(given).is_dir():
         return [given]
-    files = sorted(str(file) for file in Path(given).glob('*') if file.suffix in YAML)
+    files = sorted(str(file) for file in Path(given).glob('*') if file.suffix.lower() in YAML)
     if not files:
         raise ValueError(
             f'{given}: no waypoint file lies in this folder (*.yaml); what was handed in for a '

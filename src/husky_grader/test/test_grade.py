@@ -231,11 +231,11 @@ def test_bad_input_is_refused_with_one_line(
 def test_a_folder_stands_for_its_waypoint_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ('b.yml', 'a.yaml', 'notes.txt'):
+    for name in ('b.yml', 'a.yaml', 'C.YAML', 'notes.txt'):
         (tmp_path / name).write_text('waypoints: []\n')
     assert grade([str(tmp_path), '--jobs', '1', '--report', str(tmp_path / 'report')]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines[:-1]] == ['a', 'b']
+    assert [line.split()[0] for line in lines[:-1]] == ['C', 'a', 'b']
 
 
 def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
