@@ -263,10 +263,15 @@ def test_a_file_does_not_dwell_for_days() -> None:
     ]
 
 
-def test_a_link_to_nothing_is_not_said_to_be_meant(tmp_path: Path) -> None:
-    (tmp_path / 'dangling.yaml').symlink_to(tmp_path / 'nowhere')
-    with pytest.raises(FileRefused, match=r'no such file$'):
-        load_course(tmp_path / 'dangling.yaml')
+def test_a_link_to_nothing_is_refused_with_where_it_leads(tmp_path: Path) -> None:
+    for name, target in {
+        'dangling.yaml': '/nowhere/square.yaml',
+        'self.yaml': 'self.yaml',
+    }.items():
+        (tmp_path / name).symlink_to(target)
+        said = f"{name}: a link to '{target}', where no file is; give the file itself$"
+        with pytest.raises(FileRefused, match=said):
+            load_course(tmp_path / name)
 
 
 @pytest.fixture

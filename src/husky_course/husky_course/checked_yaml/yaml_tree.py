@@ -86,6 +86,9 @@ def _read_text(path: Path, name: str) -> str:
         return FileRefused(name, [Problem(line, column, '', message)])
 
     try:
+        if path.is_symlink() and not path.exists():
+            to = str(path.readlink())
+            raise refused(f'a link to {to!r}, where no file is; give the file itself', 0, 0)
         if not path.exists():
             raise refused(f'no such file{_nearest_file(path)}', 0, 0)
         if not path.is_file():
@@ -114,8 +117,7 @@ def _nearest_file(path: Path) -> str:
         found = {other.name for other in path.parent.glob('*.y*ml')}
     except OSError:
         return ''
-    names = sorted(found - {path.name})  # itself: a link to what is not there
-    near = get_close_matches(path.name, names, n=1, cutoff=0.5)
+    near = get_close_matches(path.name, sorted(found), n=1, cutoff=0.5)
     return f'; did you mean {path.parent / near[0]}?' if near else ''
 
 
