@@ -226,6 +226,16 @@ def broken(tmp_path: Path, name: str, file: str, change: Callable[[str], bytes])
     return name
 
 
+def test_colcon_says_that_only_package_xml_is_there(tmp_path: Path) -> None:
+    (tmp_path / 'src/talk').mkdir(parents=True)
+    (tmp_path / 'src/talk/package.xml').write_text(FILES['package.xml'])
+    command = [sys.executable, '-m', 'colcon', 'build']
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert 'talk: setup.py: there is none; package.xml says ament_python' in done.stderr
+    assert 'Traceback' not in done.stderr
+    assert done.returncode == 2
+
+
 def test_colcon_and_ros2_run_say_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:

@@ -36,7 +36,7 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
         if (
             desc.type is not None
             or not (folder / 'package.xml').is_file()
-            or not any((folder / name).is_file() for name in _BESIDE)
+            or not _is_of_ros(folder)
             or any((folder / name).exists() for name in _IGNORED)
         ):
             return
@@ -50,6 +50,16 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
         if package_files.why_refused(folder):
             desc.type = _TYPE
             desc.name = packages.name_in(folder)
+
+
+def _is_of_ros(folder: Path) -> bool:
+    """Return whether the package.xml of a folder is one for ROS, as far as can be seen."""
+    if any((folder / name).is_file() for name in _BESIDE):
+        return True
+    try:
+        return b'>ament_python</build_type>' in (folder / 'package.xml').read_bytes()
+    except OSError:
+        return False
 
 
 class RefusedTask(TaskExtensionPoint):
