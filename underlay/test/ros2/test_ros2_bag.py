@@ -218,6 +218,7 @@ def test_more_signals_leave_a_whole_bag(
     while recorder.poll() is None:
         recorder.send_signal(number)
     assert 'Recording stopped: ' in recorder.stdout.read()
+    assert recorder.returncode == 0
     assert (tmp_path / 'run' / 'metadata.yaml').is_file()
     assert ros2('bag', 'info', str(tmp_path / 'run')).status == 0
 

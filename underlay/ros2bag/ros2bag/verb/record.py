@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-import signal
 import time
 
 from ros2cli import arguments, discovery
@@ -97,7 +96,6 @@ class RecordVerb(VerbExtension):
             # Interrupted while it is written or closed, a bag would not be whole.
             command_node(args, name=args.node_name, may_spin_when_interrupted=True) as node,
         ):
-            _end_with_the_terminal()
             node_options.set_log_level(node, args.log_level)
             recorder = Recorder(
                 node,
@@ -263,9 +261,3 @@ def _hint(missing: list[str], graph: Graph) -> str:
 
 def _presets() -> str:
     return '; '.join(f'{each.id}: {", ".join(each.presets)}' for each in STORAGES.values())
-
-
-def _end_with_the_terminal() -> None:
-    """Let a terminal that is closed end the recording as SIGTERM does, but not under nohup."""
-    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
-        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))

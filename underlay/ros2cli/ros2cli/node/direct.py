@@ -195,8 +195,8 @@ def command_node(
     """Give a node for the time of a command; Ctrl-C and SIGTERM end it cleanly.
 
     :param may_spin_when_interrupted: a signal comes as KeyboardInterrupt from
-        `CommandNode.spin_until`, once: the node may still be used then, and further signals are
-        ignored, so that the command must end soon.
+        `CommandNode.spin_until`, once, also where the terminal is closed: the node may still be
+        used then, and further signals are ignored, so that the command must end soon.
     """
     with _first_signal() if may_spin_when_interrupted else nullcontext() as interrupted:
         node = CommandNode(args, node_name=name, interrupted=interrupted)
@@ -228,19 +228,25 @@ def _ended_by_signals() -> Iterator[None]:
 
 @contextmanager
 def _first_signal() -> Iterator[threading.Event]:
-    """Give an event that SIGINT or SIGTERM sets; ignore those that come after it."""
-    first = threading.Event()
-    ends = (signal.SIGINT, signal.SIGTERM)
+    """Give an event that SIGINT, SIGTERM or a closed terminal sets; the next ones are not heard.
 
-    def on_signal(*_: object) -> None:
-        for number in ends:
-            # Not SIG_IGN: of one that has come already Python would print a traceback.
-            signal.signal(number, lambda *_: None)
+    A thread waits for it. Of handlers, those of many signals would run one within another, until
+    Python refuses to go deeper.
+    """
+    ends = {signal.SIGINT, signal.SIGTERM}
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as under nohup
+        ends.add(signal.SIGHUP)
+    first = threading.Event()
+
+    def wait() -> None:
+        signal.sigwait(ends)
         first.set()
 
-    before = {number: signal.signal(number, on_signal) for number in ends}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ends)  # the threads of ROS inherit it
+    waiting = threading.Thread(target=wait, daemon=True)
+    waiting.start()
     try:
         yield first
     finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+        if waiting.is_alive():
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
