@@ -234,7 +234,7 @@ def _first_signal() -> Iterator[threading.Event]:
     Python refuses to go deeper.
     """
     ends = {signal.SIGINT, signal.SIGTERM}
-    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as under nohup
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # which it is under nohup
         ends.add(signal.SIGHUP)
     first = threading.Event()
 
