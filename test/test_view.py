@@ -95,7 +95,7 @@ def test_a_browser_that_draws_nothing_in_3d_is_told_what_to_do(lab: Lab) -> None
 
 @pytest.mark.timeout(120)
 def test_no_button_moves_when_time_is_paused(page: Page) -> None:
-    wait_for(page, f"{TROUBLE} === ''")  # a warning at the top would move all
+    wait_for(page, f'{FACTOR} > 0.5')
     before = places(page)
     button(page, 'Pause').click()
     expect(number(page, 'factor')).to_have_text('paused')
@@ -258,7 +258,10 @@ def test_a_camera_has_a_pane_until_it_is_switched_off(lab: Lab, page: Page) -> N
         publisher.publish(picture)
         return bool(page.evaluate(seen))
 
+    wait_for(page, f'{FACTOR} > 0.5')
+    before = places(page)
     wait_until(is_seen, timeout_sec=20.0, what='the picture on the page')
+    assert places(page) == before, 'a press would end beside its button'
     page.get_by_label('What the camera sees').uncheck()
     wait_until(
         lambda: publisher.get_subscription_count() == 0,
@@ -358,8 +361,11 @@ def let_go_beside(page: Page, sign: str, end: str) -> None:
 @pytest.mark.timeout(120)
 def test_the_page_goes_on_with_the_next_simulator(lab: Lab, page: Page) -> None:
     wait_until(lambda: lab.time_sec > 1.0, timeout_sec=15.0, what='a second of this run')
+    wait_for(page, f'{FACTOR} > 0.5')
+    before = places(page)
     lab.simulator.close()
     expect(page.locator('[data-trouble]')).to_contain_text('is gone')
+    assert places(page) == before, 'a press, as on STOP, would end beside its button'
     assert number(page, 'factor').inner_text() == '–'
     lab.start_simulator()
     wait_for(page, f'!{TROUBLE}')

@@ -172,8 +172,30 @@ def test_a_file_in_another_encoding_is_refused_on_the_page(lab: Lab, page: Page)
 
 
 @pytest.mark.timeout(120)
+def test_the_page_shows_what_is_written_in_another_editor(lab: Lab, page: Page) -> None:
+    file = opened(lab, page, 'waypoints: [[0, 0], [-2, 1], [-4, 0]]\n', count=3)
+    verdict = page.locator('[data-verdict]')
+    file.write_text('speed: 0.3\nwaypoints: [[0, 0], [-4, 0]]\n')
+    expect(verdict).to_contain_text('2 waypoints')
+    file.write_text('waypoints: [[0, 0], [-4, 0]\n')
+    expect(page.get_by_text(f'{file.stem} cannot be edited')).to_be_visible()
+    button(page, 'Save').click()  # what cannot be read is not replaced at once either
+    expect(page.get_by_text(f'{file.name} is not as it was opened or saved here')).to_be_visible()
+    file.write_text('speed: 0.3\nwaypoints: [[0, 0], [-4, 0], [-3, 0], [-2, 0]]\n')
+    expect(verdict).to_contain_text('4 waypoints')
+    button(page, 'Delete').click()
+    expect(verdict).to_contain_text('3 waypoints')
+    file.write_text('waypoints: [[0, 0], [-4, 0]]\n')
+    button(page, 'Save').click()
+    expect(page.get_by_text(f'{file.name} is not as it was').last).to_be_visible()
+    expect(verdict).to_contain_text('3 waypoints')
+
+
+@pytest.mark.timeout(120)
 def test_a_file_changed_by_others_is_replaced_by_a_second_save(lab: Lab, page: Page) -> None:
     file = opened(lab, page, 'waypoints: [[0, 0], [-2, 1], [-4, 0], [-3, 0]]\n', count=4)
+    button(page, 'Delete').click()
+    expect(page.locator('[data-verdict]')).to_contain_text('3 waypoints')
     others = 'waypoints: [[0, 0], [-4, 0]]\n'
     file.write_text(others)
     button(page, 'Save').click()
@@ -181,7 +203,7 @@ def test_a_file_changed_by_others_is_replaced_by_a_second_save(lab: Lab, page: P
     assert file.read_text() == others
     button(page, 'Save').click()
     wait_until(
-        lambda: len(load_course(file).waypoints) == 4, timeout_sec=20.0, what='what was opened'
+        lambda: len(load_course(file).waypoints) == 3, timeout_sec=20.0, what='what was edited'
     )
     file.unlink()
     chosen = page.locator('//label[.="Open"]/following::input').first

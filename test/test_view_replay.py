@@ -92,6 +92,8 @@ def test_no_button_moves_as_there_is_more_to_be_seen(page: Page) -> None:
     slider, legend = page.get_by_role('slider'), page.locator('.husky-legend')
     # A key that is pressed while the page still hears of the jump would be lost.
     wait_for(page, f'Math.abs({SLIDER} - {TIME}) < 0.06')
+    slider.press('End')
+    button(page, 'Play').wait_for()
     slider.press('Home')
     expect(legend).to_have_text('')
     before = places(page)

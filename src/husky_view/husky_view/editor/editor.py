@@ -89,6 +89,8 @@ class Editor:
             on_drag=self._on_drag,
         )
         self._seen: dict[Path, tuple[int, ...] | None] = {}  # files, as they were read or written
+        self._stands_in: tuple[Path, course.Course] | None = None  # what was last read or written
+        self._tried: tuple[int, ...] | None = None  # of that file, to read it again
         self._dragged: dict[int, int] = {}  # by tab
         self._editing = False
         self._changed = False  # since it was drawn
@@ -194,19 +196,42 @@ class Editor:
         self._dragged.clear()
         if name == NEW:
             self._edited.clear()
-        else:
-            file = self._folder / f'{name}.yaml'
-            self._seen[file] = course.stamp(file)
-            try:
-                self._edited.load(course.load(file))
-            except course.CourseRefused as error:
-                self._notify(f'{name} cannot be edited', str(error), True)
-                return
+            self._stands_in = None
+        elif self._read(self._folder / f'{name}.yaml'):
             self._name.value = name
+        else:
+            return
         self._show_settings()
         self._edit.value = True
         self._set_editing(True)
         self._changed = True
+
+    def _read(self, file: Path) -> bool:
+        stamp = course.stamp(file)
+        try:
+            self._edited.load(course.load(file))
+        except course.CourseRefused as error:
+            self._notify(f'{file.stem} cannot be edited', str(error), True)
+            return False
+        self._hold(file, stamp)
+        return True
+
+    def _hold(self, file: Path, stamp: tuple[int, ...] | None) -> None:
+        self._seen[file] = stamp
+        self._stands_in = file, self._edited.course
+
+    def _follow_file(self) -> None:
+        """Take what somebody else has written into the file, if nothing was changed here."""
+        if self._stands_in is None or self._dragged:
+            return
+        file, as_it_was = self._stands_in
+        now = course.stamp(file)
+        if now in (None, self._seen[file], self._tried) or as_it_was != self._edited.course:
+            return
+        self._tried = now
+        if self._read(file):
+            self._show_settings()
+            self._changed = True
 
     def _show_settings(self) -> None:
         self._speed.value = round(self._edited.course.speed_m_s, 1)
@@ -284,7 +309,7 @@ class Editor:
         except course.CourseRefused as error:
             self._notify('Not saved', str(error), True)
             return None
-        self._seen[file] = course.stamp(file)
+        self._hold(file, course.stamp(file))
         self.look_for_files()
         self._notify('Saved', str(file), False)
         return file
@@ -301,10 +326,11 @@ class Editor:
         )
 
     def look_for_files(self) -> None:
-        """Offer the files that are there now."""
+        """Offer the files that are there now, and show the one that is edited as it is now."""
         offered = (NEW, *course.files_in(self._folder))
         if offered != tuple(self._file.options):
             self._file.options = offered
+        self._follow_file()
 
     def _save_and_drive(self) -> None:
         file = self._save()

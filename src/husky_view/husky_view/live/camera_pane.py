@@ -14,6 +14,7 @@ from sensor_msgs.msg import Image
 import viser
 
 from husky_view.picture.clicks import in_order
+from husky_view.picture.page import AT_CAMERA
 
 ENCODING, CHANNELS = 'rgb8', 3
 NOTHING = np.zeros((1, 1, CHANNELS), dtype=np.uint8)
@@ -45,9 +46,11 @@ class CameraPane:
         self._topic = topics[0]
         self._newest: Image | None = None  # since the last call of draw
         self._subscription: Subscription[Image] | None = None
-        self._switch = gui.add_checkbox('What the camera sees', True, visible=False)
+        self._switch = gui.add_checkbox(
+            'What the camera sees', True, visible=False, order=AT_CAMERA
+        )
         self._switch.on_update(in_order(lambda _: later(self.look)))
-        self._picture = gui.add_image(NOTHING, format='jpeg', visible=False)
+        self._picture = gui.add_image(NOTHING, format='jpeg', visible=False, order=AT_CAMERA)
         closing.callback(self._end)
 
     def choose_robot(self, place: int) -> None:

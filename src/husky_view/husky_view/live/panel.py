@@ -16,10 +16,10 @@ from husky_view.picture.camera import add_camera_buttons
 from husky_view.picture.clicks import in_order
 from husky_view.picture.history import History, RunPlots
 from husky_view.picture.page import (
+    AT_LEGEND,
     Direction,
     figures_html,
     in_decimals,
-    LAST,
     legend_html,
     page_html,
     RELEASE,
@@ -65,7 +65,7 @@ class Panel:
         self._stopped_sec = 0.0  # when that changed
         self._press_stop = stop
         gui = server.gui
-        self._warning = gui.add_html('', visible=False)
+        self._warning = gui.add_html('')
         self._figures = gui.add_html('')
         self._stop = gui.add_button(STOP, color='red', icon=viser.Icon.HAND_STOP)
         self._stop.on_click(in_order(self._on_stop))
@@ -85,7 +85,7 @@ class Panel:
             )
         self._add_drive_buttons(gui)
         self._page = gui.add_html(page_html())
-        self._legend = gui.add_html('', order=LAST)
+        self._legend = gui.add_html('', order=AT_LEGEND)
         self._ground = gui.add_html('')
         self._plots = RunPlots(gui)
 
@@ -182,10 +182,12 @@ class Panel:
         show_html(self._page, page_html(active=[w for w, f in FACTORS.items() if f == now]))
 
     def show_warning(self, text: str) -> None:
-        """Show a warning at the top; an empty one hides it."""
-        show_html(self._warning, warning_html(text) if text else '')
-        if self._warning.visible != bool(text):
-            self._warning.visible = bool(text)
+        """Show a warning over the figures; an empty one hides it."""
+        # It takes no room: below it STOP stays where it is, just when it is needed.
+        place = 'position:absolute;left:0;right:0;height:6.4em;z-index:1;display:grid'
+        show_html(
+            self._warning, f'<div style="{place}">{warning_html(text)}</div>' if text else ''
+        )
 
     def notify(self, title: str, body: str, error: bool) -> None:
         """Show a notification in every tab for 6 s."""
@@ -199,5 +201,5 @@ def warning_html(text: str) -> str:
     """Return a red box with a text."""
     return (
         '<div data-trouble style="margin:.3em .9em .6em;padding:.5em .7em;border-radius:.3em;'
-        f'background:#c40;color:#fff;font-size:.9em">{escape(text)}</div>'
+        f'background:#c40;color:#fff;font-size:.9em;overflow-y:auto">{escape(text)}</div>'
     )

@@ -9,6 +9,7 @@ import numpy as np
 import viser
 
 from husky_view.picture import palette
+from husky_view.picture.page import AT_PLOTS
 from husky_view.picture.palette import css, Rgb
 
 STEP_SEC = 0.1
@@ -58,7 +59,7 @@ class RunPlots:
 
     def __init__(self, gui: viser.GuiApi) -> None:
         self._drawn_sec = np.nan
-        with gui.add_folder('Plots over the time', expand_by_default=False):
+        with gui.add_folder('Plots over the time', order=AT_PLOTS, expand_by_default=False):
             self._speed = _plot(gui, 'speed, m/s', SPEED, low=0.0, high=0.6)
             self._off = _plot(gui, 'off the path, m', palette.PATH, low=-0.06, high=0.06)
 

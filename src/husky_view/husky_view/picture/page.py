@@ -32,8 +32,8 @@ viser has no order for them: the transparent border of a shadow would be a hole 
 which is transparent as well, and a shadow would lie on the lines of a path.
 """
 
-LAST = 1e6
-"""Order in the panel of what grows as a run goes on: above a button, it would push it away."""
+AT_PLOTS, AT_CAMERA, AT_LEGEND = 1e6, 2e6, 3e6
+"""Order in the panel of what grows by itself: above a button, it would push it away."""
 
 HOLD_MS = 5000
 """After this time a scene is drawn also where parts of it have not come."""

@@ -13,9 +13,9 @@ from husky_view.picture.camera import add_camera_buttons
 from husky_view.picture.clicks import in_order
 from husky_view.picture.history import History, RunPlots
 from husky_view.picture.page import (
+    AT_LEGEND,
     figures_html,
     in_decimals,
-    LAST,
     legend_html,
     page_html,
     PLAY,
@@ -116,7 +116,7 @@ class ReplayPanel:
                 button.on_click(in_order(self._jumper(collision.time_sec)))
             if not collisions:
                 gui.add_html('<div style="padding:0 1em .4em">none</div>')
-        self._legend = gui.add_html('', order=LAST)
+        self._legend = gui.add_html('', order=AT_LEGEND)
         self._ground = gui.add_html('')
         self._plots = RunPlots(gui)
         self._page = gui.add_html(self._page_html())
