@@ -376,6 +376,8 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> Non
         (['drive', '--quick'], "'--quick'"),
         (['drive', '--report'], '--report needs a value'),
         (['exec'], 'exec needs a command'),
+        (['exec', '--help'], 'exec needs a command'),
+        (['shell', '-c', 'id'], "shell takes no '-c'; ./lab exec runs a command"),
     ],
 )
 def test_a_wrong_word_is_refused_before_anything_is_set_up(
