@@ -267,6 +267,19 @@ def test_the_page_lights_what_hangs_on_a_pointed_shape(address: str, browser: Br
         assert errors(page) == []
 
 
+def test_the_page_asks_again_where_a_proxy_had_nobody_to_ask(
+    address: str, browser: Browser
+) -> None:
+    with browser.new_context() as one_browser:
+        page = one_browser.new_page()
+        page.route('**/events*', lambda route: route.fulfill(status=502))
+        page.goto(address)
+        for _ in range(2):
+            page.wait_for_event('response', lambda answer: answer.status == 502, timeout=20_000)
+        page.unroute('**/events*')
+        page.locator('[id="topic:/chatter"]').wait_for()
+
+
 def test_tabs_behind_another_leave_their_connection_to_it(address: str, browser: Browser) -> None:
     with browser.new_context() as one_browser:  # with six connections
         tabs = [one_browser.new_page() for _ in range(8)]

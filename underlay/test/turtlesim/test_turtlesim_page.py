@@ -276,6 +276,11 @@ def test_a_page_goes_on_with_the_next_turtlesim(processes: Processes, browser: B
     turtlesim.close()
     wait_for(page, "document.getElementById('status').className === 'lost'")
     assert 'turtlesim has ended' in page.inner_text('#status')
+    # As who forwards a port at which nobody listens: VS Code does.
+    page.route('**/events', lambda route: route.fulfill(status=502))
+    for _ in range(2):
+        page.wait_for_event('response', lambda answer: answer.status == 502, timeout=20_000)
+    page.unroute('**/events')
     start(processes, '--port', str(urlsplit(address).port))
     wait_for(page, "document.getElementById('status').className === ''")
     assert page.locator('[data-name=turtle1]').count() == 1
