@@ -381,6 +381,20 @@ def process_of(future: 'Future[Outcome]') -> int:
     return int(outcome.content['process'])
 
 
+@pytest.mark.skipif(sys.version_info < (3, 11), reason='Python cannot be told before 3.11')
+def test_no_module_of_the_folder_it_is_called_from_is_run(
+    files: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran = tmp_path / 'ran'
+    (tmp_path / 'multiprocessing.py').write_text(
+        f"import pathlib\npathlib.Path({str(ran)!r}).touch()\nraise SystemExit('mine')\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    (only,) = graded(files[:1], tmp_path / 'report')
+    assert not ran.exists()
+    assert only.passed
+
+
 def test_files_of_one_name_are_told_apart_by_their_folders() -> None:
     assert names_of(['a.yaml', 'b.yaml']) == ['a', 'b']
     assert names_of(['ann/p.yaml', 'bob/p.yaml']) == ['ann_p', 'bob_p']

@@ -15,6 +15,7 @@ import multiprocessing
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
+import os
 from pathlib import Path
 from queue import SimpleQueue
 import shutil
@@ -36,6 +37,13 @@ _SPAWN = multiprocessing.get_context('spawn')
 _CHANGING = Lock()
 """Processes are started and reaped one at a time: a start reaps all children that have ended."""
 
+_SAFE_PATH = 'PYTHONSAFEPATH'
+"""
+Processes start by `python -c`, which looks for modules in the working directory first.
+
+Somebody may have handed in a multiprocessing.py there. Python has this since 3.11.
+"""
+
 
 @contextmanager
 def workers(
@@ -49,7 +57,8 @@ def workers(
     :param stalled_cpu_sec: how much processor time a job may take before it says that it is alive.
     """
     # Of multiprocessing: it starts with the first process otherwise, and unblocks SIGINT there.
-    resource_tracker.ensure_running()
+    with _CHANGING, _safe_path():
+        resource_tracker.ensure_running()
     place = tempfile.mkdtemp()
     Path(place).chmod(0o711)  # the user of a jail passes it, as it passes /tmp
     all_workers = [_Worker(place) for _ in range(count)]
@@ -133,11 +142,24 @@ class _Worker:
                 raise OSError('the workers have ended')
             if self._process is None or wait([self._process.sentinel], 0.0):
                 self._pipe, its = _SPAWN.Pipe()
-                with its:
+                with its, _safe_path():
                     process = _SPAWN.Process(target=_serve, args=(its, self._place), daemon=True)
                     process.start()
                 self._process = process
             return self._process, self._pipe
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Let programs that are started meanwhile import nothing from the working directory."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = '1'
+    try:
+        yield
+    finally:
+        os.environ.pop(_SAFE_PATH)
+        if before is not None:
+            os.environ[_SAFE_PATH] = before
 
 
 def _end_of(process: SpawnProcess) -> int | None:
@@ -170,6 +192,7 @@ def _interrupts_deferred() -> Iterator[None]:
 
 
 def _serve(pipe: Connection, place: str) -> None:
+    os.environ.pop(_SAFE_PATH, None)  # what is built here may rely on its own folder
     # A Python of the lab unblocks it at its start: see interrupt_while_loading in underlay.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent(signal.SIGKILL)
