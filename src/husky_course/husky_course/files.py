@@ -1,10 +1,11 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write files whole or not at all."""
+"""Write files whole or not at all; read the beginning of what others have written."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 import errno
+import os
 from pathlib import Path
 import stat
 
@@ -28,6 +29,16 @@ def replacing(path: Path) -> Iterator[Path]:
         raise
     finally:
         part.unlink(missing_ok=True)
+
+
+def first_bytes(path: Path, most: int) -> bytes:
+    """
+    Return the first bytes of a file, and wait for none: /proc/kmsg, to which a link may lead.
+
+    :raises OSError: when it cannot be read.
+    """
+    with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK), 'rb') as stream:
+        return stream.read(most) or b''  # None where it would have to wait
 
 
 def _is_device(path: Path) -> bool:

@@ -121,10 +121,12 @@ def test_what_was_graded_is_not_graded_again_until_it_changes(
 def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / 'pipe.yaml')  # whoever opens it waits for ever
     (tmp_path / 'zero.yaml').symlink_to('/dev/zero')  # whoever reads it never ends
-    files = [str(tmp_path / name) for name in ('pipe.yaml', 'zero.yaml', 'none.yaml')]
-    results = graded(files, tmp_path / 'report')
+    (tmp_path / 'log.yaml').symlink_to('/proc/kmsg')  # a file, in which root waits for more
+    names = ('pipe.yaml', 'zero.yaml', 'none.yaml', 'log.yaml')
+    results = graded([str(tmp_path / name) for name in names], tmp_path / 'report')
     assert all('.yaml: not a file' in result.refused for result in results[:2])
     assert 'no such file' in results[2].refused
+    assert results[3].refused
 
 
 def test_a_class_that_is_interrupted_goes_on_where_it_was(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from pathlib import Path
 import yaml
 
 from husky_course.checked_yaml.layout import explain, lines_of
+from husky_course.files import first_bytes
 from husky_course.printable import printable
 
 MAX_BYTES = 100_000
@@ -93,8 +94,7 @@ def _read_text(path: Path, name: str) -> str:
             raise refused(f'no such file{_nearest_file(path)}', 0, 0)
         if not path.is_file():
             raise refused('not a file; give the path of one .yaml file', 0, 0)
-        with path.open('rb') as stream:
-            data = stream.read(MAX_BYTES + 1)
+        data = first_bytes(path, MAX_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL byte in the path
         if isinstance(error, FileRefused):
             raise

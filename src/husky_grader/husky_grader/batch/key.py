@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache
 import hashlib
 from importlib.metadata import version
-import os
 from pathlib import Path
 import platform
 
+from husky_course.files import first_bytes
 from husky_course.robot import RobotStart
 from husky_sim.errors import SimulatorError
 from husky_sim.world import default_worlds, load_world
@@ -78,9 +78,8 @@ def _digest(path: Path) -> bytes:
     digest = hashlib.sha256()
     try:
         if path.is_file():
-            with path.open('rb') as stream:
-                digest.update(stream.read(MOST_BYTES))
-                about = os.fstat(stream.fileno())
+            digest.update(first_bytes(path, MOST_BYTES))
+            about = path.stat()
             if about.st_size > MOST_BYTES:
                 digest.update(repr((about.st_size, about.st_mtime_ns)).encode())
             return digest.digest()
