@@ -286,6 +286,8 @@ def test_escape_codes_in_names_do_not_reach_the_terminal(
     assert check([str(course)]) == 0
     assert grade([str(course), '--report', str(tmp_path / 'r\x1b[31m')]) == 0
     assert grade([str(broken), '--report', str(tmp_path / 'report')]) == 2
+    with pytest.raises(SystemExit):
+        grade([str(course), '--\x1b[31m\n.yaml'])  # what a shell makes of *.yaml
     said = capsys.readouterr()
     assert {char for char in said.out + said.err if not char.isprintable()} == {'\n'}
     assert r'a\x1b[2J\u202e: passed' in said.out

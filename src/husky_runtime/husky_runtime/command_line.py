@@ -19,7 +19,9 @@ class Parser(argparse.ArgumentParser):
     """Refuses with one line instead of the whole usage."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(BAD_INPUT, f'{self.prog}: {message}; see {self.prog} --help\n')
+        # A shell that puts in the names of others' files gives what a terminal would obey.
+        shown = ''.join(char if char.isprintable() else ascii(char)[1:-1] for char in message)
+        self.exit(BAD_INPUT, f'{self.prog}: {shown}; see {self.prog} --help\n')
 
     def parse_in_any_order(self, args: Sequence[str] | None, words: str) -> argparse.Namespace:
         """
