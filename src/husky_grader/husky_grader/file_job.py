@@ -6,10 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from husky_course.record import FILE_NAME
+
 from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, world_digest
 from husky_grader.file_grading import Grade, grade_file
-from husky_grader.report.files import is_report
+from husky_grader.report.files import is_report, REPORT_FILES
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,8 @@ class FileJob:
         return is_report(content)
 
     def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
+        for name in (*REPORT_FILES, FILE_NAME):  # of what was handed in before
+            (folder / name).unlink(missing_ok=True)
         # A class's pictures nobody opens; each page has the same map.
         grade = grade_file(self.file, folder, world=self.world, picture=False, each_second=alive)
         return Outcome(grade.report, grade.refused)

@@ -116,6 +116,10 @@ def test_what_was_graded_is_not_graded_again_until_it_changes(
     (third,) = graded(files[:1], tmp_path / 'report')
     assert third.report is not None
     assert third.report['path_length_m'] == pytest.approx(1.5)
+    Path(files[0]).write_text('speed: fast\n')
+    (fourth,) = graded(files[:1], tmp_path / 'report')
+    assert fourth.refused
+    assert not report.with_name('report.html').exists()  # it would be of another file
 
 
 def test_what_is_no_file_at_all_is_refused_at_once(tmp_path: Path) -> None:
