@@ -343,7 +343,7 @@ def test_a_list_of_millions_of_files_is_not_read(tmp_path: Path) -> None:
         file.seek(30 + size)
         file.write(end)
     (found,) = find_submissions([str(tmp_path / 'ann.zip')])
-    with pytest.raises(Refused, match=r'ann.zip: its list of files is too long; hand in fewer'):
+    with pytest.raises(Refused, match=r'ann.zip: its list of files is too long; .* unpacked'):
         unpack(found, tmp_path / 'unpacked')
 
 

@@ -49,7 +49,10 @@ class _ZipFile(io.BufferedReader):
         whole = size is None or size < 0
         data = super().read(_ZIP_AT_ONCE + 1 if whole else size)
         if len(data) > _ZIP_AT_ONCE:
-            raise Refused('its list of files is too long; hand in fewer files')
+            raise Refused(
+                'its list of files is too long; hand in fewer files; an export of a class is '
+                'given unpacked'
+            )
         return data
 
 
