@@ -228,11 +228,17 @@ def _waypoint_files(given: str) -> list[str]:
     """
     Return the waypoint files in a folder, or the one file that is given.
 
+    Hidden ones are passed over, as a shell does: macOS puts a ._FILE beside each.
+
     :raises ValueError: if a folder has none.
     """
     if not Path(given).is_dir():
         return [given]
-    files = sorted(str(file) for file in Path(given).glob('*') if file.suffix.lower() in YAML)
+    files = sorted(
+        str(file)
+        for file in Path(given).glob('*')
+        if file.suffix.lower() in YAML and not file.name.startswith('.')
+    )
     if not files:
         raise ValueError(
             f'{given}: no waypoint file lies in this folder (*.yaml); what was handed in for a '

@@ -231,7 +231,7 @@ def test_bad_input_is_refused_with_one_line(
 def test_a_folder_stands_for_its_waypoint_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ('b.yml', 'a.yaml', 'C.YAML', 'notes.txt'):
+    for name in ('b.yml', 'a.yaml', 'C.YAML', 'notes.txt', '._a.yaml'):
         (tmp_path / name).write_text('waypoints: []\n')
     assert grade([str(tmp_path), '--jobs', '1', '--report', str(tmp_path / 'report')]) == 1
     lines = capsys.readouterr().out.splitlines()
