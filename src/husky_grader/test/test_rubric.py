@@ -52,6 +52,20 @@ def test_a_rubric_says_what_stands_in_the_file() -> None:
     assert drive.courses[0].file.samefile(CONFIG / 'waypoints' / 'central_barrier.yaml')
 
 
+def test_steps_may_be_named_in_any_script(tmp_path: Path) -> None:
+    steps = ''.join(f'  - {{kind: path, points: 1, name: {name}}}\n' for name in ('先', '后'))
+    rubric = parse_rubric(f'title: T\nsteps:\n{steps}', str(tmp_path / 'rubric.yaml'))
+    assert len({step.file_name for step in rubric.steps}) == 2
+
+
+def test_no_step_takes_the_files_of_another() -> None:
+    course = f'{{file: {CONFIG / "waypoints" / "straight.yaml"}}}'
+    two = f"kind: drive, {PROGRAM}, arguments: ['{{course}}'], courses: [{course}, {course}]"
+    once = 'steps[2].name: drive 2 is the name of another step, too, or of its files; give each'
+    told = problems(two, f'kind: drive, {PROGRAM}, name: drive 2, courses: [{course}]')
+    assert any(once in line for line in told), told
+
+
 def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
     assert problems(
         'kind: publsher, points: 1',

@@ -24,6 +24,7 @@ from husky_grader.rubric.mistakes import mistakes_of
 from husky_grader.rubric.own_types import find_types
 from husky_grader.rubric.steps import (
     BuildStep,
+    DriveStep,
     PackageStep,
     PathStep,
     ProgramStep,
@@ -140,14 +141,15 @@ class _RubricReader(FieldReader):
     def _check_together(self, steps: Sequence[Step], places: Sequence[Value]) -> None:
         """Check what the steps say of each other."""
         built, of_files = False, all(isinstance(step, PathStep) for step in steps)
-        counts = Counter(step.file_name for step in steps)
+        counts = Counter(name for step in steps for name in _files_of(step))
         for number, (step, place) in enumerate(zip(steps, places, strict=True)):
             name = f'steps[{number}]'
             if isinstance(step, PathStep) and not of_files:
                 why = 'it is for a waypoint file; a rubric has only such steps, or none'
                 self.wrong(place, name, why)
-            if counts[step.file_name] > 1:
-                why = f'{step.name} is the name of another step, too; give each its own'
+            if any(counts[each] > 1 for each in _files_of(step)):
+                why = f'{step.name} is the name of another step, too, or of its files; '
+                why += 'give each its own'
                 self.wrong(_at(place, 'name'), f'{name}.name', why)
             if isinstance(step, ProgramStep) and not built:
                 self.wrong(place, name, 'it runs a program; put a step of kind build before it')
@@ -172,6 +174,13 @@ def _own_name(step: Step) -> str:
     if isinstance(step, PackageStep):
         return f'package {step.package or f"with {step.package_with}"}'
     return step.kind
+
+
+def _files_of(step: Step) -> set[str]:
+    """Return how the names of a step's files and folders begin; each drive of several has one."""
+    courses = step.courses if isinstance(step, DriveStep) else ()
+    numbers = range(1, len(courses) + 1) if len(courses) > 1 else ()
+    return {step.file_name, *(f'{step.file_name}_{number}' for number in numbers)}
 
 
 def _wrong_needs(step: Step, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:

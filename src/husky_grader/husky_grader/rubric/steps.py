@@ -41,7 +41,7 @@ class Step:
 
 def file_name_of(step: str) -> str:
     """Return the beginning of the names of the files of a step."""
-    return re.sub(r'[^\w-]+', '_', step, flags=re.ASCII)
+    return re.sub(r'[^\w-]+', '_', step)
 
 
 @dataclass(frozen=True, kw_only=True)
