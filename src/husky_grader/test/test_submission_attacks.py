@@ -314,6 +314,15 @@ def test_what_never_ends_is_not_read(tmp_path: Path) -> None:
                 unpack(found, tmp_path / 'unpacked')
 
 
+def test_a_manifest_that_root_waits_for_does_not_stop_a_class(tmp_path: Path) -> None:
+    for name in ('ann', 'bob'):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / 'package.xml').symlink_to('/proc/kmsg')
+    (found,) = find_submissions([str(tmp_path)])
+    with pytest.raises(Refused, match=r'package\.xml is a link'):
+        unpack(found, tmp_path / 'unpacked')
+
+
 def test_leftovers_of_colcon_may_have_links_in_them(tmp_path: Path) -> None:
     links = [
         tar_member(f'ws/{folder}/pkg/a', tarfile.SYMTYPE, '/home/ann/ws/src/pkg/a')

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Protocol
 import zipfile
 
+from husky_course.files import first_bytes
+
 from husky_grader.submission.archives import opened_zip
 from husky_grader.submission.entries import is_left_out, refusing_what_is_broken
 from husky_grader.submission.git import is_bare
@@ -165,5 +167,5 @@ def _kind_at(path: Path) -> tuple[Kind, str]:
 
 def head_of(path: Path, most: int) -> bytes:
     """Return the first bytes of a file; Refused where it cannot be read."""
-    with refusing_what_is_broken(path.name), path.open('rb') as file:
-        return file.read(most)
+    with refusing_what_is_broken(path.name):
+        return first_bytes(path, most)
