@@ -24,7 +24,7 @@ RESTRICTED = Path('/proc/sys/kernel/apparmor_restrict_unprivileged_userns')
 def fetched_lab(folder: Path) -> Path:
     """Return the lab: the one in $HUSKY_LAB, or a clone."""
     if given := os.environ.get('HUSKY_LAB'):
-        return Path(given)
+        return Path(given).absolute()
     clone = ['git', 'clone', '--quiet', '--depth', '1', '--branch', LAB_TAG, LAB_URL]
     subprocess.run([*clone, str(folder / 'lab')], check=True)
     return folder / 'lab'
@@ -48,8 +48,9 @@ def main() -> int:
         command = [str(lab / 'lab'), 'exec', 'python3', '-m', 'husky_grader.autograder.grade_one']
         command += ['--for', 'classroom50', '--report', str(folder / 'report')]
         command += ['--rubric', str(rubric)] if rubric.is_file() else []
-        command += ['--result', str(folder / 'result.json'), '.']
-        status = subprocess.run(command).returncode
+        command += ['--result', str(folder / 'result.json'), str(Path.cwd())]
+        # Not here, where Python would take a husky_grader of the student's for the lab's.
+        status = subprocess.run(command, cwd=folder).returncode
         if status == 0:
             shutil.copyfile(folder / 'result.json', RESULT)
     return status
