@@ -34,7 +34,8 @@ def open_when_served(address: str) -> None:
     if others := ':'.join(path for path in paths if not path.startswith(sys.prefix)):
         environment[_LIBRARIES] = others
     command = [sys.executable, '-m', __name__]
-    subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, check=False)
+    # Python looks first where it starts, which may be a folder that somebody has handed in.
+    subprocess.run(command, cwd='/', env=environment, stdin=subprocess.DEVNULL, check=False)
 
 
 def main() -> int:
