@@ -369,6 +369,18 @@ def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> Non
     refused(done, 'pip finds no ros-rclpy', 'PIP_INDEX_URL to one and PIP_NO_INDEX to 0')
 
 
+@pytest.mark.skipif(sys.version_info < (3, 11), reason='Python cannot be told before 3.11')
+def test_no_module_of_the_folder_it_is_called_from_is_run(clone: Path, tmp_path: Path) -> None:
+    here = tmp_path / 'here'
+    here.mkdir()
+    for module in ('venv', 'pip', 'ensurepip', 'random'):
+        (here / f'{module}.py').write_text(f'open({str(tmp_path / "ran")!r}, "w")\n')
+    settings = {'PIP_NO_INDEX': '1', 'PIP_CONFIG_FILE': os.devnull}
+    done = lab(clone, 'exec', 'true', called_from=str(here), **settings)
+    refused(done, 'pip finds no ros-rclpy')
+    assert not (tmp_path / 'ran').exists()
+
+
 @pytest.mark.parametrize(
     ('words', 'said'),
     [

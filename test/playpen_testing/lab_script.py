@@ -36,10 +36,12 @@ def plain_environment() -> dict[str, str]:
     return kept
 
 
-def lab(clone: Path, *words: str, **environment: str) -> subprocess.CompletedProcess[str]:
+def lab(
+    clone: Path, *words: str, called_from: str = '/', **environment: str
+) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [str(clone / 'lab'), *words],
-        cwd='/',
+        cwd=called_from,
         env={**plain_environment(), **environment},
         capture_output=True,
         text=True,
