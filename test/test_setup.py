@@ -207,9 +207,14 @@ def test_a_sourced_ros_gets_the_python_that_has_rclpy(
 ) -> None:
     path = program(tmp_path / 'bin', 'python3', 'exit 1')  # of another version, say
     (tmp_path / 'rclpy.py').write_text('' if has_rclpy else 'raise ImportError')
+    here = tmp_path / 'here'  # a folder that somebody has handed in
+    here.mkdir()
+    if sys.version_info >= (3, 11):  # that of Jazzy is 3.12
+        (here / 'rclpy.py').write_text('raise ImportError')
     sourced = {'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': '/opt/ros/jazzy', 'PATH': path}
     offline = {'PIP_INDEX_URL': NOBODY, 'PIP_CONFIG_FILE': os.devnull}
-    done = lab(clone, 'exec', 'true', PYTHONPATH=str(tmp_path), **sourced, **offline)
+    given = {'PYTHONPATH': str(tmp_path), **sourced, **offline}
+    done = lab(clone, 'exec', 'true', called_from=str(here), **given)
     if has_rclpy:
         refused(done, 'no network')
     else:
