@@ -163,6 +163,13 @@ def test_a_start_elsewhere_takes_the_course_along(courses: Path) -> None:
         assert judge(read_run(record), route).passed
 
 
+def test_the_way_to_a_first_waypoint_elsewhere_costs_no_points(tmp_path: Path) -> None:
+    (tmp_path / 'away.yaml').write_text('waypoints: [[-3, 0], [-4, 0]]\n')
+    assert grade([str(tmp_path / 'away.yaml'), '--report', str(tmp_path)]) == 0
+    report = json.loads((tmp_path / 'report.json').read_text())
+    assert report['score'] == 100.0, report['parts']
+
+
 def test_a_course_through_the_barrier_fails_with_the_collision(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

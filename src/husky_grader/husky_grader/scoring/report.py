@@ -76,7 +76,7 @@ def judge(run: Run, route: Route, *, wall_time_sec: float | None = None) -> Repo
     factors = [
         ('completion', _completion(measured)),
         ('collisions', _collisions([touch.obstacle for touch in measured.collisions])),
-        ('time', _time(measured, route.par_time_sec)),
+        ('time', _time(measured, route.par_time_sec, _lead_in_sec(run, route))),
         ('tracking', _tracking(measured.cross_track_rms_m, measured.wrong_way)),
     ]
     if measured.disturbances:
@@ -111,13 +111,19 @@ def _collisions(obstacles: Sequence[str]) -> tuple[float, str]:
     return COLLISION_FACTOR ** len(obstacles), f'touched {times}: {names}'
 
 
-def _time(measured: Measurement, route_par_sec: float) -> tuple[float, str]:
+def _lead_in_sec(run: Run, route: Route) -> float:
+    """Return how long the way to the first waypoint takes, where the drive begins elsewhere."""
+    begin = float(run.x[run.begin]), float(run.y[run.begin])
+    return route.begun_at(begin).par_time_sec - route.par_time_sec
+
+
+def _time(measured: Measurement, route_par_sec: float, lead_in_sec: float) -> tuple[float, str]:
     """Return the factor for the time; allowed is that for as much of the path as was driven."""
     needed_sec = measured.sim_time_sec
     par_sec = measured.progress_m / measured.path_length_m * route_par_sec
     if needed_sec <= 0.0 or par_sec <= 0.0:
         return 1.0, 'it did not drive'
-    allowed = TIME_ALLOWANCE * par_sec
+    allowed = TIME_ALLOWANCE * (lead_in_sec + par_sec)
     factor = min(1.0, max(allowed / needed_sec, MIN_TIME_FACTOR))
     why = f'{needed_sec:.1f} s, full marks up to {allowed:.1f} s'
     if measured.too_fast > 0.005:
