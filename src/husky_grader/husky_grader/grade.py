@@ -154,6 +154,7 @@ def _parser() -> Parser:
         default='',
         help='where a class is graded: dask:tcp://HOST:PORT (worker processes here)',
     )
+    parser.set_defaults(remembers=False)
     return parser
 
 
@@ -205,8 +206,7 @@ def main(args: Sequence[str] | None = None) -> int:
         _drop_output()
         return BAD_INPUT
     except KeyboardInterrupt:
-        many = len(options.files) > 1 or options.lab
-        goes_on = '; the same command goes on where it was' if many else ''
+        goes_on = '; the same command goes on where it was' if options.remembers else ''
         print(f'\ninterrupted{goes_on}', file=sys.stderr)
         return INTERRUPTED
 

@@ -295,6 +295,7 @@ def _done(
     """
     from husky_grader.batch.batch import Batch, How
 
+    options.remembers = True  # what is done, where it is interrupted
     tally = Tally(len(jobs), sys.stderr, 'the workers start', bar=sys.stderr.isatty())
     batch = Batch(
         jobs,

@@ -48,6 +48,18 @@ def test_a_class_of_waypoint_files_is_graded_without_a_sandbox(tmp_path: Path) -
     assert (report / 'ann' / 'path' / 'report.html').is_file()
 
 
+def test_one_that_is_interrupted_is_not_said_to_go_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr('husky_grader.lab_grading.grade_submission', interrupted)
+    command = ['--lab', str(default_course()), '--rubric', str(RUBRIC)]
+    assert grade([*command, '--report', str(tmp_path / 'report')]) == 130
+    assert capsys.readouterr().err == '\ninterrupted\n'  # the same command begins anew
+
+
 def test_nothing_of_an_older_submission_is_shown(tmp_path: Path) -> None:
     handed_in, report = tmp_path / 'ann', tmp_path / 'report'
     file = handed_in / 'ann.yaml'
