@@ -91,6 +91,7 @@ def open_on_a_desktop(address: str) -> None:
     others = ':'.join(path for path in paths if not path.startswith(sys.prefix))
     subprocess.Popen(
         [sys.executable, '-m', 'webbrowser', '-t', address],
+        cwd='/',  # Python looks first where it starts, where a student may have a shlex.py
         env={**os.environ, _LIBRARIES: others},
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,  # browsers say much

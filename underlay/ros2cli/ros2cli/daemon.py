@@ -185,7 +185,3 @@ def main(*, argv: Sequence[str] | None = None) -> None:
 
     with Server(None if listening is None else socket.socket(fileno=listening)) as server:
         serve(server, timeout=args.timeout, on_ready=on_ready)
-
-
-if __name__ == '__main__':
-    main()

@@ -126,8 +126,12 @@ def daemon(domain: int, ros2: Callable[..., Any]) -> Iterator[None]:
 
 
 @pytest.mark.usefixtures('daemon')
-def test_the_daemon_answers_until_it_is_stopped(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_the_daemon_answers_until_it_is_stopped(
+    processes: Any, ros2: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     processes.node('talker', 'talker')
+    (tmp_path / 'queue.py').write_text('raise SystemExit(3)')  # a student's own
+    monkeypatch.chdir(tmp_path)
     for verb, told in (
         ('stop', 'is not running'),
         ('start', 'has been started'),

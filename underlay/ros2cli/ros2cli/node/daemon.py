@@ -114,12 +114,18 @@ def spawn_daemon(
     return True
 
 
+# Python would look in the working directory first, where a student may have a queue.py.
+_PROGRAM = (
+    'import sys; sys.path[:] = filter(None, sys.path); import ros2cli.daemon as it; it.main()'
+)
+
+
 def _start(listening: int, tell: int, *, debug: bool) -> subprocess.Popen[bytes]:
     output = None if debug else subprocess.DEVNULL
     inherited = (listening, tell)
     return subprocess.Popen(
         [
-            *(sys.executable, '-m', 'ros2cli.daemon'),
+            *(sys.executable, '-c', _PROGRAM),
             *('--ros-domain-id', str(get_ros_domain_id())),
             *('--inherited', *map(str, inherited)),
         ],
