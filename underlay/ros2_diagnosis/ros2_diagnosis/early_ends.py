@@ -11,8 +11,9 @@ from ros2_diagnosis import packages, setup_py
 
 _COMMENT = re.compile(r'#.*')
 _WAITS = re.compile(r'\.create_(subscription|timer|service)\(|\bActionServer\(')
-# What serves callbacks, and what may go on without.
-_GOES_ON = re.compile(r'spin|[Ee]xecutor|\bwhile\b|wait_for_message')
+# What serves callbacks, and what may go on without. Each program of the lab sheet has
+# `rclpy.executors` among its imports.
+_GOES_ON = re.compile(r'spin|Executor\b|\bexecutor\b|\bwhile\b|wait_for_message')
 
 
 def print_hint(package: str, program: str) -> None:

@@ -16,6 +16,7 @@ import pytest
 
 _ENTRY = "'hello = mine.hello:main',"
 _NO_SPIN = """import rclpy
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
@@ -23,7 +24,10 @@ def main():
     rclpy.init()
     node = Node('hello')
     node.timer = node.create_timer(0.1, lambda: None)
-    # rclpy.spin(node)
+    try:
+        pass  # rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
 """
 
 
