@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 import pytest
-from ros2_diagnosis import package_files, packages, setup_py, workspaces
+from ros2_diagnosis import package_files, PackageError, packages, setup_py, workspaces
 
 FILES = {
     'package.xml': """\
@@ -185,6 +185,13 @@ def test_a_program_that_cannot_start_is_told(
     assert reason in told
 
 
+def test_a_program_beside_the_folder_of_the_programs_is_told(folder: Path) -> None:
+    (folder / 'src').mkdir()
+    lost = (folder / 'talk' / 'hello.py').rename(folder / 'src' / 'hello.py')
+    ((_, told),) = setup_py.broken_programs(folder, 'talk')
+    assert told.endswith(f'there is no {folder}/talk/hello.py: move {lost} there')
+
+
 def test_a_program_in_utf_16_is_told(folder: Path) -> None:
     (folder / 'talk' / 'hello.py').write_text(FILES['talk/hello.py'], encoding='utf-16')
     ((_, told),) = setup_py.broken_programs(folder, 'talk')
@@ -301,6 +308,12 @@ def test_colcon_and_ros2_run_say_it(
             findings = [str(each) for each in workspaces.check_built_and_sourced(tmp_path)]
         about_talk = [each for each in findings if each.startswith('talk: ')]
         assert [each[: len(line)] for each in about_talk] == [line] * bool(line), about_talk
+    (folder / 'bye.py').write_text(FILES['talk/hello.py'])
+    with pytest.raises(PackageError, match='No executable found') as refused:
+        packages.find_executable('talk', 'bye.py')
+    there = f"bye.py is not in {folder}/talk, that of the programs: move it there, and add 'bye "
+    assert there in str(refused.value)
+    (folder / 'bye.py').unlink()
     replace(folder / 'talk' / 'hello.py', 'main', 'mian')
     (finding,) = workspaces.check_changed('talk', prefix)
     assert 'hello of setup.py cannot start: ' in str(finding)

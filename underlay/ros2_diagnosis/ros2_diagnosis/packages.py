@@ -10,7 +10,7 @@ import os
 from pathlib import Path
 import re
 
-from ros2_diagnosis import nearest, package_files, PackageError, programs, stand_ins
+from ros2_diagnosis import nearest, package_files, PackageError, programs, setup_py, stand_ins
 
 LAUNCH_SUFFIXES = (
     '.launch.py', '.launch.xml', '.launch.yaml', '.launch.yml',
@@ -103,6 +103,12 @@ def find_executable(package: str, name: str) -> Path:
         raise PackageError(
             f'No executable found: {source / package / stem}.py has a main(), but no entry point; '
             f'{how_to_declare(source, package, stem)}'
+        )
+    lost = setup_py.misplaced(source, package, stem) if source is not None else None
+    if source is not None and lost is not None:
+        raise PackageError(
+            f'No executable found: {lost} is not in {source / package}, that of the programs: '
+            f'move it there, and {how_to_declare(source, package, stem)}'
         )
     if instead := stand_ins.hint_of_missing_part(package, name):
         raise PackageError(f"No executable found: package '{package}' has no '{name}': {instead}")

@@ -86,6 +86,8 @@ def _why_broken(folder: Path, package: str, module: str, function: str | None) -
     if module.endswith('.py'):
         return f'{module!r}: write the name of a module without .py'
     if not path.is_file() and not path.with_suffix('').is_dir():
+        if (lost := misplaced(folder, package, path.stem)) is not None:
+            return f'{module!r}: there is no {path}: move {lost} there'
         near = nearest.hint(path.stem, (each.stem for each in path.parent.glob('[!_]*.py')))
         return f'{module!r}: there is no {path}{near}'
     if function is None:
@@ -96,6 +98,15 @@ def _why_broken(folder: Path, package: str, module: str, function: str | None) -
     if function.partition('.')[0] not in text:
         return f'{path} has no {function}()'
     return None
+
+
+def misplaced(folder: Path, package: str, module: str) -> Path | None:
+    """Return a module that lies outside the folder of the programs, as in the src of ROS 1."""
+    if not module.isidentifier() or module == 'setup':
+        return None
+    places = (folder, folder / 'src', folder / 'scripts', folder.parent)
+    found = (place / f'{module}.py' for place in places if place != folder / package)
+    return next((path for path in found if path.is_file()), None)
 
 
 def module_of(folder: Path, program: str) -> Path | None:
