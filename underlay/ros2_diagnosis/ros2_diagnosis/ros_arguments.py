@@ -28,6 +28,9 @@ _SWITCHES = {
 _FILES = {'--params-file', '--log-config-file'}
 _ASSIGNS = re.compile(r'[\w~/.:*]+:=.*', re.DOTALL)
 _NAME = re.compile(r'[A-Za-z_]\w*')
+# Behind no --ros-args rcl still takes these, with a warning (`rcl_parse_arguments`).
+_TAKEN_FOR_A_NAME = re.compile(r'.*:=[~/]{0,2}[A-Za-z_][\w/]*')
+_NEVER_A_PARAMETER = ('__', '/', '~')
 _SAY_IT_THEMSELVES = ('husky_runtime', 'node_program')
 
 
@@ -53,10 +56,13 @@ def passed_over(command: str, words: Sequence[str]) -> Iterator[Finding]:
             shown, mend = f'{option} {word}', f'`{command} {_BEGIN} {option} {word}`'
         else:
             shown = word
-            mend = f'`{_BEGIN} -p {word}` for a parameter, `{_BEGIN} -r {word}` for another name'
-        yield Finding(
-            shown, f'ROS takes parameters and other names behind {_BEGIN} alone', f'write {mend}'
-        )
+            mend = f'`{_BEGIN} -r {word}`'
+            if not word.startswith(_NEVER_A_PARAMETER):
+                mend = f'`{_BEGIN} -p {word}` for a parameter, {mend} for another name'
+        why = f'ROS takes parameters and other names behind {_BEGIN} alone'
+        if option != '--params-file' and _TAKEN_FOR_A_NAME.fullmatch(word):
+            why = f'without {_BEGIN} ROS takes this for another name, and never for a parameter'
+        yield Finding(shown, why, f'write {mend}')
 
 
 def refused(words: Sequence[str]) -> Iterator[Finding]:
@@ -109,7 +115,7 @@ def _options(words: Sequence[str]) -> Iterator[tuple[str, str | None]]:
 
 def _unknown(word: str) -> Iterator[Finding]:
     if _ASSIGNS.fullmatch(word):
-        to_what = '-r' if word.startswith(('__', '/', '~')) else '-p'
+        to_what = '-r' if word.startswith(_NEVER_A_PARAMETER) else '-p'
         mend = f'write `{to_what} {word}`'
         if to_what == '-p':
             mend += f' for a parameter, `-r {word}` for another name'

@@ -124,6 +124,10 @@ def test_what_a_node_takes_is_not_complained_of(
         ('--params-file p.yaml', 'write `ros2 run demo talker --ros-args --params-file p.yaml`'),
         ('rate:=5', 'write `--ros-args -p rate:=5` for a parameter, `--ros-args -r rate:=5` for '),
         ('--ros-args -p a:=1 -- -p b:=1', 'write `ros2 run demo talker --ros-args -p b:=1`'),
+        ('use_sim_time:=true', 'without --ros-args ROS takes this for another name, and never'),
+        ('-r a:=/b/c', '-r a:=/b/c: without --ros-args ROS takes this for another name'),
+        ('__node:=other', 'and never for a parameter; write `--ros-args -r __node:=other`\n'),
+        ('__node:=2nd', 'ROS takes parameters and other names behind --ros-args alone; write `--'),
         ('-p 8080', ''),
         ('a b=c --name x', ''),
     ],
@@ -151,6 +155,16 @@ def test_what_stands_before_no_ros_args_is_told(
     manifest.write_text('<name>demo</name><exec_depend>husky_runtime</exec_depend>')
     ros_arguments.print_hints('demo', 'talker', words.split())
     assert capsys.readouterr().err == ''
+
+
+@pytest.mark.parametrize('word', ['chatter:=other', 'a:=/b/c', 'use_sim_time:=true', '__ns:=/a'])
+def test_what_is_said_to_be_taken_for_a_name_is(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any], word: str
+) -> None:
+    installed_package('demo', talker=_STARTS)
+    answer = ros2('run', 'demo', 'talker', word)
+    assert answer.status == 0, answer
+    assert f"Found remap rule '{word}'" in answer.err
 
 
 def test_a_near_name_is_offered_for_a_missing_file(tmp_path: Path) -> None:
