@@ -257,10 +257,15 @@ def test_a_cmake_file_is_read_as_cmake_reads_it(folder: Path) -> None:
         'install(FILES "package.xml" DESTINATION ${CMAKE_INSTALL_PREFIX}/share/${PROJECT_NAME}\n'
         '  RENAME other.xml)\n',
     )
+    cmake = folder / 'CMakeLists.txt'
+    cmake.write_text(f'\ufeff{cmake.read_text()}')
     package = read_cmake_package(folder)
     assert [path.stem for path in package.interfaces] == ['C', 'D', 'A', 'B', 'E']
     assert package.dependencies == ['std_msgs', 'geometry_msgs']
     assert package.installs == [Install(Path('package.xml'), Path('share/own_msgs/other.xml'))]
+    cmake.write_text(cmake.read_text(), encoding='utf-16')
+    with pytest.raises(CMakeListsError, match=r'CMakeLists\.txt is saved as UTF-16 '):
+        read_cmake_package(folder)
 
 
 def test_folders_and_modules_are_installed(folder: Path) -> None:

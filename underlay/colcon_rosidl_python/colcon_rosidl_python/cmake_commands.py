@@ -47,6 +47,13 @@ class Command:
         return CMakeListsError(f'CMakeLists.txt:{self.line}: {self.name}(...): {why}')
 
 
+def _text_of(path: Path) -> str:
+    data = path.read_bytes()
+    if data.startswith((b'\xff\xfe', b'\xfe\xff')):  # of which CMake tells, too
+        raise CMakeListsError('CMakeLists.txt is saved as UTF-16 (Windows): save it as UTF-8')
+    return data.decode('utf-8-sig', errors='replace')  # CMake passes over a byte order mark
+
+
 def read_commands(path: Path) -> Iterator[Command]:
     """
     Yield the commands of a file; set, list and file(GLOB) are done, not yielded.
@@ -62,7 +69,7 @@ def read_commands(path: Path) -> Iterator[Command]:
         'CMAKE_INSTALL_PREFIX': '.',
     }
     conditions: list[str] = []
-    for name, raw, line in _raw_commands(path.read_text(encoding='utf-8', errors='replace')):
+    for name, raw, line in _raw_commands(_text_of(path)):
         if name == 'if':
             conditions.append(' '.join(text for text, _ in raw))
             continue
