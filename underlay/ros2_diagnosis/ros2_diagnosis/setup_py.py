@@ -123,6 +123,22 @@ def module_of(folder: Path, program: str) -> Path | None:
     return None
 
 
+def declared_programs(folder: Path) -> set[str] | None:
+    """Return the names of all entry points of a setup.py; None where they are not certain."""
+    try:
+        tree = _parsed(folder / 'setup.py')
+    except (OSError, SyntaxError, ValueError):
+        return None
+    groups = _argument(_call_of_setup(tree), 'entry_points')
+    if not isinstance(groups, ast.Dict):
+        return None
+    values = _constants(tree)
+    lines = [line for group in groups.values for line in getattr(group, 'elts', [group])]
+    entries = [_ENTRY_POINT.fullmatch(_text(line, values) or '') for line in lines]
+    names = {entry[1] for entry in entries if entry is not None}
+    return None if None in entries else names
+
+
 def has_console_scripts(folder: Path) -> bool:
     """Tell whether a setup.py that can be read declares programs."""
     groups = _argument(_call_of_setup(_parsed(folder / 'setup.py')), 'entry_points')

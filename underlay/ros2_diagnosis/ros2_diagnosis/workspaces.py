@@ -11,6 +11,7 @@ import sys
 from ros2_diagnosis import package_files, packages, programs, setup_py
 from ros2_diagnosis.finding import Finding
 
+_BUILT = 'colcon_build.rc'  # colcon writes it at the end of each build
 _SETTINGS = ('setup.py', 'setup.cfg', 'package.xml')
 
 
@@ -39,6 +40,25 @@ def print_hints(package: str) -> None:
     if prefix is not None:
         for finding in (*_check_failed(package, prefix), *check_changed(package, prefix)):
             print(f'hint: {finding}', file=sys.stderr)
+
+
+def why_left(package: str, program: Path) -> str | None:
+    """Say that a program is of an older build, and has no entry point; None where it may start."""
+    source = packages.source_of(package)
+    workspace = packages.workspace_of(program)
+    if source is None or workspace is None or packages.failure_of(workspace, package) is not None:
+        return None
+    declared = setup_py.declared_programs(source)
+    if declared is None or program.name in declared:
+        return None
+    built = workspace / 'build' / package / _BUILT
+    was_read = built.is_file() and (source / 'setup.py').stat().st_mtime <= built.stat().st_mtime
+    if not was_read or b"'console_scripts'" not in program.read_bytes():
+        return None
+    return (
+        f"'{program.name}' is left of an older build, {source / 'setup.py'} names it no more; "
+        f'there is {", ".join(sorted(declared)) or "no other"}, and `rm {program}` takes it away'
+    )
 
 
 def check_built_and_sourced(workspace: Path) -> Iterator[Finding]:
@@ -162,8 +182,7 @@ def changed_file(package: str, prefix: Path, source: Path, build: Path) -> Path 
                     return path
             elif path.suffix == '.py' and target.is_dir() and folder.name == package:
                 return path
-    # colcon writes this file at the end of each build.
-    built = build / 'colcon_build.rc'
+    built = build / _BUILT
     for name in _SETTINGS:
         path = source / name
         if path.is_file() and built.is_file() and path.stat().st_mtime > built.stat().st_mtime:

@@ -93,6 +93,24 @@ def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., 
     assert 'mine/hello.py has a timer, but calls no rclpy.spin(), without which' in line
 
 
+def test_a_program_whose_entry_point_was_renamed_is_told(
+    workspace: Path, ros2: Callable[..., Any]
+) -> None:
+    assert build(workspace).returncode == 0
+    setup = workspace / 'src' / 'mine' / 'setup.py'
+    setup.write_text(setup.read_text().replace("'hello = ", "'hi = "))
+    assert 'setup.py has changed since' in ros2('run', 'mine', 'hello').err
+    assert build(workspace).returncode == 0
+    ran = ros2('run', 'mine', 'hello')
+    assert ran.status == 1
+    assert ran.err == (
+        f"No executable found: 'hello' is left of an older build, {setup} names it no more; there "
+        f'is hi, and `rm {workspace}/install/mine/lib/mine/hello` takes it away\n'
+    )
+    ran = ros2('run', 'mine', 'hi')
+    assert (ran.status, ran.err) == (0, '')
+
+
 def test_a_launch_file_that_was_renamed_stops_no_build_for_ever(
     workspace: Path, ros2: Callable[..., Any]
 ) -> None:
