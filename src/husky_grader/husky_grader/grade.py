@@ -164,6 +164,8 @@ def main(args: Sequence[str] | None = None) -> int:
     zipped = options.make_gradescope
     given = (options.files, options.record, options.controller, options.lab, zipped)
     if sum(map(bool, given)) != 1:
+        if options.controller and options.files:
+            parser.error(_beside_controller(options))
         parser.error(
             'give waypoint files, --record FILE, --controller COMMAND, --lab SUBMISSION or '
             '--make-gradescope FILE'
@@ -209,6 +211,14 @@ def main(args: Sequence[str] | None = None) -> int:
         goes_on = '; the same command goes on where it was' if options.remembers else ''
         print(f'\ninterrupted{goes_on}', file=sys.stderr)
         return INTERRUPTED
+
+
+def _beside_controller(options: argparse.Namespace) -> str:
+    """Return what is wrong where files are given beside a controller."""
+    words = ' '.join([options.controller, *options.files])
+    if ' ' in options.controller or options.files[0].endswith(('.yaml', '.yml')):
+        return '--controller drives one course: name that by --waypoints FILE'
+    return f'--controller takes one word: put the command in quotes, as --controller "{words}"'
 
 
 def _grade(options: argparse.Namespace) -> int:

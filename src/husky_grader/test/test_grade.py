@@ -193,6 +193,11 @@ def test_a_course_through_the_barrier_fails_with_the_collision(
             [],
             'give waypoint files, --record FILE, --controller COMMAND, --lab SUBMISSION or --make',
         ),
+        (
+            ['--controller', 'ros2', 'run', 'my_driver', 'x', '--waypoints', 'a.yaml'],
+            'put the command in quotes, as --controller "ros2 run my_driver x"',
+        ),
+        (['--controller', 'ros2 run a b', 'a.yaml'], 'one course: name that by --waypoints FILE'),
         (['--rubric', 'rubric.yaml', 'a.yaml'], '--rubric needs --lab SUBMISSION'),
         (
             ['--lab', '.', '--world', '/w.xml'],
