@@ -319,9 +319,21 @@ def source_of(package: str) -> Path | None:
 
 def built_prefix(workspace: Path, package: str) -> Path | None:
     for prefix in (workspace / 'install' / package, workspace / 'install'):
-        if (prefix / _INDEX / package).exists():
+        if os.path.lexists(prefix / _INDEX / package):  # a link to nothing where it was moved
             return prefix
     return None
+
+
+def built_in(workspace: Path, package: str) -> Path | None:
+    """Return the workspace that --symlink-install has built a package in, if it was another."""
+    prefix = built_prefix(workspace, package)
+    link = prefix / _INDEX / package if prefix is not None else None
+    if link is None or not link.is_symlink():
+        return None
+    made = link.readlink()  # WORKSPACE/build/PACKAGE/resource/PACKAGE
+    if made.parent.resolve().is_relative_to(workspace.resolve()) or len(made.parents) < 4:
+        return None
+    return made.parents[3] if made.parents[2].name == 'build' else None
 
 
 def undeclared_programs(source: Path, package: str) -> list[str]:

@@ -46,7 +46,12 @@ def why_left(package: str, program: Path) -> str | None:
     """Say that a program is of an older build, and has no entry point; None where it may start."""
     source = packages.source_of(package)
     workspace = packages.workspace_of(program)
-    if source is None or workspace is None or packages.failure_of(workspace, package) is not None:
+    if source is None or workspace is None:
+        return None
+    built_in = packages.built_in(workspace, package)
+    if built_in is not None and not built_in.exists():
+        return '; '.join(map(str, _check_moved(package, workspace)))
+    if packages.failure_of(workspace, package) is not None:
         return None
     declared = setup_py.declared_programs(source)
     if declared is None or program.name in declared:
@@ -105,9 +110,23 @@ def _build(workspace: Path) -> str:
     return f'run `colcon build` in {workspace}, then {packages.how_to_source(workspace)}'
 
 
+def _check_moved(package: str, workspace: Path) -> Iterator[Finding]:
+    built_in = packages.built_in(workspace, package)
+    if built_in is not None:
+        yield Finding(
+            package,
+            f'it was built in {built_in}, and this workspace is another or was renamed, so that '
+            'no build of it ends well',
+            f'`rm -r {workspace}/build {workspace}/install`, run `colcon build` in {workspace}, '
+            'then open a new terminal',
+        )
+
+
 def _check_failed(package: str, prefix: Path) -> Iterator[Finding]:
     workspace = packages.workspace_of(prefix)
-    failure = packages.failure_of(workspace, package) if workspace is not None else None
+    if workspace is None or packages.built_in(workspace, package) is not None:
+        return
+    failure = packages.failure_of(workspace, package)
     if failure is not None:
         why = failure.removeprefix(f'{package}: ')
         yield Finding(
@@ -133,6 +152,9 @@ def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
         return
     if source is None:
         yield from _check_orphaned(package, prefix, workspace)
+        return
+    if moved := [*_check_moved(package, workspace)]:
+        yield from moved
         return
     for program in packages.undeclared_programs(source, package):
         yield Finding(

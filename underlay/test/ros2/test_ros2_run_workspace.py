@@ -111,6 +111,29 @@ def test_a_program_whose_entry_point_was_renamed_is_told(
     assert (ran.status, ran.err) == (0, '')
 
 
+def test_a_workspace_that_was_renamed_is_told(
+    workspace: Path, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert build(workspace).returncode == 0
+    moved = workspace.rename(workspace.with_name('renamed'))
+    there = os.environ['AMENT_PREFIX_PATH'].replace(f'{workspace}/', f'{moved}/')
+    monkeypatch.setenv('AMENT_PREFIX_PATH', there)
+    told = (
+        f'mine: it was built in {workspace}, and this workspace is another or was renamed, so '
+        f'that no build of it ends well; `rm -r {moved}/build {moved}/install`, run `colcon '
+        f'build` in {moved}, then open a new terminal'
+    )
+    ran = ros2('run', 'mine', 'hello')
+    assert (ran.status, ran.err) == (1, f'No executable found: {told}\n')
+    assert build(moved).returncode == 1  # as colcon ends everywhere
+    assert ros2('run', 'mine', 'hello').err == ran.err
+    (line,) = [x for x in ros2('doctor', folder=moved).lines if '(workspace)' in x]
+    assert line == f'problem (workspace): {told}'
+    shutil.rmtree(moved / 'build')
+    shutil.rmtree(moved / 'install')
+    assert build(moved).returncode == 0
+
+
 def test_a_launch_file_that_was_renamed_stops_no_build_for_ever(
     workspace: Path, ros2: Callable[..., Any]
 ) -> None:

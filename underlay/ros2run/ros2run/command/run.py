@@ -51,9 +51,9 @@ class RunCommand(CommandExtension):
             prefix = shlex.split(args.prefix or '')
         except ValueError as error:
             raise UsageError(f'--prefix {args.prefix!r} is refused: {error}') from None
-        workspaces.print_hints(args.package_name)
         if why := workspaces.why_left(args.package_name, path):
             raise CommandError(f'No executable found: {why}')
+        workspaces.print_hints(args.package_name)
         if args.argv:
             from ros2_diagnosis import ros_arguments  # most programs are given none
 
