@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import array
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 import contextlib
 from dataclasses import dataclass, field
 from functools import partial
@@ -51,6 +51,14 @@ def set_message_fields(
     return filler.setters
 
 
+def _without_blank(name: object, slots: Iterable[str]) -> str:
+    """Say how YAML wants `data:hello`, which it takes for one name without a value."""
+    field_name, colon, value = str(name).partition(':')
+    if not colon or not value or field_name not in slots:
+        return ''
+    return f"; write '{field_name}: {value}', with a blank behind the colon"
+
+
 @dataclass
 class _Filler:
     """Converts values to what the fields of messages hold, at any depth."""
@@ -69,7 +77,7 @@ class _Filler:
             if name not in slots:
                 raise AttributeError(
                     f"'{type(message).__name__}' object has no attribute '{name}'; its fields "
-                    f'are {", ".join(slots) or "none"}'
+                    f'are {", ".join(slots) or "none"}{_without_blank(name, slots)}'
                 )
             if not self._asks_for_the_time(message, name, value, slots[name]):
                 field_path = f'{path}.{name}' if path else str(name)

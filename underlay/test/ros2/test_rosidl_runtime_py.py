@@ -129,6 +129,11 @@ def test_auto_and_now_give_functions_that_set_the_time() -> None:
     ('values', 'error', 'message'),
     [
         ({'lin': {}}, AttributeError, "no attribute 'lin'; its fields are linear, angular"),
+        (
+            {'linear': {'x:0.5': None}},
+            AttributeError,
+            "'x:0.5'; its fields are x, y, z; write 'x: 0.5', with a blank behind the colon",
+        ),
         ({'linear': 1}, TypeError, 'expected to be a dictionary but is a int'),
         ({'linear': {'x': 'fast'}}, ValueError, r"linear\.x: 'fast' is refused"),
         ([], TypeError, 'expected to be a dictionary'),
