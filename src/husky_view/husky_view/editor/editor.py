@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from husky_course.frames import Array
+from husky_course.waypoints import Course
 from husky_sim.world import World
 import numpy as np
 import viser
@@ -89,7 +90,7 @@ class Editor:
             on_drag=self._on_drag,
         )
         self._seen: dict[Path, tuple[int, ...] | None] = {}  # files, as they were read or written
-        self._stands_in: tuple[Path, course.Course] | None = None  # what was last read or written
+        self._stands_in: tuple[Path, Course] | None = None  # what was last read or written
         self._tried: tuple[int, ...] | None = None  # of that file, to read it again
         self._dragged: dict[int, int] = {}  # by tab
         self._editing = False
