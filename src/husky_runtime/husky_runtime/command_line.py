@@ -5,6 +5,7 @@
 import argparse
 from collections.abc import Callable, Sequence
 import errno
+from itertools import takewhile
 import os
 from pathlib import Path
 import sys
@@ -31,6 +32,10 @@ class Parser(argparse.ArgumentParser):
 
         :param words: the attribute that they become.
         """
+        for word in takewhile('--'.__ne__, sys.argv[1:] if args is None else args):
+            # A shell makes it of `*`: who hands in a file --sandbox=none must not choose that.
+            if word.startswith('-') and os.path.lexists(word):
+                self.error(f"'{word}' is also the name of a file here: write ./{word} for that")
         options, more = self.parse_known_args(args)
         if any(word[:1] in ('', '-') for word in more):
             self.error(f'unrecognized arguments: {" ".join(more)}')

@@ -48,6 +48,22 @@ def test_an_option_that_is_none_is_refused_wherever_it_stands(
         assert 'drive: unrecognized arguments: --slow' in capsys.readouterr().err
 
 
+def test_an_option_that_is_the_name_of_a_file_is_none_or_both(
+    parser: Parser,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path('--report=r').touch()
+    with pytest.raises(SystemExit) as ended:  # what a shell makes of `drive --fast *`
+        parser.parse_in_any_order(['--fast', '--report=r'], 'words')
+    assert ended.value.code == BAD_INPUT
+    assert "drive: '--report=r' is also the name of a file here" in capsys.readouterr().err
+    assert parser.parse_in_any_order(['--fast', '--', '--report=r'], 'words').report is None
+    assert parser.parse_in_any_order(['--fast', './--report=r'], 'words').report is None
+
+
 def test_what_cannot_be_written_is_named_and_not_what_was_read(tmp_path: Path) -> None:
     (tmp_path / 'source').write_bytes(bytes(100_000))
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
