@@ -49,7 +49,9 @@ class WithoutCompilerBuildTask(TaskExtensionPoint):
             return 1
         options = ['--symlink-install'] if args.symlink_install else []
         command = [sys.executable, '-m', 'colcon_rosidl_python.build', *options]
-        done = await run(self.context, [*command, args.install_base, args.path], env=env)
+        command += [args.install_base, args.path]  # from everywhere
+        # Python would look first where colcon was called, where a student may have a random.py.
+        done = await run(self.context, command, cwd='/', env=env)
         if done.returncode == 0:
             hooks = create_environment_hook(
                 'ament_prefix_path',

@@ -30,6 +30,7 @@ def workspace(shared_domain: int, tmp_path_factory: pytest.TempPathFactory) -> I
     """Build the workspace, and put this process and its children into its environment."""
     folder = tmp_path_factory.mktemp('workspace')
     shutil.copytree(WORKSPACE, folder / 'src')
+    (folder / 'random.py').write_text('raise SystemExit(3)')  # a student's own
     built = subprocess.run(['colcon', 'build'], cwd=folder, capture_output=True, text=True)
     assert built.returncode == 0, built.stdout + built.stderr
     environment = subprocess.run(
