@@ -31,8 +31,9 @@ FORMULA = f"""\
 score = 100 x completion x {COLLISION_FACTOR} per collision x time x tracking x alone
   completion  waypoints reached in order, without the first, of all without the first;
               times {NOT_STOPPED_FACTOR} unless the robot stands at the last one in the end
-  time        1 within {TIME_ALLOWANCE} x the time at the asked speed, then in proportion, not
-              below {MIN_TIME_FACTOR}; times 1 - {1 - TOO_FAST_FACTOR} x the share driven too fast
+  time        1 within {TIME_ALLOWANCE} x the time at the asked speed, that to the first waypoint
+              as well, then in proportion, not below {MIN_TIME_FACTOR};
+              times 1 - {1 - TOO_FAST_FACTOR} x the share driven too fast
   tracking    1 up to {FULL_TRACKING_M:.2f} m RMS off the path, 0 from {NO_TRACKING_M:.2f} m;
               times 1 - {1 - WRONG_WAY_FACTOR} x the share driven backwards where the course asks
               for forwards, or forwards where it asks for backwards (reverse: true)
