@@ -38,9 +38,7 @@ class Robot:
     def __enter__(self) -> Robot:
         with ExitStack() as stack:
             self._running = stack
-            self._simulator = self._start(
-                'simulator.log', 'husky_grader.lab.real_husky', *self._in_world
-            )
+            self._simulator = self._start('simulator.log', 'husky_sim.programs', *self._in_world)
             self._running = stack.pop_all()
         return self
 

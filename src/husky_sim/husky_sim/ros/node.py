@@ -269,7 +269,7 @@ class SimulatorNode(SettingsNode):
         self._lock.close()
 
 
-def main(args: list[str] | None = None, *, trial: Trial | None = None) -> int:
+def main(args: list[str] | None = None) -> int:
     """Run the simulator until it is interrupted."""
     try:
         if sends_by_shared_memory():
@@ -281,7 +281,7 @@ def main(args: list[str] | None = None, *, trial: Trial | None = None) -> int:
     interrupted = future_of_signal()
     node: SimulatorNode | None = None
     try:
-        node = SimulatorNode(trial)
+        node = SimulatorNode()
         gc.freeze()  # no long garbage collection of what is there now during a run
         node.over.add_done_callback(lambda _: interrupted.done() or interrupted.set_result(None))
         spin(node, until=interrupted)
