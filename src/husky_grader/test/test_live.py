@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 import json
 import os
 from pathlib import Path
 import shutil
-import subprocess
 import sys
 
 from husky_grader.jail import find_sandbox, Jail
@@ -18,6 +15,7 @@ from husky_grader.run.answering import Mode
 from husky_grader.run.live import drive_live, LiveRun, Progress
 from husky_grader.run.told import Told
 import numpy as np
+from playpen_testing.busy import busy_machine
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -109,17 +107,6 @@ def course(tmp_path: Path, courses: Path, monkeypatch: pytest.MonkeyPatch) -> st
     return str(file)
 
 
-@contextmanager
-def busy_machine() -> Iterator[None]:
-    spinning = [subprocess.Popen([sys.executable, '-c', 'while True: pass']) for _ in range(4)]
-    try:
-        yield
-    finally:
-        for process in spinning:
-            process.kill()
-            process.wait()
-
-
 def drive_in_jail(
     program: str,
     course: str,
@@ -147,7 +134,7 @@ def drive_in_jail(
 def test_one_that_answers_drives_the_same_on_a_busy_machine(course: str, tmp_path: Path) -> None:
     told: list[Told] = []
     quiet = drive_in_jail(FOLLOWS, course, tmp_path / 'a', told.append)
-    with busy_machine():
+    with busy_machine(4):
         busy = drive_in_jail(FOLLOWS, course, tmp_path / 'b')
     assert quiet.pace == busy.pace == 'in lockstep: each odometry message waited for its command'
     assert quiet.record.rows.tobytes() == busy.record.rows.tobytes()

@@ -1,37 +1,62 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the grader's own node takes for heard, of all that a program prints."""
+"""What the grader's own node takes for heard, of all that a program prints; how long it waits."""
 
+from dataclasses import replace
+import os
 from pathlib import Path
+import time
 
 from husky_grader.lab.observer import observe
+from husky_grader.lab.patience import crowding
 from husky_grader.rubric.steps import SubscriberStep
 from husky_grader.run.printed import MAX_AROUND, MAX_LINES, printed_lines
+from playpen_testing.busy import busy_machine
+from playpen_testing.waiting import wait_until
 import pytest
 
 TOKEN = 12_345_678
+STEP = SubscriberStep(
+    points=10.0,
+    package='zoo',
+    executable='guesses',
+    topic='/topic_test',
+    type='std_msgs/msg/String',
+    sent={'data': 'hello grader {token}'},
+    printed='heard<text>hello grader {token}',
+    within_sec=0.3,
+)
+
+
+@pytest.fixture(autouse=True)
+def graph(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
 
 
 def test_a_number_is_not_heard_by_who_does_not_listen(
-    domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     monkeypatch.setattr('husky_grader.lab.observer.random.randint', lambda *_: TOKEN)
-    step = SubscriberStep(
-        points=10.0,
-        package='zoo',
-        executable='guesses',
-        topic='/topic_test',
-        type='std_msgs/msg/String',
-        sent={'data': 'hello grader {token}'},
-        printed='heard<text>hello grader {token}',
-        within_sec=0.3,
-    )
     (tmp_path / 'log').write_text(f'heard hello grader {TOKEN}\n')
-    found = observe(step, lambda: False, tmp_path / 'log', tmp_path)
+    found = observe(STEP, lambda: False, tmp_path / 'log', tmp_path)
     assert found.score == 0.0
     assert found.why == 'it listens to nothing; the lab asks for /topic_test'
+
+
+def test_it_waits_longer_for_a_program_that_gets_less_of_a_processor(tmp_path: Path) -> None:
+    asked_sec: list[float] = []  # when it asked whether the program is over: as long as it waits
+
+    def is_over() -> bool:
+        asked_sec.append(time.monotonic())
+        return False
+
+    (tmp_path / 'log').touch()
+    with busy_machine(8 * (os.cpu_count() or 1), nice=19):
+        wait_until(lambda: crowding() > 6.0, timeout_sec=30.0, what='eight for each processor')
+        found = observe(replace(STEP, within_sec=1.0), is_over, tmp_path / 'log', tmp_path)
+    assert found.why == 'it listens to nothing; the lab asks for /topic_test'
+    assert asked_sec[-1] - asked_sec[0] > 4.0, 'it waited as on a machine with nothing else to do'
 
 
 def test_a_word_is_found_wherever_it_was_printed(tmp_path: Path) -> None:

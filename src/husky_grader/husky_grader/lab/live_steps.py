@@ -10,7 +10,6 @@ from pathlib import Path
 import pickle
 import shlex
 from tempfile import TemporaryDirectory
-import time
 
 from husky_runtime.children import ChildProcess, tail_of
 
@@ -19,6 +18,7 @@ from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.hiding import hiding
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
+from husky_grader.lab.patience import Patience
 from husky_grader.lab.programs import given_words, Programs, wrong_first_line
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
@@ -28,7 +28,7 @@ from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import trusted
 
 POLL_SEC = 0.05
-OBSERVED_SEC = 600.0  # wall time: a node that needs longer hangs by what it was sent
+OBSERVED_SEC = 600.0  # a node that needs longer hangs by what it was sent
 
 
 class ObserverFailed(ValueError):
@@ -102,8 +102,8 @@ def _observe(
             observer_log.open('w') as stream,
             ChildProcess(beside(command), environment, stream) as observer,
         ):
-            deadline = time.monotonic() + OBSERVED_SEC
-            while not observer.wait(POLL_SEC) and time.monotonic() < deadline:
+            patience = Patience(OBSERVED_SEC)
+            while not (observer.wait(POLL_SEC) or patience.is_over()):
                 if program.exit_code is not None:
                     (place / OVER_FILE).touch()
         if not (place / FINDING_FILE).is_file():

@@ -33,6 +33,7 @@ from husky_grader.lab.file_steps import asked
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.messages import about, complaint, rate_hz
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
+from husky_grader.lab.patience import Patience
 from husky_grader.lab.robot import Robot
 from husky_grader.rubric.forms import ANYTHING, Form, TOKEN, with_token
 from husky_grader.rubric.interfaces import filled
@@ -103,12 +104,14 @@ class _Observer:
 
     def spin_until(self, fact: Callable[[], object], within_sec: float) -> None:
         """Serve the node until there is a fact, the program has ended or time is up."""
-        deadline = time.monotonic() + within_sec
-        while not (fact() or self.over()) and time.monotonic() <= deadline:
+        patience = Patience(within_sec)
+        while not (fact() or self.over() or patience.is_over()):
             self.executor.spin_once(timeout_sec=0.05)
 
     def spin_for(self, duration_sec: float) -> None:
-        self.spin_until(lambda: False, duration_sec)
+        deadline = time.monotonic() + duration_sec
+        while not self.over() and time.monotonic() <= deadline:
+            self.executor.spin_once(timeout_sec=0.05)
 
 
 @contextmanager

@@ -114,7 +114,12 @@ _PROGRAM = {
     ),
     'parameters': Field('parameters', 'Parameters of its nodes by name.', _MAPPING),
 }
-_WITHIN = Field('within_sec', 's of the clock: so long is waited for it.', number(1, 300), 's')
+_WITHIN = Field(
+    'within_sec',
+    's of the clock: so long is waited for it; longer on a busy machine.',
+    number(1, 300),
+    's',
+)
 _TOPIC_OF = {
     'topic': Field('topic', 'The name of the topic.', _TEXT, parse=_topic),
     'type': Field(
