@@ -177,6 +177,16 @@ def test_a_bad_package_is_refused(
     assert [path.name for path in tmp_path.iterdir()] == ['here']
 
 
+def test_a_new_package_is_whole_whoever_reads_a_line_of_it_alone(tmp_path: Path) -> None:
+    piped = 'set -o pipefail; ros2 pkg create mine --build-type ament_python | head -c 1 | wc -c'
+    answer = subprocess.run(
+        ['bash', '-c', piped], cwd=tmp_path, capture_output=True, text=True, timeout=30.0
+    )
+    assert (answer.stdout.strip(), answer.stderr) == ('1', '')
+    assert (tmp_path / 'mine' / 'setup.py').is_file()
+    assert (tmp_path / 'mine' / 'test' / 'test_pep257.py').is_file()
+
+
 def test_licenses_are_listed(ros2: Callable[..., Any]) -> None:
     assert {'Apache-2.0', 'MIT', 'BSD-3-Clause'} <= set(
         ros2('pkg', 'create', 'x', '--license', '?').lines

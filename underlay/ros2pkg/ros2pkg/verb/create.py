@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import getpass
+import io
 import os
 from pathlib import Path
 import re
@@ -79,13 +81,17 @@ class CreateVerb(VerbExtension):
                 'or choose a different destination directory or package name'
             )
         text = licenses.text(package.license)
-        _announce(package, args.destination_directory)
+        told = io.StringIO()  # after all is written, for whoever reads it may end: `| head -1`
         try:
-            _write(package, root)
+            with contextlib.redirect_stdout(told):
+                _announce(package, args.destination_directory)
+                _write(package, root)
             if text is not None:
                 Path(root, 'LICENSE').write_text(text, encoding='utf-8')
         except OSError as error:
             raise CommandError(f"'{error.filename}' cannot be written: {error.strerror}") from None
+        finally:
+            print(told.getvalue(), end='')
         if text is None:
             print(
                 f"\n[WARNING]: Unknown license '{package.license}'.  This has been set in the "
