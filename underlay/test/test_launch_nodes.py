@@ -181,7 +181,7 @@ def test_two_nodes_of_one_name_are_warned_about(
         ("package='some_pkg', executable='plain_nod'", "is 'plain_node' meant?"),
         ("package='some_pkg', executable='still'", 'still is not executable: `chmod +x '),
         ("package='some_pk', executable='x'", "package 'some_pk' not found, searching: ["),
-        ("package='some_pk', executable='x'", "is 'some_pkg' meant?"),
+        ("package='some_pk', executable='x'", "did you mean 'some_pkg'?"),
         ("package='demo_nodes_cpp', executable='talker'", '`ros2 run demo_nodes_py talker`'),
         ("package='some_pkg', executable='plain_node', name='a b'", "node name 'a b' is refused"),
         (
@@ -230,16 +230,36 @@ def test_a_wrong_node_is_one_line_with_its_place(
     assert 'Traceback' not in launched.output
 
 
+UNBUILT = """\
+<package format="3">
+  <name>some_package</name>
+  <version>0.0.0</version>
+  <description>for tests</description>
+  <maintainer email="someone@example.org">someone</maintainer>
+  <license>Apache-2.0</license>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+
+
 def test_a_package_that_python_asks_for_is_explained(
-    python_launch_file: LaunchFile, ros_package: Path
+    python_launch_file: LaunchFile,
+    ros_package: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     del ros_package
+    source = tmp_path / 'ws/src/some_package'
+    source.mkdir(parents=True)
+    (source / 'package.xml').write_text(UNBUILT)
+    monkeypatch.chdir(tmp_path / 'ws')
     before = (
         f'{BEFORE}\nfrom ament_index_python.packages import get_package_share_directory as share\n'
     )
     for package, hint in {
+        'some_package': f'it is in {source}, but not built; run `colcon build --packages-select',
         'rviz2': 'it has no wheel; here `ros2 launch husky_sim husky_playpen.launch.py`',
-        'some_pk': "is 'some_pkg' meant?",
+        'some_pk': "did you mean 'some_pkg'?",
     }.items():
         path = python_launch_file(f"LogInfo(msg=share('{package}')),", before=before)
         with pytest.raises(InvalidLaunchFileError) as caught:

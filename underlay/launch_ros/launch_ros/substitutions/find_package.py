@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-import difflib
 import re
 import sys
 from typing import cast
@@ -48,7 +46,7 @@ class FindPackage(Substitution):
         try:
             return self.find(package)
         except packages.PackageNotFoundError as error:
-            hint = _why_missing(package, packages.get_packages_with_prefixes())
+            hint = _why_missing(package)
             raise packages.PackageNotFoundError(f'{error.args[0]}: {hint}') from None
 
 
@@ -72,12 +70,10 @@ class FindPackageShare(FindPackage):
         return cast(str, get_package_share_directory(package_name))
 
 
-def _why_missing(package: str, known: Iterable[str]) -> str:
-    from ros2_diagnosis import stand_ins
+def _why_missing(package: str) -> str:
+    from ros2_diagnosis import packages
 
-    near = difflib.get_close_matches(package, list(known), 1)
-    meant = f"is '{near[0]}' meant?" if near else 'is its workspace built and sourced?'
-    return stand_ins.hint(package) or meant
+    return packages.why_missing(package)
 
 
 def _explain(error: BaseException) -> str:
@@ -87,7 +83,7 @@ def _explain(error: BaseException) -> str:
         return ''
     # What a substitution raised has its hint behind the list of folders.
     asked = re.fullmatch(r"package '(.*)' not found, searching: \[.*\]", str(error.args[0]))
-    return _why_missing(asked[1], packages.get_packages_with_prefixes()) if asked else ''
+    return _why_missing(asked[1]) if asked else ''
 
 
 explain_errors_with(_explain)
