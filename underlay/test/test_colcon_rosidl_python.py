@@ -176,7 +176,7 @@ def test_definitions_may_name_what_cmake_finds(
     write_cmake(
         folder,
         'rosidl_generate_interfaces(own_msgs "msg/Own.msg" "srv/Own.srv" "action/Own.action"\n'
-        '  DEPENDENCIES geometry_msgs nav_msgs)',
+        '  DEPENDENCIES geometry_msgs nav_msgs rosidl_default_generators)',
     )
     build(folder, folder / 'prefix', link=False)
     assert (folder / 'prefix/share/own_msgs/msg/Own.json').is_file()

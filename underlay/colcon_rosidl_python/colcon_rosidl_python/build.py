@@ -30,6 +30,11 @@ from colcon_rosidl_python.definitions import mistakes, SEPARATORS
 from colcon_rosidl_python.files import install_files, install_interfaces, install_manifest
 
 GROUP = 'rosidl_interface_packages'
+# CMake finds them on every Jazzy, and takes nothing of them: they have no interfaces.
+_WITHOUT_INTERFACES = {
+    *('ament_cmake', 'ament_cmake_python', 'rclcpp'),
+    *('rosidl_default_generators', 'rosidl_default_runtime'),
+}
 
 
 class BuildError(RuntimeError):
@@ -134,6 +139,8 @@ def _shares(manifest: Package, package: CMakePackage) -> dict[str, Path]:
     declared = {dependency.name for dependency in manifest.build_depends}
     shares: dict[str, Path] = {}
     for name in package.dependencies:
+        if name in _WITHOUT_INTERFACES:
+            continue
         add = '' if name in declared else f'package.xml: add <depend>{name}</depend>'
         if not _add_share(name, shares):
             raise BuildError(
