@@ -208,6 +208,10 @@ def test_a_name_that_no_interfaces_can_have_is_refused(folder: Path) -> None:
             r':2: install\(\.\.\.\): needs a C\+\+ comp',
         ),
         (
+            'ament_auto_find_build_dependencies()\nament_auto_add_library(talk src/talk.cpp)',
+            r':3: ament_auto_add_library\(\.\.\.\): needs a C\+\+ co',
+        ),
+        (
             '\nfoo(bar)',
             r':3: foo\(\.\.\.\): is not understood here; what is: ament_python_install',
         ),
@@ -274,6 +278,7 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
         (folder / path).touch()
     write_cmake(
         folder,
+        'link_directories(${GAZEBO_LIBRARY_DIRS})\n'  # where nothing is linked, it does nothing
         'install(DIRECTORY data/ DESTINATION share/one FILES_MATCHING PATTERN "*.txt")\n'
         'install(DIRECTORY data DESTINATION share/two PATTERN deep EXCLUDE)\n'
         'ament_python_install_package(own_tools)\n',

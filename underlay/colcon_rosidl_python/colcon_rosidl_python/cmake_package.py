@@ -20,6 +20,8 @@ _HARMLESS = {
     *('cmake_minimum_required', 'project', 'find_package', 'include', 'include_directories'),
     *('add_compile_options', 'add_definitions', 'message', 'option', 'enable_testing', 'else'),
     *('elseif', 'include_guard', 'cmake_policy', 'mark_as_advanced', 'set_property'),
+    *('add_compile_definitions', 'link_directories', 'find_library', 'pkg_check_modules'),
+    *('pkg_search_module', 'ament_auto_find_build_dependencies'),
     *('ament_package', 'ament_export_dependencies', 'ament_export_include_directories'),
     *('ament_export_libraries', 'ament_export_targets', 'ament_lint_auto_find_test_dependencies'),
     *('rosidl_export_typesupport_libraries', 'rosidl_export_typesupport_targets'),
