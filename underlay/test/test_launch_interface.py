@@ -22,6 +22,10 @@ NAMES = {
     'RegisterEventHandler ResetEnvironment ResetLaunchConfigurations SetEnvironmentVariable '
     'SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler '
     'UnsetEnvironmentVariable UnsetLaunchConfiguration',
+    # where editors find names that upstream's modules import
+    'launch.actions.execute_local': 'EmitEvent ExecuteLocal LaunchConfiguration OnProcessExit '
+    'OnProcessStart PythonExpression TimerAction',
+    'launch.launch_description': 'DeclareLaunchArgument LaunchDescription',
     'launch.conditions': 'IfCondition UnlessCondition LaunchConfigurationEquals '
     'LaunchConfigurationNotEquals InvalidConditionExpressionError evaluate_condition_expression',
     'launch.event_handlers': 'OnActionEventBase OnExecutionComplete OnProcessExit OnProcessIO '

@@ -7,14 +7,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from .actions.declare_launch_argument import DeclareLaunchArgument
 from .launch_context import LaunchContext
 from .launch_description_entity import LaunchDescriptionEntity
 from .logging import get_logger
 
 if TYPE_CHECKING:
-    from .actions import DeclareLaunchArgument, IncludeLaunchDescription
+    from .actions import IncludeLaunchDescription
 
-_Arguments = list[tuple['DeclareLaunchArgument', list['IncludeLaunchDescription']]]
+_Arguments = list[tuple[DeclareLaunchArgument, list['IncludeLaunchDescription']]]
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -90,7 +91,7 @@ def _collect_arguments(
     includes: list[IncludeLaunchDescription],
     conditional: bool,
 ) -> None:
-    from .actions import DeclareLaunchArgument, IncludeLaunchDescription, ResetLaunchConfigurations
+    from .actions import IncludeLaunchDescription, ResetLaunchConfigurations
 
     for entity in entities:
         if isinstance(entity, DeclareLaunchArgument):

@@ -21,10 +21,15 @@ from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..substitution import Substitution
+
+# Not used here: launch files import them from here, as from upstream's, which an editor offered.
+from ..substitutions import LaunchConfiguration, PythonExpression  # noqa: F401
+from .emit_event import EmitEvent  # noqa: F401
 from .escalation import emit_signal, escalation_timers, late_sigint, terminal_reaches_children
 from .opaque_function import OpaqueFunction
 from .process_run import ProcessRun
 from .process_settings import ProcessSettings, SIGKILL_TIMEOUT, SIGTERM_TIMEOUT
+from .timer_action import TimerAction  # noqa: F401
 
 _Entities = list[LaunchDescriptionEntity] | None
 
