@@ -238,7 +238,15 @@ def test_a_record_that_breaks_off_is_judged_as_far_as_it_goes(make_record: Make)
     report = judge(read_run(make_record(run, complete=False)), STRAIGHT)
     assert report.waypoints_reached == 2
     assert not report.passed
-    assert report.reasons[0].startswith('the run ended early: its record breaks off at 5.98 s')
+    early, missed = report.reasons
+    assert early.startswith('the run ended early: its record breaks off at 5.98 s')
+    assert missed.startswith('missed waypoint 3')
+
+
+def test_a_record_of_the_start_alone_does_not_say_it_never_moved(make_record: Make) -> None:
+    report = judge(read_run(make_record([(0.0, 0.0)], complete=False)), STRAIGHT)
+    (early,) = report.reasons
+    assert early.startswith('the run ended early: its record breaks off at 0.00 s')
 
 
 def test_a_run_laid_along_its_path_is_projected_as_pose_by_pose() -> None:

@@ -39,10 +39,11 @@ def reasons_for(run: Run, route: Route, measured: Measurement) -> tuple[str, ...
     course = route.course
     first = [*disturbance_lines(run), *_early_end(run)]
     if not _moved(run):
-        found = [_why_still(run)]
+        # Nobody knows what came after a record broke off: its first two seconds are one block.
+        found = [_why_still(run)] if run.complete else []
     else:
         found = [*_collisions(run), *_overturn(run), *_missed(run, course, measured.visits)]
-        found += _ending(run, course, all(measured.visits))
+        found += _ending(run, course, all(measured.visits)) if run.complete else []
         wrong_way = _wrong_way(measured)
         found = [*wrong_way, *found] if measured.wrong_way > 0.5 else [*found, *wrong_way]
     guesses = [] if all(measured.visits) else _guesses(run, route, measured)
