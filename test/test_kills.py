@@ -6,11 +6,13 @@ import json
 from pathlib import Path
 import signal
 import sys
+import time
 
 from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.run.in_process import drive_route
+from husky_grader.run.standstill import STILL_SEC
 from playpen_testing.processes import Process, Processes
 from playpen_testing.shared_memory import Files, left, own_files
 from playpen_testing.waiting import wait_until
@@ -85,6 +87,33 @@ def test_each_killed_part_ends_its_run_in_3_s_and_spoils_no_other(
     files = [path.name for path in (*temporary.iterdir(), *tmp_path.glob('.*'))]
     # The parameters that a launch writes stay where it is killed itself, as Jazzy's do.
     assert [name for name in files if not name.startswith('launch_params_')] == []
+
+
+def test_a_fast_drive_that_fails_after_it_stood_still_is_driven_again(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    """As after Ctrl-Z and `fg`, where its nodes miss each other 20 s later."""
+    run = processes.start(
+        LAB, 'drive', str(short_course), '--fast', '--no-view', '--report', str(tmp_path)
+    )
+    wait_until(
+        lambda: part(run, PARTS['driver']) is not None,
+        timeout_sec=40.0,
+        what=lambda: f'the driver; it printed:\n{run.output}',
+    )
+    members, driver = family(run), part(run, PARTS['driver'])
+    for each in members:
+        each.suspend()
+    time.sleep(STILL_SEC + 0.5)
+    assert driver is not None
+    driver.kill()
+    for each in members:
+        each.resume()
+    assert run.wait(timeout_sec=60.0) == 0, run.output
+    assert 'driven again' in run.output
+    report = json.loads((tmp_path / 'report.json').read_text())
+    undisturbed = read_run(drive_route(plan_route(load_course(short_course)))[0])
+    assert report['trajectory_sha256'] == undisturbed.trajectory_sha256
 
 
 def kill_in_a_run(processes: Processes, folder: Path, name: str) -> Files:

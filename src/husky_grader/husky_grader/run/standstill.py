@@ -27,7 +27,7 @@ T = TypeVar('T')
 def undisturbed(attempt: Callable[[], T]) -> T:
     """Return what comes of an attempt, or of another when the computer stood still meanwhile."""
     for _ in range(MOST_TIMES - 1):
-        watch = _Watch()
+        watch = Watch()
         try:
             result = attempt()
         except Exception:
@@ -39,8 +39,8 @@ def undisturbed(attempt: Callable[[], T]) -> T:
     return attempt()
 
 
-class _Watch:
-    """A thread that is never later than a moment, unless nothing runs."""
+class Watch:
+    """A thread that is never later than a moment, unless nothing runs; it begins at once."""
 
     def __init__(self) -> None:
         self._over = Event()
