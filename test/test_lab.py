@@ -7,6 +7,7 @@ import math
 import os
 from pathlib import Path
 import re
+import shutil
 import signal
 import sys
 from typing import Any
@@ -251,6 +252,20 @@ def test_a_full_disk_loses_the_report_not_the_result(
     assert 'short: NOT PASSED' in run.output
     assert 'the report cannot be written: File too large; free some space' in run.output
     assert 'Traceback' not in run.output
+
+
+def test_a_report_that_is_removed_during_its_drive_is_told(
+    processes: Processes, tmp_path: Path, short_course: Path
+) -> None:
+    report = tmp_path / 'report'
+    run = processes.start(
+        *(LAB, 'drive', '--no-view', '--report', str(report), '--waypoints', str(short_course))
+    )
+    run.wait_for_text(' %', timeout_sec=40.0)
+    shutil.rmtree(report)
+    assert run.wait(timeout_sec=60.0) == 2, run.output
+    assert f'lab drive: {report} was emptied, renamed or removed meanwhile' in run.output
+    assert 'no simulator has started' not in run.output
 
 
 def in_small_shared_memory(processes: Processes, *words: str | Path) -> Process:

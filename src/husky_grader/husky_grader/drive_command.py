@@ -27,7 +27,7 @@ from husky_grader import check, grade
 from husky_grader.drive_page import drive_page, DrivePage, is_at_a_terminal
 from husky_grader.grade_class import NOT_PASSED, PASSED
 from husky_grader.playpen import default_course
-from husky_grader.report.files import keep_course
+from husky_grader.report.files import COURSE_FILE, keep_course
 from husky_grader.report.folder import alone_in
 from husky_grader.run.standstill import Watch
 from husky_grader.scoring.report import judge
@@ -146,7 +146,10 @@ def _run(
             run_to_end(launch, environment)
     wall_time_sec = time.monotonic() - begun
     if not (folder / FILE_NAME).is_file():
-        print('lab drive: no simulator has started: what it said stands above', file=sys.stderr)
+        why = 'no simulator has started: what it said stands above'
+        if not (folder / COURSE_FILE).is_file():
+            why = printable(f'{folder} was emptied, renamed or removed meanwhile; drive again')
+        print(f'lab drive: {why}', file=sys.stderr)
         return BAD_INPUT
     record = ['--record', str(folder / FILE_NAME), '--waypoints', options.waypoints, '--mcap']
     return grade.main([*record, '--report', str(folder), '--wall-time', f'{wall_time_sec:.3f}'])
