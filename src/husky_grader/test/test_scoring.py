@@ -128,6 +128,44 @@ def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make
         assert 'no command but zero arrived' in report.reasons[0]
 
 
+AWAY = '[[6, 0], [6, 2], [3, 2], [3, 0.3]]'
+
+
+@pytest.mark.parametrize('first_speed', [0.5, 1.0])
+def test_the_way_to_the_first_waypoint_is_none_of_the_path(
+    make_record: Make, first_speed: float
+) -> None:
+    text = AWAY.replace('[6, 0]', f'{{x: 6, y: 0, speed: {first_speed}}}')
+    route = plan_route(parse_course(f'speed: 0.5\ncorners: sharp\nwaypoints: {text}'))
+    way = along((0, 0), (6, 0), speed_m_s=first_speed)
+    run = way + along((6, 0), (6, 2), (3, 2), (3, 0.3))
+    report = judge(read_run(make_record(run)), route)
+    assert report.score == pytest.approx(100.0)
+    assert report.cross_track_max_m < 0.02
+    assert not report.errors_m[: len(way)].any()
+
+
+def test_backwards_counts_from_the_first_waypoint_on(make_record: Make) -> None:
+    text = '[[2, 0], {x: 4, y: 0.1, reverse: true}, {x: 6, y: 0, reverse: true}]'
+    route = plan_route(parse_course(f'speed: 0.5\ntolerance: 1.0\nwaypoints: {text}'))
+    run = along((0, 0), (2, 0))
+    speed = [0.5] * (len(run) - 10) + [0.0] * 10
+    back = along((2, 0), (4, 0.1), (6, 0))
+    speed += [-0.5] * (len(back) - 10) + [0.0] * 10
+    report = judge(read_run(make_record(run + back, speed_m_s=speed)), route)
+    assert report.score == pytest.approx(100.0)
+    assert report.reasons == ()
+
+
+def test_one_that_misses_the_first_waypoint_is_judged_from_there(make_record: Make) -> None:
+    route = plan_route(parse_course(f'speed: 0.5\ncorners: sharp\nwaypoints: {AWAY}'))
+    run = along((0, 0), (5.7, 0), (5.7, 0.1), (6, 2), (3, 2), (3, 0.3))
+    report = judge(read_run(make_record(run)), route)
+    assert (report.waypoints_reached, report.waypoints_total) == (3, 4)
+    assert report.cross_track_max_m < 0.31
+    assert 'missed waypoint 1 at (6, 0): it came no nearer than 0.30 m' in report.reasons[0]
+
+
 def test_a_cut_corner_misses_its_waypoint_and_only_that(make_record: Make) -> None:
     run = along((0, 0), (3, 0), (0.5, 3), (0, 3), (0, 0))
     report = judge(read_run(make_record(run)), LOOP)

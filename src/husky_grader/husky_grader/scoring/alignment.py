@@ -32,14 +32,33 @@ class Alignment:
     """A run laid along its path: two numbers an entry, and which of `Course.stops` it reached."""
 
     along_m: Array
-    errors_m: Array  # to the left of the path
+    errors_m: Array  # to the left of the path; 0 on the way to its first waypoint
     visits: tuple[bool, ...]
+    begin: int  # the entry at which the path begins; 0 where the drive begins there
 
 
 def align(run: Run, route: Route) -> Alignment:
     """Return the places of a run on its path, and the waypoints that it reached in order."""
-    along, errors = _align(route.curve, run.spread(MAX_POSES), run.x, run.y)
-    return Alignment(along, errors, waypoints_in_order(run, route.course))
+    begin = _path_begin(run, route.course)
+    along, errors = _align(route.curve, run.spread(MAX_POSES, begin), run.x, run.y)
+    along[:begin], errors[:begin] = along[begin], 0.0
+    return Alignment(along, errors, waypoints_in_order(run, route.course), begin)
+
+
+def _path_begin(run: Run, course: Course) -> int:
+    """
+    Return the entry at which a run has come to the first waypoint, or nearest to that.
+
+    The way there is none of the path, and may lead along other parts of it.
+    """
+    first = course.waypoints[0]
+    away_m = np.hypot(run.x[run.begin :] - first.x_m, run.y[run.begin :] - first.y_m)
+    if away_m[0] <= course.tolerance_m:
+        return 0
+    near = away_m <= max(course.tolerance_m, away_m.min())
+    came = int(near.argmax())
+    stay = int(np.append(near[came:], False).argmin())  # entries, until it left again
+    return run.begin + came + int(away_m[came : came + stay].argmin())
 
 
 def mistaken_frames(run: Run, curve: Curve, frames: Mapping[str, Frame]) -> dict[str, float]:
@@ -56,7 +75,7 @@ def _align(curve: Curve, picked: Indices, x: Array, y: Array) -> tuple[Array, Ar
     steps = _best_steps(path, np.stack([x[picked], y[picked]], axis=1))
     near = np.array([curve.index_at(places[step]) for step in steps])
     before = np.searchsorted(picked, np.arange(len(x)), side='right') - 1
-    return projected(curve, near[before], x, y)
+    return projected(curve, near[np.maximum(before, 0)], x, y)
 
 
 def projected(curve: Curve, near: Indices, x: Array, y: Array) -> tuple[Array, Array]:

@@ -66,10 +66,10 @@ class _AskedMotion:
 
 def measure(run: Run, route: Route, aligned: Alignment) -> Measurement:
     """Return the measurements of a run."""
-    course, visits = route.course, aligned.visits
-    along, errors = aligned.along_m, aligned.errors_m
+    course, along, errors = route.course, aligned.along_m, aligned.errors_m
     end = _end(run)
-    judged = _judged(run, course, end)
+    visits = aligned.visits
+    judged = _judged(run, aligned.begin, end)
     stands = _stands_at_end(run, course)
     asked = _asked_motion(route, along)
     backwards_m, forwards_m, wrong_way = _wrong_way(run, asked, along, judged)
@@ -124,14 +124,10 @@ def _stands_at_end(run: Run, course: Course) -> bool:
     return bool(stands and away_m <= course.tolerance_m)
 
 
-def _judged(run: Run, course: Course, end: int) -> Indices:
+def _judged(run: Run, path_begin: int, end: int) -> Indices:
     """Return the entries where the robot drove, from when it was at the first waypoint."""
-    first, drive = course.waypoints[0], slice(run.begin, end + 1)
-    away_m = np.hypot(run.x[drive] - first.x_m, run.y[drive] - first.y_m)
-    start = int((away_m <= course.tolerance_m).argmax())  # 0 where it was never there
-    moves = np.abs(run.speed_m_s[drive]) > STANDING_M_S
-    moves[:start] = False
-    return np.flatnonzero(moves) + run.begin
+    begin = max(run.begin, path_begin)
+    return np.flatnonzero(np.abs(run.speed_m_s[begin : end + 1]) > STANDING_M_S) + begin
 
 
 def _asked_motion(route: Route, along_m: Array) -> _AskedMotion:
