@@ -128,6 +128,56 @@ def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make
         assert 'no command but zero arrived' in report.reasons[0]
 
 
+CLOSED = plan_route(parse_course('speed: 0.5\nwaypoints: [[0, 0], [2, 0], [2, 2], [0, 0]]'))
+
+
+@pytest.mark.parametrize('run', [[(0.0, 0.0)] * 50, along((0, 0), (0.1, 0))])
+def test_where_a_course_begins_it_has_not_ended(make_record: Make, run: Places) -> None:
+    report = judge(read_run(make_record(run)), CLOSED)
+    assert report.waypoints_reached == 1
+    assert report.score == 0.0
+
+
+def test_a_course_that_ends_where_it_begins_is_driven(make_record: Make) -> None:
+    run = along((0, 0), (2, 0), (2, 2), (0, 0))
+    report = judge(read_run(make_record(run)), CLOSED)
+    assert report.completed
+    assert report.waypoints_reached == 4
+
+
+def test_one_visit_counts_for_one_way_past_a_place(make_record: Make) -> None:
+    there_and_back = '[[0, 0], [1, 0], [2, 0], [3, 0], [2, 0], [1, 0], [0, 0]]'
+    route = plan_route(parse_course(f'speed: 0.5\nwaypoints: {there_and_back}'))
+    visits = [
+        judge(read_run(make_record(along((0, 0), *run))), route).waypoints_reached
+        for run in (((1, 0),), ((3, 0),), ((3, 0), (1, 0)), ((3, 0), (0, 0)))
+    ]
+    assert visits == [2, 4, 6, 7]
+
+
+def test_near_waypoints_are_reached_in_one_visit(make_record: Make) -> None:
+    near = '[[0, 0], [0.06, 0], [0.12, 0], [0.18, 0.05], [0.12, 0.1], [1, 0.1]]'
+    route = plan_route(parse_course(f'speed: 0.5\ncorners: sharp\nwaypoints: {near}'))
+    report = judge(read_run(make_record(along((0, 0), (0.18, 0.05), (1, 0.1)))), route)
+    assert report.completed
+
+
+def test_standing_near_all_waypoints_earns_nothing(make_record: Make) -> None:
+    route = plan_route(parse_course('tolerance: 1.0\nwaypoints: [[0, 0], [0.5, 0], [0.9, 0]]'))
+    report = judge(read_run(make_record([(0.0, 0.0)] * 50)), route)
+    assert not report.passed
+    assert report.score == 0.0
+    (said,) = report.reasons
+    assert said.startswith('it never moved')
+
+
+def test_a_short_course_that_is_driven_is_no_stand(make_record: Make) -> None:
+    route = plan_route(parse_course('speed: 0.05\nwaypoints: [[0, 0], [0.05, 0]]'))
+    report = judge(read_run(make_record(along((0, 0), (0.045, 0), speed_m_s=0.05))), route)
+    assert report.passed
+    assert report.reasons == ()
+
+
 AWAY = '[[6, 0], [6, 2], [3, 2], [3, 0.3]]'
 
 

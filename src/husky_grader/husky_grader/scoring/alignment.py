@@ -9,7 +9,7 @@ distance (dynamic time warping with free steps along the path, by dynamic progra
 """
 
 from bisect import bisect_left
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 import math
 
@@ -141,20 +141,30 @@ def waypoints_in_order(run: Run, course: Course) -> tuple[bool, ...]:
     x, y = run.x[run.begin :], run.y[run.begin :]
     boxes = _boxes(x, y)
     stays = [_stays(boxes, x, y, point, course.tolerance_m) for point in course.waypoints]
-    # As long as the same waypoints are near, one entry tells as much as all of them.
-    changes = np.unique(np.concatenate(stays))
-    visits = sorted(
-        (int(change), number)
-        for number, ends in enumerate(stays)
-        for begin, end in ends
-        for change in changes[(changes >= begin) & (changes < end)]
-    )
-    counted = _longest_increasing([number for _, number in visits])
+    counted = _longest_increasing([number for _, _, number in sorted(_visits(stays))])
     reached = [number in counted for number in range(len(course.waypoints))]
     if course.loop:
         back = bool(stays[0].size) and bool(stays[0][-1, 1] == len(x))
         reached.append(back and 2 * sum(reached) >= len(reached))
     return tuple(reached)
+
+
+def _visits(stays: Sequence[Indices]) -> Iterator[tuple[int, int, int]]:
+    """
+    Yield entries at which waypoints may be counted: entry, minus the first of a series, number.
+
+    A stay counts when it begins, or when the waypoint before does: near ones are a series, and
+    counted at once. So ordered, two of an entry that are no series come in the wrong order: one
+    visit does not count for both ways past a place, and the start not as the end of the course.
+    """
+    series: dict[int, int] = {}
+    for number, ends in enumerate(stays):
+        begins, entries = ends[:, 0], np.array([*series], dtype=np.int64)
+        within = np.searchsorted(begins, entries, side='right') - 1
+        stayed = (within >= 0) & (entries < np.append(ends[:, 1], 0)[within])
+        goes_on = {entry: series[entry] for entry in entries[stayed].tolist()}
+        series = dict.fromkeys(begins.tolist(), number) | goes_on
+        yield from ((entry, -first, number) for entry, first in series.items())
 
 
 def _boxes(x: Array, y: Array) -> Array:

@@ -68,7 +68,8 @@ def measure(run: Run, route: Route, aligned: Alignment) -> Measurement:
     """Return the measurements of a run."""
     course, along, errors = route.course, aligned.along_m, aligned.errors_m
     end = _end(run)
-    visits = aligned.visits
+    moved = end > run.begin  # else it has reached nothing, however near the waypoints are
+    visits = tuple(got and (moved or not number) for number, got in enumerate(aligned.visits))
     judged = _judged(run, aligned.begin, end)
     stands = _stands_at_end(run, course)
     asked = _asked_motion(route, along)

@@ -38,7 +38,7 @@ def reasons_for(run: Run, route: Route, measured: Measurement) -> tuple[str, ...
     """Return one line for each thing that went wrong, most important first."""
     course = route.course
     first = [*disturbance_lines(run), *_early_end(run)]
-    if not _moved(run):
+    if not _moved(run) and not measured.completed:
         # Nobody knows what came after a record broke off: its first two seconds are one block.
         found = [_why_still(run)] if run.complete else []
     else:
@@ -168,7 +168,8 @@ def _guesses(run: Run, route: Route, measured: Measurement) -> list[str]:
     """Return typical mistakes that leave such a run; nothing where none fits."""
     course, lines = route.course, [*_units(run), *_rounds(run, route.curve)]
     back = waypoints_in_order(run, replace(course, waypoints=course.waypoints[::-1]))
-    if sum(back) > max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1)):
+    enough = max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1))
+    if sum(back) > enough and _moved(run):
         lines.append(
             'it drove the course from its end to its beginning: keep the order of the file'
         )
