@@ -178,6 +178,28 @@ def test_a_short_course_that_is_driven_is_no_stand(make_record: Make) -> None:
     assert report.reasons == ()
 
 
+def test_one_that_turns_on_at_the_end_is_told_so(make_record: Make) -> None:
+    run = along((0, 0), (4, 0)) + [(4.0, 0.0)] * 500
+    turning = [0.0] * (len(run) - 500) + [0.8] * 500
+    report = judge(read_run(make_record(run, yaw_rate_rad_s=turning)), STRAIGHT)
+    assert not report.passed
+    assert report.reasons == ('did not stop: still turning 0.80 rad/s when the run ended',)
+
+
+def test_a_loop_that_is_not_ended_at_its_beginning_says_so(make_record: Make) -> None:
+    run = along((0, 0), (3, 0), (3, 3), (0, 3), (0, -0.5))
+    report = judge(read_run(make_record(run)), LOOP)
+    assert report.reasons == (
+        'missed waypoint 5 at (0, 0): a loop is to end there',
+        'stopped at (0.00, -0.50), 0.50 m from the last waypoint',
+    )
+
+
+def test_a_near_miss_is_told_with_enough_digits(make_record: Make) -> None:
+    report = judge(read_run(make_record(along((0, 0.2504), (4, 0.2504)))), STRAIGHT)
+    assert 'it came no nearer than 0.2504 m, allowed are 0.25 m' in report.reasons[0]
+
+
 AWAY = '[[6, 0], [6, 2], [3, 2], [3, 0.3]]'
 
 

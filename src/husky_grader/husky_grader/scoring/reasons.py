@@ -13,7 +13,12 @@ from husky_course.waypoints import Course
 import numpy as np
 
 from husky_grader.scoring.alignment import Frame, mistaken_frames, waypoints_in_order
-from husky_grader.scoring.measurement import ENOUGH_M, Measurement, STANDING_M_S
+from husky_grader.scoring.measurement import (
+    ENOUGH_M,
+    Measurement,
+    STANDING_M_S,
+    STANDING_RAD_S,
+)
 
 MAX_LINES = 4  # of one kind
 MOVED_M = 0.05
@@ -125,12 +130,14 @@ def _missed(run: Run, course: Course, reached: Sequence[bool]) -> list[str]:
         nearest = float(np.hypot(run.x - point.x_m, run.y - point.y_m).min())
         name = f'waypoint {number + 1} at ({point.x_m:g}, {point.y_m:g})'
         if nearest > course.tolerance_m:
-            lines.append(
-                f'missed {name}: it came no nearer than {nearest:.2f} m, '
-                f'allowed are {course.tolerance_m:g} m'
-            )
+            digits = 2 if nearest >= course.tolerance_m + 0.005 else 4  # or both look the same
+            why = f'it came no nearer than {nearest:.{digits}f} m, '
+            why += f'allowed are {course.tolerance_m:g} m'
+        elif number == len(course.waypoints) and _end_away_m(run, course) > course.tolerance_m:
+            why = 'a loop is to end there'
         else:
-            lines.append(f'missed {name}: it was there, but not in its turn')
+            why = 'it was there, but not in its turn'
+        lines.append(f'missed {name}: {why}')
     return _shortened(lines, 'waypoints')
 
 
@@ -141,15 +148,21 @@ def _shortened(lines: list[str], what: str) -> list[str]:
 
 
 def _ending(run: Run, course: Course, all_reached: bool) -> list[str]:
-    last = course.stops[-1]
-    away = math.hypot(run.x[-1] - last.x_m, run.y[-1] - last.y_m)
-    if abs(run.speed_m_s[-1]) > STANDING_M_S:
-        return [f'did not stop: still driving {run.speed_m_s[-1]:.2f} m/s when the run ended']
+    speed, yaw_rate, away = run.speed_m_s[-1], run.yaw_rate_rad_s[-1], _end_away_m(run, course)
+    if abs(speed) > STANDING_M_S:
+        return [f'did not stop: still driving {speed:.2f} m/s when the run ended']
+    if abs(yaw_rate) > STANDING_RAD_S:
+        return [f'did not stop: still turning {yaw_rate:.2f} rad/s when the run ended']
     if away > course.tolerance_m:
         place = f'({run.x[-1]:.2f}, {run.y[-1]:.2f})'
         how = 'drove on and stopped' if all_reached else 'stopped'
         return [f'{how} at {place}, {away:.2f} m from the last waypoint']
     return []
+
+
+def _end_away_m(run: Run, course: Course) -> float:
+    last = course.stops[-1]
+    return math.hypot(run.x[-1] - last.x_m, run.y[-1] - last.y_m)
 
 
 def _wrong_way(measured: Measurement) -> list[str]:
