@@ -200,6 +200,21 @@ def test_a_near_miss_is_told_with_enough_digits(make_record: Make) -> None:
     assert 'it came no nearer than 0.2504 m, allowed are 0.25 m' in report.reasons[0]
 
 
+def test_turns_that_the_course_asks_for_are_no_surplus(make_record: Make) -> None:
+    asked = [f'{{x: {x}, y: 0, yaw: 3.1}}' for x in range(1, 7)]
+    route = plan_route(parse_course(f'speed: 0.5\nwaypoints: [[0, 0], {", ".join(asked)}]'))
+    run, yaw = Places(), list[float]()
+    for x in range(5):  # not to the end
+        there = along((x, 0), (x + 1, 0))
+        run += there + [(x + 1.0, 0.0)] * 200
+        yaw += [0.0] * len(there) + [3.1 * (1 - abs(k - 100) / 100) for k in range(200)]
+    report = judge(read_run(make_record(run, yaw=yaw)), route)
+    assert [line.split(' at ')[0] for line in report.reasons] == ['missed waypoint 7', 'stopped']
+    swung = [3.1 * (1 - abs(k % 200 - 100) / 100) for k in range(len(run))]
+    report = judge(read_run(make_record(run, yaw=swung)), route)
+    assert 'rounds more than the path does' in report.reasons[-1]
+
+
 AWAY = '[[6, 0], [6, 2], [3, 2], [3, 0.3]]'
 
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 import math
 
-from husky_course.frames import Array
+from husky_course.frames import Array, wrapped
 from husky_course.record import Disturbance, Run
-from husky_course.route import Curve, Route
+from husky_course.route import Route
 from husky_course.waypoints import Course
 import numpy as np
 
@@ -179,7 +179,7 @@ def _wrong_way(measured: Measurement) -> list[str]:
 
 def _guesses(run: Run, route: Route, measured: Measurement) -> list[str]:
     """Return typical mistakes that leave such a run; nothing where none fits."""
-    course, lines = route.course, [*_units(run), *_rounds(run, route.curve)]
+    course, lines = route.course, [*_units(run), *_rounds(run, route)]
     back = waypoints_in_order(run, replace(course, waypoints=course.waypoints[::-1]))
     enough = max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1))
     if sum(back) > enough and _moved(run):
@@ -211,18 +211,27 @@ def _greatest(values: Array) -> float:
     return float(values[np.abs(values).argmax()])
 
 
-def _rounds(run: Run, curve: Curve) -> list[str]:
+def _rounds(run: Run, route: Route) -> list[str]:
     """Name surplus turns, which degrees in the place of radians cause."""
     turns = np.diff(run.yaw)
     turned = float(np.abs(turns - 2 * math.pi * np.rint(turns / (2 * math.pi))).sum())
-    needed = sum(
-        abs(after - before)
-        for before, after in zip(curve.heading, curve.heading[1:], strict=False)
-    )
-    extra = (turned - needed) / (2 * math.pi)
+    extra = (turned - _needed_rad(route)) / (2 * math.pi)
     if extra < ROUNDS:
         return []
     return [
         f'it turned {extra:.1f} rounds more than the path does: angles are in radians, and an '
         'angle between two headings must be brought back to -pi..pi'
     ]
+
+
+def _needed_rad(route: Route) -> float:
+    """Return how much the course turns the robot, on its legs and on the spot."""
+    needed, yaw = 0.0, 0.0
+    for leg in route.legs:
+        needed += abs(wrapped(leg.begin_yaw_rad - yaw))
+        needed += float(np.abs(np.diff(leg.curve.heading)).sum())
+        yaw = leg.arrival_yaw_rad
+        if leg.end_yaw_rad is not None:
+            needed += abs(wrapped(leg.end_yaw_rad - yaw))
+            yaw = leg.end_yaw_rad
+    return needed
