@@ -374,6 +374,16 @@ def test_a_record_of_the_start_alone_does_not_say_it_never_moved(make_record: Ma
     assert early.startswith('the run ended early: its record breaks off at 0.00 s')
 
 
+@pytest.mark.parametrize('far', [(5, 0), (-2, 0)], ids=['beyond the turn', 'behind the start'])
+def test_beyond_an_end_of_a_leg_it_is_off_the_path(
+    make_record: Make, far: tuple[float, float]
+) -> None:
+    route = plan_route(parse_course('speed: 0.5\nwaypoints: [[0, 0], [3, 0], [0, 0]]'))
+    report = judge(read_run(make_record(along((0, 0), far, (3, 0), (0, 0)))), route)
+    assert report.cross_track_max_m == pytest.approx(2.0, abs=0.01)
+    assert report.parts[-1].factor < 0.1
+
+
 def test_a_run_laid_along_its_path_is_projected_as_pose_by_pose() -> None:
     chance = np.random.default_rng(1)
     curve = LOOP.legs[0].curve
@@ -383,7 +393,9 @@ def test_a_run_laid_along_its_path_is_projected_as_pose_by_pose() -> None:
     along_m, offsets = projected(curve, near, x, y)
     for k in range(0, 3000, 7):
         _, s, offset = curve.project(int(near[k]), float(x[k]), float(y[k]))
-        assert (along_m[k], offsets[k]) == pytest.approx((s, offset), abs=1e-12)
+        away_m = math.dist(curve.point_at(s), (x[k], y[k]))
+        assert along_m[k] == pytest.approx(s, abs=1e-12)
+        assert offsets[k] == pytest.approx(math.copysign(away_m, offset), abs=1e-4)
 
 
 def test_a_long_stand_on_the_way_changes_no_score(make_record: Make) -> None:

@@ -79,7 +79,11 @@ def _align(curve: Curve, picked: Indices, x: Array, y: Array) -> tuple[Array, Ar
 
 
 def projected(curve: Curve, near: Indices, x: Array, y: Array) -> tuple[Array, Array]:
-    """Project every pose as `Curve.project` does one, from the samples `near` it."""
+    """
+    Project every pose as `Curve.project` does one, from the samples `near` it.
+
+    Beyond an end or a sharp corner the offset is the distance to that, not to the line on from it.
+    """
     xs, ys, s = np.array(curve.x), np.array(curve.y), np.array(curve.s)
     last = len(xs) - 1
     i = near.astype(np.int64)
@@ -96,10 +100,12 @@ def projected(curve: Curve, near: Indices, x: Array, y: Array) -> tuple[Array, A
     foot = _along(xs, ys, np.minimum(i, last - 1), x, y)
     back = ((foot < 0.0) & (i > 0)) | (i == last)
     i[back] = np.maximum(i[back] - 1, 0)
-    along = _along(xs, ys, i, x, y)
+    foot = _along(xs, ys, i, x, y)
     length = s[i + 1] - s[i]
+    along = np.clip(foot, 0.0, length)
     dx, dy = (xs[i + 1] - xs[i]) / length, (ys[i + 1] - ys[i]) / length
-    return s[i] + np.clip(along, 0.0, length), dx * (y - ys[i]) - dy * (x - xs[i])
+    aside = dx * (y - ys[i]) - dy * (x - xs[i])
+    return s[i] + along, np.copysign(np.hypot(aside, foot - along), aside)
 
 
 def _along(xs: Array, ys: Array, i: Indices, x: Array, y: Array) -> Array:
