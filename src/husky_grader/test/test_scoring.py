@@ -253,6 +253,23 @@ def test_one_that_misses_the_first_waypoint_is_judged_from_there(make_record: Ma
     assert 'missed waypoint 1 at (6, 0): it came no nearer than 0.30 m' in report.reasons[0]
 
 
+def test_a_loop_whose_beginning_was_missed_is_judged_as_a_whole(make_record: Make) -> None:
+    loop = '[[3, 0], [6, 0], [6, 3], [3, 3]]'
+    route = plan_route(parse_course(f'speed: 0.5\nloop: true\nwaypoints: {loop}'))
+    way = along((0, 0.3), (3, 0.3), (6, 0.2), (5.8, 2.8), (3.2, 3.0), (3, 0))
+    report = judge(read_run(make_record(way)), route)
+    assert (report.waypoints_reached, report.waypoints_total) == (3, 5)
+    assert report.cross_track_rms_m > 0.1
+    assert 'full marks' in report.parts[2].why
+
+
+def test_one_that_gives_up_on_the_way_to_the_path_is_told_so(make_record: Make) -> None:
+    route = plan_route(parse_course(f'speed: 0.5\nwaypoints: {AWAY}'))
+    report = judge(read_run(make_record(along((0, 0), (3, -1)))), route)
+    assert report.score == 0.0
+    assert report.parts[2].why == 'it did not drive along the path'
+
+
 def test_a_cut_corner_misses_its_waypoint_and_only_that(make_record: Make) -> None:
     run = along((0, 0), (3, 0), (0.5, 3), (0, 3), (0, 0))
     report = judge(read_run(make_record(run)), LOOP)

@@ -39,23 +39,28 @@ class Alignment:
 
 def align(run: Run, route: Route) -> Alignment:
     """Return the places of a run on its path, and the waypoints that it reached in order."""
-    begin = _path_begin(run, route.course)
+    course, counted = route.course, _counted(run, route.course)
+    begin = _path_begin(run, course, counted)
     along, errors = _align(route.curve, run.spread(MAX_POSES, begin), run.x, run.y)
     along[:begin], errors[:begin] = along[begin], 0.0
-    return Alignment(along, errors, waypoints_in_order(run, route.course), begin)
+    return Alignment(along, errors, _reached(run, course, counted), begin)
 
 
-def _path_begin(run: Run, course: Course) -> int:
+def _path_begin(run: Run, course: Course, counted: Mapping[int, int]) -> int:
     """
     Return the entry at which a run has come to the first waypoint, or nearest to that.
 
     The way there is none of the path, and may lead along other parts of it.
+
+    :param counted: the waypoints that count as reached, and the entries at which; the path has
+        begun before any but the first, so that the end of a loop is not its beginning.
     """
     first = course.waypoints[0]
+    later = min((entry for number, entry in counted.items() if number), default=len(run.x))
     away_m = np.hypot(run.x[run.begin :] - first.x_m, run.y[run.begin :] - first.y_m)
     if away_m[0] <= course.tolerance_m:
         return 0
-    near = away_m <= max(course.tolerance_m, away_m.min())
+    near = away_m <= max(course.tolerance_m, away_m[: later + 1 - run.begin].min())
     came = int(near.argmax())
     stay = int(np.append(near[came:], False).argmin())  # entries, until it left again
     return run.begin + came + int(away_m[came : came + stay].argmin())
@@ -144,15 +149,26 @@ def waypoints_in_order(run: Run, course: Course) -> tuple[bool, ...]:
     (longest increasing subsequence): one that was left out costs itself, not all that follow.
     The last stop of a loop counts when the run ends there and reached half of the others.
     """
+    return _reached(run, course, _counted(run, course))
+
+
+def _reached(run: Run, course: Course, counted: Mapping[int, int]) -> tuple[bool, ...]:
+    reached = [number in counted for number in range(len(course.waypoints))]
+    if course.loop:
+        first = course.waypoints[0]
+        away_m = float(np.hypot(run.x[-1] - first.x_m, run.y[-1] - first.y_m))
+        reached.append(away_m <= course.tolerance_m and 2 * sum(reached) >= len(reached))
+    return tuple(reached)
+
+
+def _counted(run: Run, course: Course) -> dict[int, int]:
+    """Return the numbers of the waypoints that count as reached, and the entries at which."""
     x, y = run.x[run.begin :], run.y[run.begin :]
     boxes = _boxes(x, y)
     stays = [_stays(boxes, x, y, point, course.tolerance_m) for point in course.waypoints]
-    counted = _longest_increasing([number for _, _, number in sorted(_visits(stays))])
-    reached = [number in counted for number in range(len(course.waypoints))]
-    if course.loop:
-        back = bool(stays[0].size) and bool(stays[0][-1, 1] == len(x))
-        reached.append(back and 2 * sum(reached) >= len(reached))
-    return tuple(reached)
+    visits = sorted(_visits(stays))
+    chain = _longest_increasing([number for _, _, number in visits])
+    return {visits[at][2]: run.begin + visits[at][0] for at in chain}
 
 
 def _visits(stays: Sequence[Indices]) -> Iterator[tuple[int, int, int]]:
@@ -193,7 +209,8 @@ def _stays(boxes: Array, x: Array, y: Array, point: Waypoint, tolerance_m: float
     return np.stack([near[gaps[:-1]], near[gaps[1:]] + 1], axis=1)
 
 
-def _longest_increasing(numbers: Sequence[int]) -> set[int]:
+def _longest_increasing(numbers: Sequence[int]) -> list[int]:
+    """Return the places of a longest chain among the numbers, the last one first."""
     tails: list[int] = []  # the smallest last number of a chain of each length
     tail_at: list[int] = []
     before: list[int] = []
@@ -205,9 +222,9 @@ def _longest_increasing(numbers: Sequence[int]) -> set[int]:
             tail_at.append(at)
         else:
             tails[length], tail_at[length] = number, at
-    chain = set()
+    chain = []
     at = tail_at[-1] if tail_at else -1
     while at >= 0:
-        chain.add(numbers[at])
+        chain.append(at)
         at = before[at]
     return chain

@@ -122,8 +122,10 @@ def _time(measured: Measurement, route_par_sec: float, lead_in_sec: float) -> tu
     """Return the factor for the time; allowed is that for as much of the path as was driven."""
     needed_sec = measured.sim_time_sec
     par_sec = measured.progress_m / measured.path_length_m * route_par_sec
-    if needed_sec <= 0.0 or par_sec <= 0.0:
+    if needed_sec <= 0.0:
         return 1.0, 'it did not drive'
+    if par_sec <= 0.0:
+        return 1.0, 'it did not drive along the path'
     allowed = TIME_ALLOWANCE * (lead_in_sec + par_sec)
     factor = min(1.0, max(allowed / needed_sec, MIN_TIME_FACTOR))
     why = f'{needed_sec:.1f} s, full marks up to {allowed:.1f} s'
