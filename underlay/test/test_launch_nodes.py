@@ -183,6 +183,10 @@ def test_two_nodes_of_one_name_are_warned_about(
         ("package='some_pk', executable='x'", "package 'some_pk' not found, searching: ["),
         ("package='some_pk', executable='x'", "did you mean 'some_pkg'?"),
         ("package='demo_nodes_cpp', executable='talker'", '`ros2 run demo_nodes_py talker`'),
+        (
+            "package='rclcpp_components', executable='component_container'",
+            'it has no wheel; here nodes in Python share a process where one program adds them',
+        ),
         ("package='some_pkg', executable='plain_node', name='a b'", "node name 'a b' is refused"),
         (
             "package='some_pkg', executable='plain_node', namespace='1'",

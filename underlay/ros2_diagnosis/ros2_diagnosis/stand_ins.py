@@ -62,6 +62,8 @@ BY_PACKAGE = {
         'reliability, and `ros2 doctor` names what does not match',
     ),
     'action_tutorials_cpp': _COUNT,
+    'rclcpp_components': 'nodes in Python share a process where one program adds them to its '
+    'executor',
     **{
         f'examples_{library}_minimal_{what}': clause
         for library in ('rclpy', 'rclcpp')
