@@ -215,6 +215,25 @@ def test_turns_that_the_course_asks_for_are_no_surplus(make_record: Make) -> Non
     assert 'rounds more than the path does' in report.reasons[-1]
 
 
+def test_a_mirrored_course_is_told_beside_great_commands(make_record: Make) -> None:
+    places = along((0, 0), (3, 0), (3, -3), (0, -3), (0, 0))
+    asked = [25.1] * len(places)  # eight times the angle to the waypoint, in radians
+    report = judge(read_run(make_record(places, command_yaw_rate_rad_s=asked)), LOOP)
+    mirrored, units = report.reasons[-2:]
+    assert mirrored.startswith('it drove the course mirrored')
+    assert units.startswith('it commanded angular.z = 25.1')
+
+
+def test_one_that_is_pushed_back_is_not_said_to_drive_so(make_record: Make) -> None:
+    places = along((0, 0), (3, 0), (2, 0))
+    speed = [0.5] * 300 + [-0.5] * (len(places) - 310) + [0.0] * 10
+    for ahead, said in ((0.5, False), (-0.5, True)):
+        asked = [0.5] * 300 + [ahead] * (len(places) - 300)
+        record = make_record(places, speed_m_s=speed, command_speed_m_s=asked)
+        reasons = judge(read_run(record), STRAIGHT).reasons
+        assert any('backwards' in line for line in reasons) is said
+
+
 AWAY = '[[6, 0], [6, 2], [3, 2], [3, 0.3]]'
 
 

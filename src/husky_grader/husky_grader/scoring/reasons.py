@@ -49,7 +49,7 @@ def reasons_for(run: Run, route: Route, measured: Measurement) -> tuple[str, ...
     else:
         found = [*_collisions(run), *_overturn(run), *_missed(run, course, measured.visits)]
         found += _ending(run, course, all(measured.visits)) if run.complete else []
-        wrong_way = _wrong_way(measured)
+        wrong_way = _wrong_way(run, measured)
         found = [*wrong_way, *found] if measured.wrong_way > 0.5 else [*found, *wrong_way]
     guesses = [] if all(measured.visits) else _guesses(run, route, measured)
     return (*first, *found, *guesses)
@@ -165,7 +165,8 @@ def _end_away_m(run: Run, course: Course) -> float:
     return math.hypot(run.x[-1] - last.x_m, run.y[-1] - last.y_m)
 
 
-def _wrong_way(measured: Measurement) -> list[str]:
+def _wrong_way(run: Run, measured: Measurement) -> list[str]:
+    """Return what was driven against what was asked; who is only pushed there made no mistake."""
     if measured.wrong_way == 0.0:
         return []
     lines = [
@@ -173,13 +174,14 @@ def _wrong_way(measured: Measurement) -> list[str]:
         'linear.x is positive ahead, and turn to face the way first',
         f'drove {measured.forwards_m:.2f} m forwards where the course says reverse: true',
     ]
-    metres = (measured.backwards_m, measured.forwards_m)
+    backwards, forwards = run.command_speed_m_s.min() < 0.0, run.command_speed_m_s.max() > 0.0
+    metres = (measured.backwards_m * backwards, measured.forwards_m * forwards)
     return [line for line, way_m in zip(lines, metres, strict=True) if way_m > ENOUGH_M]
 
 
 def _guesses(run: Run, route: Route, measured: Measurement) -> list[str]:
     """Return typical mistakes that leave such a run; nothing where none fits."""
-    course, lines = route.course, [*_units(run), *_rounds(run, route)]
+    course, units, lines = route.course, _units(run), _rounds(run, route)
     back = waypoints_in_order(run, replace(course, waypoints=course.waypoints[::-1]))
     enough = max(measured.waypoints_reached, ORDER_SHARE * (len(back) - 1))
     if sum(back) > enough and _moved(run):
@@ -187,11 +189,11 @@ def _guesses(run: Run, route: Route, measured: Measurement) -> list[str]:
             'it drove the course from its end to its beginning: keep the order of the file'
         )
     if lines or measured.cross_track_rms_m < FAR_M or measured.driven_m < DRIVEN_M:
-        return lines
+        return [*units, *lines]
     rms_m = mistaken_frames(run, route.curve, FRAMES)
     best = min(rms_m, key=rms_m.__getitem__)
     likely = rms_m[best] < min(measured.cross_track_rms_m / 2, NEAR_M)
-    return [f'it drove the course {best}'] if likely else []
+    return [f'it drove the course {best}', *units] if likely else units
 
 
 def _units(run: Run) -> list[str]:
