@@ -74,6 +74,11 @@ def test_a_terminal_in_which_no_program_can_run_is_refused(
     assert (done.returncode, said in done.stderr.splitlines()[-1]) == (2, True), done.stderr
 
 
+def test_a_terminal_of_macos_is_given_files_for_every_connection_of_the_page() -> None:
+    done = sourced('ulimit -Sn 256; check_terminal; ulimit -Sn')
+    assert done.stdout.split() == ['1024'], done.stderr
+
+
 @pytest.mark.parametrize('file', ['numpy.py', 'mujoco/__init__.py', 'launch.py'])
 def test_packages_that_would_take_the_place_of_the_labs_are_refused(
     tmp_path: Path, file: str

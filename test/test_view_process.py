@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The view as a process: its address, its end, and that it cannot hold up the physics."""
 
+from contextlib import ExitStack
+from http import HTTPStatus
 from pathlib import Path
 from shutil import copy
 import signal
@@ -86,6 +88,36 @@ def test_a_taken_port_gives_the_next_and_ctrl_c_ends_in_2_s(
         assert view.wait(timeout_sec=10.0) == 0
         assert time.monotonic() - begun < 2.0
         assert 'Traceback' not in view.output
+
+
+@pytest.mark.timeout(60)
+def test_connections_that_take_every_file_of_the_view_do_not_end_it(processes: Processes) -> None:
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
+    view = processes.start(
+        'bash', '-c', 'ulimit -n 48; exec "$0" "$@"', *VIEW, 'viewer_port:=18385'
+    )
+    view.wait_for_text('look at http://localhost:')
+    address = view.output.split('look at ')[1].split()[0]
+    port = urlsplit(address).port or 0
+    with ExitStack() as stack:
+        for _ in range(60):
+            stack.enter_context(socket.create_connection(('127.0.0.1', port), timeout=10.0))
+        view.wait_for_text('Too many open files')
+        begun = time.monotonic()  # it looks for waypoint files every two
+        wait_until(
+            lambda: time.monotonic() > begun + 3.0 or view.returncode is not None,
+            timeout_sec=5.0,
+            what='three seconds',
+        )
+    wait_until(lambda: answers(address), timeout_sec=20.0, what=lambda: view.output[-2000:])
+
+
+def answers(address: str) -> bool:
+    try:
+        with urllib.request.urlopen(address, timeout=2.0) as page:
+            return bool(page.status == HTTPStatus.OK)
+    except OSError:
+        return False
 
 
 @pytest.mark.timeout(60)

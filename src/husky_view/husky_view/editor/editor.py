@@ -328,7 +328,10 @@ class Editor:
 
     def look_for_files(self) -> None:
         """Offer the files that are there now, and show the one that is edited as it is now."""
-        offered = (NEW, *course.files_in(self._folder))
+        try:
+            offered = (NEW, *course.files_in(self._folder))
+        except OSError:  # the process has too many files open, or a network does not answer
+            return
         if offered != tuple(self._file.options):
             self._file.options = offered
         self._follow_file()
