@@ -258,7 +258,7 @@ def test_a_variable_that_parts_nodes_is_the_reason(
     follow_path: Any, course: Path, name: str, value: str, said: str
 ) -> None:
     words = ('--waypoints', course, '--ros-args', '-p', 'startup_timeout_sec:=0.5')
-    output, _ = follow_path(*words, **{name: value}).communicate(timeout=30)
+    output, _ = follow_path(*words, **{name: value}).communicate(timeout=10)
     assert said in output
 
 

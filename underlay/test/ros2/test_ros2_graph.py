@@ -57,12 +57,14 @@ def test_every_node_is_listed_in_every_run(ros2: Callable[..., Any]) -> None:
             assert (answer.status, answer.lines, answer.err) == (0, expected, '')
         # Without the command, the observer is complete twenty times of twenty.
         domain_id = discovery.settings_from_environment().domain_id
+        start = time.monotonic()
         for _ in range(20):
             with Observer(domain_id=domain_id) as observer:
                 assert observer.observe(timeout_sec=20.0), 'it waits for something in vain'
                 found = graph.build(observer.participants.values())
             assert {node.full_name for node in found.nodes} == {*expected}
             assert {'/chatter', '/rosout', '/parameter_events'} <= found.topics().keys()
+        assert (time.monotonic() - start) / 20 < 0.8
 
 
 @pytest.mark.usefixtures('few')
