@@ -7,7 +7,7 @@ from pathlib import Path
 import time
 
 MOST_TIMES = 10.0
-"""Longer than on a machine with nothing else to do; a program may keep it busy itself."""
+"""So many times longer at most: a program may keep the machine busy itself."""
 
 _LOAD = Path('/proc/loadavg')
 

@@ -46,7 +46,9 @@ class FindPackage(Substitution):
         try:
             return self.find(package)
         except packages.PackageNotFoundError as error:
-            hint = _why_missing(package)
+            from ros2_diagnosis.packages import why_missing
+
+            hint = why_missing(package)
             raise packages.PackageNotFoundError(f'{error.args[0]}: {hint}') from None
 
 
@@ -70,12 +72,6 @@ class FindPackageShare(FindPackage):
         return cast(str, get_package_share_directory(package_name))
 
 
-def _why_missing(package: str) -> str:
-    from ros2_diagnosis import packages
-
-    return packages.why_missing(package)
-
-
 def _explain(error: BaseException) -> str:
     """Say why a package is missing that a launch file in Python asked ament_index_python for."""
     packages = sys.modules.get('ament_index_python.packages')
@@ -83,7 +79,11 @@ def _explain(error: BaseException) -> str:
         return ''
     # What a substitution raised has its hint behind the list of folders.
     asked = re.fullmatch(r"package '(.*)' not found, searching: \[.*\]", str(error.args[0]))
-    return _why_missing(asked[1]) if asked else ''
+    if asked is None:
+        return ''
+    from ros2_diagnosis.packages import why_missing
+
+    return why_missing(asked[1])
 
 
 explain_errors_with(_explain)
