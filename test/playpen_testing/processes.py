@@ -157,8 +157,14 @@ class Process:
         self._reader.join(timeout=5.0)
         return self._child.wait()
 
-    def close(self) -> None:
-        """End the child's whole group, gently first; may be called twice."""
+    def close(self) -> str:
+        """
+        End the child's whole group, gently first; may be called twice.
+
+        :returns: how it ended, in words.
+        """
+        before = self.returncode
+        how = 'ran until here' if before is None else f'had ended with {before}'
         for number in (signal.SIGINT, signal.SIGKILL):
             try:
                 os.killpg(self._child.pid, number)
@@ -167,12 +173,14 @@ class Process:
             try:
                 self._child.wait(timeout=3.0)
             except subprocess.TimeoutExpired:
+                how = 'did not heed Ctrl-C'
                 continue
         self._child.wait()
         self._reader.join(timeout=5.0)
         for stream in (self._child.stdin, self._child.stdout):
             if stream is not None:
                 stream.close()
+        return how
 
 
 class Processes:
@@ -201,5 +209,5 @@ class Processes:
         trace: TracebackType | None,
     ) -> None:
         for process in reversed(self._started):
-            process.close()
-            print(f'{" ".join(process.command)} printed:\n{process.output}')
+            how = process.close()
+            print(f'{" ".join(process.command)} {how}; it printed:\n{process.output}')

@@ -149,7 +149,17 @@ def test_mimic_lets_a_turtle_do_as_another(
         student.command('turtle1', x=1.0, turn=1.0)
         return bool(student.pose('turtle2').theta > 0.8)
 
-    wait_until(is_followed, timeout_sec=20.0, what='a turtle2 that turns as turtle1')
+    def tells() -> str:
+        """Tell how far a command got: to turtle1, to mimic, back to turtle2."""
+        listens = student.node.get_subscriptions_info_by_topic('turtle1/pose')
+        commands = student.node.get_publishers_info_by_topic('turtle2/cmd_vel')
+        return (
+            f'a turtle2 that turns as turtle1: {student.pose("turtle2")}, {student.pose()}; '
+            f'to turtle1/pose listen {[end.node_name for end in listens]}, '
+            f'turtle2 is commanded by {[end.node_name for end in commands]}'
+        )
+
+    wait_until(is_followed, timeout_sec=20.0, what=tells)
     assert 'turtle_mimic' in student.node.get_node_names()
     _ends_by_ctrl_c(mimic)
 
