@@ -13,7 +13,7 @@ SAYS = 'import sys; sys.stdout.write("one\\ntwo\\n"); sys.stderr.write(sys.stdin
 
 def test_what_was_read_ahead_of_a_line_is_not_lost() -> None:
     pipe = subprocess.PIPE
-    with Child([sys.executable, '-c', SAYS], stdin=pipe, stdout=pipe, stderr=pipe) as child:
+    with Child([sys.executable, '-u', '-c', SAYS], stdin=pipe, stdout=pipe, stderr=pipe) as child:
         assert child.stdout is not None
         find_line(child.stdout, 'one')
         assert child.communicate('three\n', timeout=20.0) == ('two\n', 'three\n')

