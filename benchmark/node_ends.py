@@ -7,7 +7,7 @@
 
 Each node has five publishers and five subscriptions, and a participant of its own. So most of them
 end while others are just being discovered, which hung in some of a thousand ends; see
-underlay/unlimited_waits.py.
+underlay/mended_calls.py.
 """
 
 from __future__ import annotations

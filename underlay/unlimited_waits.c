@@ -1,7 +1,7 @@
 /* Copyright 2026 The Husky Playpen Lab authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * What the wheels call in place of pthread_cond_timedwait; see unlimited_waits.py.
+ * What the wheels call in place of pthread_cond_timedwait; see mended_calls.py.
  *
  * No header is included but TinyCC's own: a user need not have those of libc.
  */
