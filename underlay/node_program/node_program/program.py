@@ -53,11 +53,13 @@ def run_node(
     one that comes just before the first wait is missed by it for good (rclpy 7.1.6).
 
     :param make: is given the event, for a node whose work may be done.
-    :param use: returns soon after the event is set, which SIGINT and SIGTERM do.
+    :param use: returns soon after the event is set, which a signal does.
     """
     stop = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stop.set())
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        # A terminal that is closed sends SIGHUP; nohup has it ignored.
+        if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, lambda *_: stop.set())
     try:
         rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
         node = make(stop)

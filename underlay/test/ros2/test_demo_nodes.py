@@ -336,6 +336,7 @@ def test_orders_that_int32_cannot_hold_are_rejected(processes: Any, ros2: Any) -
     [
         ('add_two_ints_client', signal.SIGINT),
         ('async_param_client', signal.SIGTERM),
+        ('async_param_client', signal.SIGHUP),
         ('fibonacci_action_client', signal.SIGINT),
         ('listener_qos', signal.SIGTERM),
     ],
@@ -346,3 +347,13 @@ def test_a_signal_ends_what_waits_for_others(
     waiting = processes.start(program(name))
     wait_for_node(domain, name)
     end(waiting, number)
+
+
+def test_a_program_with_nohup_outlives_its_terminal(processes: Any, domain: int) -> None:
+    listener = processes.start('nohup', program('listener'))
+    wait_for_node(domain, 'listener')
+    listener.send_signal(signal.SIGHUP)
+    talker = processes.start(program('talker'))
+    find_line(listener.stdout, r'\[listener\]: I heard: ')
+    end(talker)
+    end(listener)

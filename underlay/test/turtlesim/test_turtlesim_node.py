@@ -32,7 +32,7 @@ def place(pose: Any) -> tuple[float, float, float]:
     return pose.x, pose.y, pose.theta
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_it_begins_with_a_turtle_and_ends_by_a_signal(
     own_turtlesim: Process, number: signal.Signals
 ) -> None:
