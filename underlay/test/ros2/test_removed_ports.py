@@ -27,6 +27,7 @@ LISTENERS, LISTENER_SIZE, DOMAIN = 1024, 20, b'fastrtps\0'
 IN_USE, WAITING = 1, 2
 IS_OK, OTHER_FLAGS = 1, 6
 SIZE, AT = 52400, 276  # of a port, and where its node is
+MADE = struct.pack('<I', 2)  # what Boost begins memory with that is not still being made
 
 Remove = Callable[[str], int]
 
@@ -105,7 +106,7 @@ class Port:
     ) -> None:
         node = NODE.pack(number, 1, check_ms, 333, 512, 1, IS_OK | OTHER_FLAGS)
         self.file = FOLDER / f'fastrtps_port{number}{suffix}'
-        self.written = (bytes(AT) + node).ljust(size, b'\0')
+        self.written = (MADE.ljust(AT, b'\0') + node).ljust(size, b'\0')
         self.file.write_bytes(self.written)
         with self.file.open('r+b') as file:
             self.memory = mmap.mmap(file.fileno(), size)
