@@ -97,8 +97,18 @@ const release = (key) => {
 const typing = (e) => e.target.closest && e.target.closest(
   'input:not([type=checkbox]), textarea, select, [role=slider], [role=tab], [contenteditable]');
 const consume = (e) => { e.preventDefault(); e.stopImmediatePropagation(); };
+// Who has chosen from a list, as the robot, drives on by the keys: they would open it again.
+let chosen = false;
+window.addEventListener('pointerdown', (e) => { if (e.isTrusted) chosen = false; }, true);
+window.addEventListener('click', (e) => {
+  if (!e.target.closest?.('[role=option]')) return;
+  chosen = true;  // the next key may come before the list has let go
+  setTimeout(() => document.activeElement?.blur());
+}, true);
 window.addEventListener('keydown', (e) => {
-  if (!(e.key in keys) || e.ctrlKey || e.altKey || e.metaKey || typing(e)) return;
+  if (!(e.key in keys)) chosen = false;
+  if (!(e.key in keys) || e.ctrlKey || e.altKey || e.metaKey) return;
+  if (typing(e) && !chosen) return;
   if (!button(keys[e.key])) return;
   consume(e);
   if (!held.has(e.key)) { held.add(e.key); send(keys[e.key], 'pointerdown'); }
@@ -112,10 +122,6 @@ window.addEventListener('lostpointercapture', (e) => {
   const sign = e.target.closest && e.target.closest('button')?.textContent.trim();
   if (sign in areas) send(sign, 'click');
 }, true);
-// Who has chosen from a list, as the robot, drives on by the keys: they would open it again.
-window.addEventListener('click', (e) => {
-  if (e.target.closest?.('[role=option]')) setTimeout(() => document.activeElement?.blur());
-});
 window.addEventListener('blur', releaseAll);
 window.addEventListener('pagehide', releaseAll);
 document.addEventListener('visibilitychange', releaseAll);
