@@ -106,9 +106,9 @@ def _count(seed: int, end_sec: float) -> tuple[Counter[str], list[float]]:
                     said = client.communicate(timeout=_LOST_SEC)[0]
                     # Fast DDS may print a line where another takes the port that it tries first.
                     answered = said.splitlines()[-1:] == [b'answered']
-                    took_sec.append(time.monotonic() - begun_sec)
                 except subprocess.TimeoutExpired:
                     answered = False
+                took_sec.append(time.monotonic() - begun_sec)
                 counts['without an answer'] += not answered
                 counts['that lost a port'] += _has_lost_a_port(server.pid)
             for node in (server, client):
@@ -142,7 +142,7 @@ def main() -> int:
     print(
         f'{counts["pairs"]} pairs of nodes, {counts["killed while they begin"]} killed while they '
         f'begin: {lost} without an answer, {counts["that lost a port"]} that lost a port; '
-        f'the others took {statistics.median(took_sec):.1f} s in the median, at most '
+        f'those left alone took {statistics.median(took_sec):.1f} s in the median, at most '
         f'{took_sec[-1]:.1f} s'
     )
     return 1 if lost else 0
