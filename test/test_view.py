@@ -15,7 +15,16 @@ from husky_view.gate.front_page import NO_WEBGL
 from husky_view.live.links import LATCHED
 from nav_msgs.msg import Path
 from playpen_testing import chromium
-from playpen_testing.browser import button, errors, FLAGS, launch, number, places, wait_for
+from playpen_testing.browser import (
+    button,
+    errors,
+    FLAGS,
+    launch,
+    number,
+    open_editor,
+    places,
+    wait_for,
+)
 from playpen_testing.spinning import do_in_thread_of
 from playpen_testing.view_lab import COMMANDS, Lab, view_lab
 from playpen_testing.waiting import wait_until
@@ -160,7 +169,7 @@ def test_an_arrow_key_drives_while_it_is_held(lab: Lab, page: Page) -> None:
 @pytest.mark.timeout(120)
 def test_the_arrow_keys_drive_when_a_box_was_ticked(lab: Lab) -> None:
     page = lab.open()
-    page.get_by_text('Waypoints', exact=True).click()
+    open_editor(page)
     page.get_by_label('Back to the first (loop)').click()
     page.keyboard.down('ArrowUp')
     wait_until(lab.moves, timeout_sec=10.0, what='a robot that moves')

@@ -11,7 +11,7 @@ from husky_course.waypoints import load_course
 from husky_sim.world import default_worlds, load_world
 from husky_view.picture.camera import PANEL_PX, TOP_MARGIN
 from husky_view.picture.geometry import bounds
-from playpen_testing.browser import button, drag, errors, Place, places
+from playpen_testing.browser import button, drag, errors, open_editor, Place, places
 from playpen_testing.view_lab import Lab, view_lab
 from playpen_testing.waiting import wait_until
 from playwright.sync_api import Browser, expect, Page
@@ -37,7 +37,7 @@ def page(lab: Lab) -> Page:
     """Open the editor and look from above."""
     page = lab.open(*SIZE)
     button(page, 'Top').click()
-    page.get_by_text('Waypoints', exact=True).click()
+    open_editor(page)
     page.get_by_label('Edit: click on the ground').check()
     verdict = page.locator('[data-verdict]')
     wait_until(verdict.is_visible, timeout_sec=30.0, what=lambda: f'a verdict: {lab.view.output}')
@@ -125,7 +125,7 @@ def test_what_is_saved_is_what_is_driven(lab: Lab, page: Page) -> None:
 def test_waypoints_may_go_while_another_tab_drags_one(lab: Lab, page: Page) -> None:
     other = lab.open(*SIZE)
     button(other, 'Top').click()
-    other.get_by_text('Waypoints', exact=True).click()
+    open_editor(other)
     drag_at_once((page, PLACES[1], (-2.0, 1.5)), (other, PLACES[0], (0.0, -1.0)))
 
     def are_saved() -> bool:

@@ -57,6 +57,9 @@ _PLACES = """() => {
   return all.map((each) => [each.textContent.trim(), each.getBoundingClientRect()])
     .map(([name, box]) => [name, [box.left + box.width / 2, box.top]]);
 }"""
+_IS_OPEN = """[...document.querySelectorAll('button')].some((each) =>
+  each.textContent.trim() === 'Undo' && each.offsetParent &&
+  !each.closest('[style*="will-change"]'))"""
 _ASPHALT = np.array([75, 75, 77])
 
 expect.set_options(timeout=30_000)
@@ -112,6 +115,16 @@ def number(page: Page, key: str) -> Locator:
 def wait_for(page: Page, script: str) -> None:
     """Wait until a JavaScript expression is true."""
     page.wait_for_function(script, polling=50)  # a page that draws has few frames to poll in
+
+
+def open_editor(page: Page) -> None:
+    """
+    Open the folder of waypoints, whole.
+
+    While it grows, Playwright would scroll in it to what is not yet to be seen.
+    """
+    page.get_by_text('Waypoints', exact=True).click()
+    wait_for(page, _IS_OPEN)
 
 
 def places(page: Page) -> dict[str, Place]:
