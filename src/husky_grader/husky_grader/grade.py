@@ -244,17 +244,34 @@ def _waypoint_files(given: str) -> list[str]:
     """
     if not Path(given).is_dir():
         return [given]
-    files = sorted(
-        str(file)
-        for file in Path(given).glob('*')
-        if file.suffix.lower() in YAML and not file.name.startswith('.')
-    )
+    files, inner = _yaml_files(given), _folders_passed_over(given)
     if not files:
         raise ValueError(
             f'{given}: no waypoint file lies in this folder (*.yaml); what was handed in for a '
-            f'lab is graded by --lab {given}'
+            f'lab is graded by --lab {given}{inner and f"; {inner}"}'
         )
+    if inner:
+        print(printable(f'{given}: {inner}'), file=sys.stderr)
     return files
+
+
+def _yaml_files(folder: str | Path) -> list[str]:
+    return sorted(
+        str(file)
+        for file in Path(folder).glob('*')
+        if file.suffix.lower() in YAML and not file.name.startswith('.')
+    )
+
+
+def _folders_passed_over(given: str) -> str:
+    """Return a word about folders of files in a folder, as one of each student; '' for none."""
+    inner = [
+        folder.name
+        for folder in sorted(Path(given).glob('[!.]*'))
+        if _yaml_files(folder) and not (folder / 'report.json').exists()
+    ]
+    few = ', '.join(inner[:3]) + (', ...' if len(inner) > 3 else '')
+    return f'what lies in its folders ({few}) is graded by {Path(given)}/*/' if inner else ''
 
 
 def _make_gradescope(options: argparse.Namespace) -> int:

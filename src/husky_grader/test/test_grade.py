@@ -250,6 +250,26 @@ def test_a_folder_stands_for_its_waypoint_files(
     assert [line.split()[0] for line in lines[:-1]] == ['C', 'a', 'b']
 
 
+def test_what_lies_in_folders_of_a_folder_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = tmp_path / 'report'
+    for name in ('anna', 'ben', '.git', 'pictures'):
+        (tmp_path / name).mkdir()
+    for name in ('anna/path.yaml', 'ben/path.yaml', '.git/a.yaml', 'pictures/a.png'):
+        (tmp_path / name).write_text('waypoints: []\n')
+    words = f'what lies in its folders (anna, ben) is graded by {tmp_path}/*/'
+    assert grade([str(tmp_path), '--report', str(report)]) == 2
+    assert capsys.readouterr().err.endswith(f'graded by --lab {tmp_path}; {words}\n')
+    (tmp_path / 'carla.yaml').write_text('waypoints: []\n')
+    grade([str(tmp_path), '--report', str(report)])
+    assert capsys.readouterr().err.splitlines()[0] == f'{tmp_path}: {words}'
+    folders = [str(tmp_path / name) for name in ('anna', 'ben')]
+    grade([*folders, '--jobs', '1', '--report', str(report)])
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines[:-1]] == ['anna_path', 'ben_path']
+
+
 def test_a_check_names_the_waypoint_and_what_it_passes_too_near(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
