@@ -13,6 +13,7 @@ import sys
 import time
 from typing import Any
 
+from builtin_interfaces.msg import Time
 from playpen_testing.bags import opened_reader
 from playpen_testing.forks import run_forked
 from playpen_testing.keyboard import CTRL_C, Keyboard
@@ -21,8 +22,10 @@ from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosbag2_interfaces.srv import IsPaused, Pause, Resume, SplitBagfile
 from rosbag2_py.selection import EVENTS
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 
 CHATTER, FLIPS, SUMS = '/chatter', '/flip/_service_event', '/add_two_ints/_service_event'
@@ -37,10 +40,12 @@ WITHOUT_EFFECT = (
 class Recording:
     """`ros2 bag record` into sqlite3, where all that is recorded can be counted at once."""
 
-    def __init__(self, processes: Any, folder: Path, *words: str) -> None:
+    def __init__(
+        self, processes: Any, folder: Path, *words: str, ready: str = 'Recording...'
+    ) -> None:
         self.bag = folder / 'bag'
         self._process = processes.ros2(
-            *('bag', 'record', '-s', 'sqlite3', '-o', str(self.bag), *words), ready='Recording...'
+            *('bag', 'record', '-s', 'sqlite3', '-o', str(self.bag), *words), ready=ready
         )
 
     def wait_for(self, *topics: str, count: int = 1) -> None:
@@ -183,6 +188,24 @@ def test_space_pauses_a_recording(
     terminal.wait_for_text('Recording stopped: 0 messages')
     terminal.process.wait(timeout=10.0)
     assert terminal.is_as_before()
+
+
+def test_simulated_time_begins_before_a_recording(
+    processes: Any, domain: int, tmp_path: Path
+) -> None:
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'simulator')
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        node.create_publisher(String, CHATTER, latched).publish(String(data='here'))
+        words = ('--use-sim-time', CHATTER)
+        recording = Recording(processes, tmp_path, *words, ready='Waiting for /clock')
+        publisher = node.create_publisher(Clock, '/clock', 10)
+        now = Clock(clock=Time(sec=1000))
+        node.create_timer(0.05, lambda: publisher.publish(now))
+        recording.wait_for(CHATTER)
+        recording.end()
+    bag = opened_reader(recording.bag).get_metadata()
+    assert (bag.starting_time.nanoseconds, bag.duration.nanoseconds) == (1000 * 10**9, 0)
 
 
 def test_custom_data_is_kept(graph: Any, tmp_path: Path) -> None:

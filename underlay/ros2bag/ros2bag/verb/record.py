@@ -127,6 +127,13 @@ def _record(
 ) -> None:
     """Record until a signal comes."""
     log = node.node.get_logger()
+
+    def never() -> bool:
+        keyboard.serve()
+        return False
+
+    if args.use_sim_time:
+        _wait_for_simulated_time(node, keyboard)
     log.info('Listening for topics...')
     graph = discovery.read_graph()
     recorder.subscribe_to_new_topics(graph)
@@ -134,16 +141,23 @@ def _record(
     log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
     if missing := recorder.missing():
         log.info(f'Waiting for {", ".join(missing)}{_hint(missing, graph)}')
-
-    def never() -> bool:
-        keyboard.serve()
-        return False
-
     while True:
         node.spin_until(never, args.polling_interval * 1e-3)
         writer.flush()
         if not args.no_discovery:
             recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
+
+
+def _wait_for_simulated_time(node: CommandNode, keyboard: Keyboard) -> None:
+    """Wait for /clock; what came before it would be from 1970, and the bag last as long."""
+    clock = node.node.get_clock()
+
+    def has_begun() -> bool:
+        keyboard.serve()
+        return bool(clock.now().nanoseconds)
+
+    node.node.get_logger().info('Waiting for /clock: nothing is recorded before it')
+    node.spin_until(has_begun)
 
 
 def _add_bag(parser: argparse.ArgumentParser) -> None:
