@@ -293,6 +293,22 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
     assert any(name.endswith('-packages/own_tools/__init__.py') for name in files)
 
 
+def test_a_program_can_be_executed_where_it_is_installed(folder: Path) -> None:
+    (folder / 'node.py').write_text('#!/usr/bin/env python3\n')
+    (folder / 'node.py').chmod(0o644)  # as an editor saves it
+    write_cmake(
+        folder,
+        'install(PROGRAMS node.py DESTINATION lib/own_msgs)\n'
+        'install(FILES node.py DESTINATION share/own_msgs)\n',
+    )
+    prefix = folder / 'prefix'
+    for link in (True, False):  # a copy in the place of a link leaves the package's file alone
+        build(folder, prefix, link=link)
+    assert os.access(prefix / 'lib/own_msgs/node.py', os.X_OK)
+    for other in (prefix / 'share/own_msgs/node.py', folder / 'node.py'):
+        assert other.stat().st_mode & 0o777 == 0o644
+
+
 def test_setuptools_knows_tests_require() -> None:
     package = Distribution({'name': 'demo', 'tests_require': ['pytest']})
     assert vars(package)['tests_require'] == ['pytest']  # colcon reads it there

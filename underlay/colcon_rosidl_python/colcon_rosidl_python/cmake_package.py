@@ -53,12 +53,14 @@ class Install:
 
     :param source: from the package's folder.
     :param target: from the prefix, with the name that it has there.
+    :param is_program: a copy can be executed, whether or not the file in the package can.
     """
 
     source: Path
     target: Path
     without: tuple[str, ...] = ()
     only: tuple[str, ...] = ()
+    is_program: bool = False
 
 
 @dataclass
@@ -150,7 +152,8 @@ def _add_install(package: CMakePackage, command: Command, folder: Path) -> None:
         place, kind = folder / path, 'folder' if what == 'DIRECTORY' else 'file'
         if not (place.is_dir() if what == 'DIRECTORY' else place.is_file()):
             raise command.refused(f'there is no {kind} {path}: mend the name, or take it out')
-        package.installs.append(Install(path, target, without, only))
+        is_program = what == 'PROGRAMS'
+        package.installs.append(Install(path, target, without, only, is_program))
 
 
 def _install_options(

@@ -18,6 +18,7 @@ from colcon_rosidl_python.cmake_package import CMakePackage, Install
 
 _INDEX = 'share/ament_index/resource_index'
 _DEFINITIONS = ('.action', '.idl', '.msg', '.srv')
+_OF_A_PROGRAM = 0o755  # cmake-commands(7), install(PROGRAMS)
 
 
 def install_files(folder: Path, prefix: Path, package: CMakePackage, *, link: bool) -> None:
@@ -30,6 +31,8 @@ def install_files(folder: Path, prefix: Path, package: CMakePackage, *, link: bo
     for wanted in (*package.installs, *modules):
         for source, target in _files(folder, wanted):
             install(arguments, source, target)
+            if wanted.is_program and not link:
+                (prefix / target).chmod(_OF_A_PROGRAM)
 
 
 def _files(folder: Path, wanted: Install) -> Iterator[tuple[Path, Path]]:
