@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+import contextlib
 from dataclasses import dataclass, field
 import enum
 import re
@@ -18,6 +19,7 @@ NODE_NAME_UNKNOWN = '_NODE_NAME_UNKNOWN_'
 NODE_NAMESPACE_UNKNOWN = '_NODE_NAMESPACE_UNKNOWN_'
 _FEEDBACK = '/_action/feedback'
 _INFINITE_SEC = 0x7FFFFFFF
+_UNKNOWN = '\N{REPLACEMENT CHARACTER}'
 
 
 class Role(enum.Enum):
@@ -160,6 +162,13 @@ def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ())
 
 
 def _endpoint(guid: bytes, values: dict[int, list[bytes]], written: bool) -> Endpoint | None:
+    """Return an endpoint of ROS; None for another one, and for what is cut short."""
+    with contextlib.suppress(struct.error):
+        return _read_endpoint(guid, values, written)
+    return None
+
+
+def _read_endpoint(guid: bytes, values: dict[int, list[bytes]], written: bool) -> Endpoint | None:
     prefix, name = names.ros_topic(_string(values, wire.PID_TOPIC_NAME))
     role = _ROLES.get((prefix, written))
     if role is None:
@@ -172,14 +181,20 @@ def _endpoint(guid: bytes, values: dict[int, list[bytes]], written: bool) -> End
 def _string(values: dict[int, list[bytes]], pid: int) -> str:
     for value in values.get(pid, ()):
         (length,) = struct.unpack_from('<I', value)
-        return value[4 : 4 + length].rstrip(b'\0').decode(errors='replace')
+        return _text(value[4 : 4 + length])
     return ''
+
+
+def _text(data: bytes) -> str:
+    """Read what is shown in a terminal, to which another program may want to tell more."""
+    text = data.rstrip(b'\0').decode(errors='replace')
+    return ''.join(letter if letter.isprintable() else _UNKNOWN for letter in text)
 
 
 def _type_hash(values: dict[int, list[bytes]]) -> str:
     (user_data, *_) = values.get(wire.PID_USER_DATA, [b''])
     match = re.search(rb'(?:^|;)typehash=([^;]*)', user_data[4:].rstrip(b'\0'))
-    return match[1].decode(errors='replace') if match else 'INVALID'
+    return _text(match[1]) if match else 'INVALID'
 
 
 def _qos(values: dict[int, list[bytes]], written: bool) -> Qos:
@@ -206,9 +221,14 @@ def _qos(values: dict[int, list[bytes]], written: bool) -> Qos:
 
 
 def _nodes(sample: bytes | None) -> list[tuple[str, str, list[bytes]]]:
-    """Read rmw_dds_common/msg/ParticipantEntitiesInfo: namespace, name and GUIDs of each node."""
-    if sample is None:
-        return []
+    """Return namespace, name and GUIDs of each node; none where the sample is cut short."""
+    with contextlib.suppress(IndexError, struct.error):
+        return [] if sample is None else _read_nodes(sample)
+    return []
+
+
+def _read_nodes(sample: bytes) -> list[tuple[str, str, list[bytes]]]:
+    """Read rmw_dds_common/msg/ParticipantEntitiesInfo."""
     body, at = sample[4:], 16  # behind the encapsulation header: the participant's own GID
     order = '<' if sample[1] & 1 else '>'
 
@@ -222,7 +242,7 @@ def _nodes(sample: bytes | None) -> list[tuple[str, str, list[bytes]]]:
         nonlocal at
         length = count()
         at += length
-        return body[at - length : at].rstrip(b'\0').decode(errors='replace')
+        return _text(body[at - length : at])
 
     found = []
     for _ in range(count()):
@@ -230,7 +250,8 @@ def _nodes(sample: bytes | None) -> list[tuple[str, str, list[bytes]]]:
         guids: list[bytes] = []
         for _ in ('readers', 'writers'):
             length = count()
-            guids.extend(body[at + 16 * i : at + 16 * i + 16] for i in range(length))
-            at += 16 * length
+            end = at + 16 * length
+            guids.extend(body[begin : begin + 16] for begin in range(at, min(end, len(body)), 16))
+            at = end
         found.append((namespace, name, guids))
     return found

@@ -22,6 +22,7 @@ from rtps_graph import announcements, host, wire
 from rtps_graph.participant import Participant, Samples
 
 _RETRY_SEC = 0.03
+_LAST_PORT = 65535
 _LOOK_SEC = 0.5  # so long a participant may be silent before its process is looked at
 # The readers of the built-in writers; every other writer is that of the graph topic.
 _READERS = {
@@ -205,16 +206,17 @@ class Observer:
             return
         samples = self._samples(participant, message.writer_id)
         if message.kind == wire.HEARTBEAT:
-            samples.first, samples.last = message.first, message.last
+            samples.announce(message.first, message.last)
             if message.writer_id in _READERS or (
                 message.writer_id == participant.graph_writer()
                 and message.reader_id != wire.UNKNOWN_ENTITY
             ):
                 self._acknowledge(participant, message.writer_id)
         elif message.kind == wire.GAP:
-            samples.received.update(range(message.first, message.last), message.irrelevant)
-        elif message.kind == wire.DATA and message.first not in samples.received:
-            samples.received.add(message.first)
+            samples.pass_over(message.first, message.last)
+            samples.add(*message.irrelevant)
+        elif message.kind == wire.DATA and not samples.has(message.first):
+            samples.add(message.first)
             self._news_sec = time.monotonic()
             self._on_sample(participant, message)
 
@@ -280,6 +282,8 @@ def _own_addresses(*, remote: bool) -> list[str]:
 
 def _port(kind: int, locators: list[bytes]) -> int | None:
     for locator in locators:
-        if len(locator) >= 24 and struct.unpack_from('<i', locator)[0] == kind:
-            return int(struct.unpack_from('<I', locator, 4)[0])
+        if len(locator) >= 24:
+            found, port = struct.unpack_from('<iI', locator)
+            if found == kind and 0 < port <= _LAST_PORT:
+                return int(port)
     return None

@@ -15,22 +15,61 @@ GRAPH_TYPE = 'rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_'
 GRAPH_TYPE_HASH = 'RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e'
 
 
-@dataclass
-class Samples:
-    """What has come from one reliable writer."""
+_MOST_ASKED = 256  # numbers in one ACKNACK (9.4.2.6)
+_NEVER = 2**62  # no writer comes to that number, and one more can still be written
 
-    first: int = 1
-    last: int | None = None  # unknown until its first heartbeat
-    received: set[int] = field(default_factory=set)
-    acknowledgements: int = 0
+
+class Samples:
+    """What has come from one reliable writer.
+
+    What others say of it may be anything: of any range of numbers only the next few are kept.
+    """
+
+    def __init__(self) -> None:
+        self.last: int | None = None  # unknown until its first heartbeat
+        self.acknowledgements = 0
+        self._next = 1  # all before it have come, or never will
+        self._ahead: set[int] = set()
+
+    def announce(self, first: int, last: int) -> None:
+        """Take in what a heartbeat says: the numbers that the writer still has.
+
+        :raises ValueError: they are none.
+        """
+        if not 0 <= last < _NEVER:
+            raise ValueError(f'{last} is the number of no sample')
+        self.last = last
+        self.pass_over(1, first)
+
+    def has(self, number: int) -> bool:
+        return number < self._next or number in self._ahead
+
+    def add(self, *numbers: int) -> None:
+        self._ahead.update(numbers)
+        self._advance()
+
+    def pass_over(self, first: int, end: int) -> None:
+        """Take in that numbers will never come; of those far ahead it is told again."""
+        if first <= self._next:
+            self._next = max(self._next, end)
+        else:
+            self._ahead.update(range(first, min(end, self._next + _MOST_ASKED)))
+        self._advance()
+
+    def _advance(self) -> None:
+        while self._next in self._ahead:
+            self._ahead.remove(self._next)
+            self._next += 1
 
     @property
     def missing(self) -> set[int]:
-        return set(range(self.first, (self.last or 0) + 1)) - self.received
+        """Return the lowest numbers that have not come, as many as can be asked for at once."""
+        end = min((self.last or 0) + 1, self._next + _MOST_ASKED)
+        return {number for number in range(self._next, end) if number not in self._ahead}
 
     @property
     def complete(self) -> bool:
-        return self.last is not None and not self.missing
+        return self.last is not None and self._next > self.last
 
 
 @dataclass

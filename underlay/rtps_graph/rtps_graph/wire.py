@@ -216,7 +216,7 @@ def _read_data(flags: int, order: str, source: bytes, body: bytes, number: int) 
             at += 4
             if pid == PID_SENTINEL:
                 break
-            if pid == PID_STATUS_INFO and length >= 4:
+            if pid == PID_STATUS_INFO and min(length, len(body) - at) >= 4:
                 disposed = bool(body[at + 3] & 0x03)
             at += length
     payload = body[at:] if flags & 0x0C else b''

@@ -10,6 +10,7 @@ import os
 from pathlib import Path
 import signal
 import socket
+import struct
 import sys
 import time
 from typing import Any
@@ -18,7 +19,7 @@ from playpen_testing.bags import opened_writer
 from playpen_testing.processes import Processes
 from playpen_testing.waiting import wait_until
 import pytest
-from rtps_graph import announcements, graph, host
+from rtps_graph import announcements, graph, host, wire
 from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant
 
@@ -291,6 +292,39 @@ def test_one_of_another_host_may_have_the_port_of_one_here(processes: Any, domai
     assert known.keys() == {'127.0.0.1', '127.0.0.2'}
     assert known['127.0.0.1'].complete
     assert len({each.discovery_port for each in known.values()}) == 1
+
+
+@pytest.mark.parametrize('port', [0, 70_000])
+def test_one_that_sends_anything_hides_nobody(processes: Any, domain: int, port: int) -> None:
+    processes.node('talker', 'here')
+    prefix = b'enemy       '
+
+    class Meeting(Observer):
+        def _ask_participant(self, participant: Participant) -> None:
+            address = self._socket.getsockname()
+            reader, writer = wire.PUBLICATIONS_READER, wire.PUBLICATIONS_WRITER
+            everything = wire._sequence(5) + wire._sequence(2**40) + struct.pack('<I', 0)
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+                for message in (
+                    announcements.participant(prefix, ['127.0.0.1'], port),
+                    announcements.participant(prefix, ['127.0.0.1'], 7410),
+                    wire.header(prefix) + wire.heartbeat(reader, writer, 1, 2**40, 1),
+                    wire.header(prefix)
+                    + wire._submessage(wire.GAP, 0, reader + writer + everything),
+                    wire.header(prefix)
+                    + wire.data(reader, writer, 1, wire.PL_CDR_LE + wire.parameter(5, b'')),
+                ):
+                    sender.sendto(message, address)
+            super()._ask_participant(participant)
+
+    with Meeting(domain_id=domain) as observer:
+
+        def names() -> list[str]:
+            observer.observe(timeout_sec=0.5)
+            return [each.full_name for each in graph.build(observer.participants.values()).nodes]
+
+        wait_until(lambda: names() == ['/here'], timeout_sec=20.0, what='the talker')
+        assert prefix in observer.participants
 
 
 @pytest.mark.usefixtures('domain')

@@ -8,6 +8,7 @@ import contextlib
 import json
 from pathlib import Path
 import socket
+import struct
 import subprocess
 import sys
 
@@ -16,6 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
 from rtps_graph import announcements, graph, host, names, wire
+from rtps_graph.participant import Participant, Samples
 
 PREFIX = bytes(range(12))
 # Opens sockets one after the other, and closes the oldest.
@@ -77,6 +79,75 @@ def test_no_bytes_from_the_network_break_the_parser(body: bytes, kind: int, flag
             assert len(message.source) <= 12
             with contextlib.suppress(ValueError):  # It says that this is no parameter list.
                 wire.parameters(message.payload)
+
+
+def test_a_status_that_is_cut_short_is_none() -> None:
+    body = wire.dispose(READER, WRITER, 2, PREFIX + wire.PARTICIPANT)[4:]
+    status = wire.parameter(wire.PID_STATUS_INFO, bytes((0, 0, 0, 3)))
+    end = body.index(status) + len(status) - 4
+    (message,) = _parse(wire._submessage(wire.DATA, 0x02, body[:end]))
+    assert not message.disposed
+
+
+@settings(max_examples=300)
+@given(st.data())
+def test_no_announcement_breaks_the_graph(data: st.DataObject) -> None:
+    participant = Participant(PREFIX, '127.0.0.1', 7410, 7411)
+    topic = {wire.PID_TOPIC_NAME: [wire.string('rt/a')], wire.PID_TYPE_NAME: [wire.string('b')]}
+    pids = (wire.PID_TOPIC_NAME, wire.PID_TYPE_NAME, wire.PID_RELIABILITY, wire.PID_DEADLINE)
+    others = data.draw(st.dictionaries(st.sampled_from(pids), st.lists(st.binary(max_size=9))))
+    participant.writers = {PREFIX + WRITER: {**topic, **others}}
+    participant.graph_sample = data.draw(st.none() | st.binary(max_size=99))
+    built = graph.build([participant])
+    told = [each.full_name for each in built.nodes]
+    told += [text for each in built.endpoints for text in (each.name, each.type)]
+    assert all(map(str.isprintable, told))
+
+
+def test_a_node_list_has_no_more_than_was_sent() -> None:
+    text = wire.string('n') + bytes(2)
+    sample = wire.PL_CDR_LE + bytes(16) + struct.pack('<I', 1) + 2 * text
+    participant = Participant(PREFIX, '127.0.0.1', 7410, 7411)
+    participant.graph_sample = sample + struct.pack('<I', 2**32 - 1) + bytes(32)
+    assert graph.build([participant]).nodes == []
+
+
+def test_what_a_terminal_would_obey_is_not_shown() -> None:
+    participant = Participant(PREFIX, '127.0.0.1', 7410, 7411)
+    topic = {wire.PID_TOPIC_NAME: [wire.string('rt/\x1b[2J\u202ea')]}
+    participant.writers = {PREFIX + WRITER: topic}
+    (endpoint,) = graph.build([participant]).endpoints
+    assert endpoint.name == '/\ufffd[2J\ufffda'
+
+
+def test_samples_are_asked_for_until_all_have_come() -> None:
+    samples = Samples()
+    assert not samples.complete
+    samples.announce(3, 8)
+    assert samples.missing == {3, 4, 5, 6, 7, 8}
+    samples.add(4, 8)
+    samples.pass_over(6, 8)
+    assert (samples.missing, samples.complete) == ({3, 5}, False)
+    assert (samples.has(2), samples.has(4), samples.has(5)) == (True, True, False)
+    samples.add(3)
+    samples.add(5)
+    assert (samples.missing, samples.complete) == (set(), True)
+    samples.announce(3, 9)
+    assert samples.missing == {9}
+
+
+def test_a_range_takes_no_more_memory_than_a_question() -> None:
+    samples = Samples()
+    samples.announce(1, 2**40)
+    samples.pass_over(5, 2**40)
+    assert samples.missing == {1, 2, 3, 4}
+    samples.add(1, 2, 3, 4)
+    assert min(samples.missing) <= 260
+    samples.pass_over(min(samples.missing), 2**40)
+    assert samples.missing == {2**40}
+    for number in (-1, 2**63 - 1):
+        with pytest.raises(ValueError, match='is the number of no sample'):
+            samples.announce(1, number)
 
 
 def test_ports_and_participants_are_those_of_the_standard() -> None:
