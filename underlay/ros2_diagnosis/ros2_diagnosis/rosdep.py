@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from importlib.metadata import distributions
 from importlib.util import find_spec
 from pathlib import Path
@@ -27,6 +28,23 @@ _DEPENDENCIES = ('build', 'buildtool', 'build_export', 'exec', 'test')
 _TOOLS = ('ament_', 'rosidl_default_')
 _PIP = 'python3-'
 _MODULES = {'opencv': 'cv2', 'pil': 'PIL'}  # of keys that are not named as their modules
+# Of keys that are named as their modules, where pip has another name, and mostly another
+# distribution of that name.
+_DISTRIBUTIONS = {
+    'bs4': 'beautifulsoup4',
+    'can': 'python-can',
+    'dateutil': 'python-dateutil',
+    'git': 'GitPython',
+    'opencv': 'opencv-python-headless',
+    'pil': 'pillow',
+    'serial': 'pyserial',
+    'skimage': 'scikit-image',
+    'sklearn': 'scikit-learn',
+    'usb': 'pyusb',
+    'websocket': 'websocket-client',
+    'yaml': 'PyYAML',
+    'zmq': 'pyzmq',
+}
 
 
 def main() -> int:
@@ -100,7 +118,11 @@ def _is_installed(key: str) -> bool:
     name = key.removeprefix(_PIP).removesuffix('-pip').removesuffix('-modules')
     module = _MODULES.get(name, name.replace('-', '_'))
     known = {each.name.lower().replace('_', '-') for each in distributions()}
-    return name in known or find_spec(module) is not None
+    if name in known:
+        return True
+    with suppress(ImportError, ValueError):  # no name, or nothing of that before its dot
+        return find_spec(module) is not None
+    return False
 
 
 def _remedy(key: str) -> str:
@@ -108,7 +130,7 @@ def _remedy(key: str) -> str:
         return f': {instead}'
     if key.startswith(_PIP):
         name = key.removeprefix(_PIP).removesuffix('-pip')
-        return f'; `pip install {name}` may bring it'
+        return f'; `pip install {_DISTRIBUTIONS.get(name, name)}` may bring it'
     return '; a package with C++ in it needs a sourced ROS 2 Jazzy'
 
 

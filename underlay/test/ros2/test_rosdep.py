@@ -66,6 +66,21 @@ def test_what_is_missing_is_told_with_what_helps(tmp_path: Path) -> None:
     assert rviz.startswith('rosdep: mine needs rviz2, which is not here: it has no wheel; here')
 
 
+@pytest.mark.parametrize(
+    ('key', 'name'),
+    [
+        ('python3-serial', 'pyserial'),
+        ('python3-sklearn', 'scikit-learn'),
+        ('python3-no.such', 'no.such'),
+    ],
+)
+def test_pip_is_asked_for_its_own_names(tmp_path: Path, key: str, name: str) -> None:
+    hand_in(tmp_path, 'mine', f'exec_depend {key}')
+    done = run(AS_IN_TUTORIALS, tmp_path)
+    told = f'rosdep: mine needs {key}, which is not here; `pip install {name}` may bring it\n'
+    assert (done.returncode, done.stderr) == (1, told)
+
+
 def test_init_and_update_have_nothing_to_do(tmp_path: Path) -> None:
     for command in ('rosdep init', 'rosdep update --rosdistro jazzy'):
         done = run(command, tmp_path)
