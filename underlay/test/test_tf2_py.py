@@ -335,6 +335,13 @@ def test_the_list_of_frames_is_that_of_tf2() -> None:
     )
 
 
+def test_a_name_that_yaml_would_take_for_more_is_quoted() -> None:
+    buffer = buffer_of(transform("o'\tx", 'x: y', 1.0), transform('base link', 'tag36h11:0', 1.0))
+    lines = buffer.all_frames_as_yaml().splitlines()
+    assert lines[:2] == ["'x: y': ", '  parent: "o\'\\U00000009x"']
+    assert lines[7:9] == ['tag36h11:0: ', "  parent: 'base link'"]
+
+
 def test_to_clear_forgets_what_moves_and_keeps_what_is_static() -> None:
     buffer = buffer_of(transform('a', 'b', 1.0))
     buffer.set_transform_static(transform('b', 'c', 0.0, (1.0, 0.0, 0.0)), 'test')

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 import functools
+import html
 import os
 from typing import Any
 
@@ -120,6 +121,14 @@ def empty_graph(empty: str, *, direction: str) -> Any:
     return graph
 
 
+def as_text(words: str) -> str:
+    """Return what Graphviz draws as these words: in names from others it would see HTML and codes.
+
+    HTML of theirs would have links, and a page holds the picture.
+    """
+    return html.escape(words).replace('\\', '\\\\')
+
+
 def _graph(drawing: Drawing) -> Any:
     """Put the graph together; the same drawing always in the same way."""
     graph = empty_graph('' if drawing.shapes else EMPTY, direction='LR')
@@ -127,13 +136,14 @@ def _graph(drawing: Drawing) -> Any:
         graph.add_node(shape.key, **_attributes(shape))
     for arrow in drawing.arrows:
         note = ' to '.join(key.partition(':')[2] for key in (arrow.start, arrow.end))
-        graph.add_edge(arrow.start, arrow.end, id=f'{arrow.start}>{arrow.end}', tooltip=note)
+        arrow_id = as_text(f'{arrow.start}>{arrow.end}')
+        graph.add_edge(arrow.start, arrow.end, id=arrow_id, tooltip=as_text(note))
     counts = Counter(shape.namespace for shape in drawing.shapes)
     for number, namespace in enumerate(sorted(n for n in counts if n and counts[n] > 1)):
         graph.add_subgraph(
             [shape.key for shape in drawing.shapes if shape.namespace == namespace],
             f'cluster_{number}',
-            tooltip=f'namespace {namespace}',
+            tooltip=as_text(f'namespace {namespace}'),
             margin='14',
             style='filled,rounded,dashed',
             fillcolor='#f6f8fa',
@@ -147,8 +157,8 @@ def _attributes(shape: Shape) -> dict[str, str]:
     names = ['topic'] * (shape.kind is Kind.TOPIC) + ['faulty'] * shape.faulty
     return {
         **look,
-        'label': shape.name,
-        'id': shape.key,
+        'label': as_text(shape.name),
+        'id': as_text(shape.key),
         'class': ' '.join(names),  # behind 'node', as Graphviz calls every shape
-        'tooltip': shape.note,
+        'tooltip': as_text(shape.note),
     }

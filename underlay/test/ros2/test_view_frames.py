@@ -16,20 +16,26 @@ from urllib.request import urlopen
 from xml.etree import ElementTree
 
 from geometry_msgs.msg import TransformStamped
+from hypothesis import assume, given, strategies
 from playpen_testing import chromium
 from playpen_testing.browser import errors, start_browser
 from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.transforms import buffer_of, transform
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
+from rqt_graph.picture import draw_svg
+from rqt_graph.selection import Arrow, Drawing, Kind, Shape
 import tf2_ros
 from tf2_tools.frames import generate_dot, read_frames
+from tf2_tools.frames_page import FramesPage
 
 SVG = '{http://www.w3.org/2000/svg}'
 COMMAND = ('ros2', 'run', 'tf2_tools', 'view_frames')
 FRAMES = {'odom', 'base', 'laser'}
 ARROWS = {'odom>base', 'base>laser'}
+LINK = '<TABLE HREF="javascript:alert(1)"><TR><TD>press</TD></TR></TABLE>'
 
 
 class Sender(Node):
@@ -111,6 +117,45 @@ def test_a_loop_and_names_of_any_kind_are_drawn() -> None:
     assert '"7" -> "a"[label=" Broadcaster: b\\nAverage rate: 1.0\\n' in generate_dot(
         read_frames(text), 2.5
     )
+
+
+@given(strategies.text(min_size=1), strategies.text(min_size=1))
+def test_a_name_of_any_letters_is_read_back(parent: str, child: str) -> None:
+    assume(parent != child and not parent.startswith('/') and not child.startswith('/'))
+    (frame,) = read_frames(buffer_of(transform(parent, child, 1.0)).all_frames_as_yaml())
+    assert (frame.parent, frame.name) == (parent, child)
+
+
+@pytest.mark.parametrize('name', ["'map'", '"map"', 'no', '007', 'x: y', 'tag36h11:0', '[a', '%a'])
+def test_a_name_with_a_sense_in_yaml_or_graphviz_is_drawn(name: str) -> None:
+    assert words_of_node(name) == [name]
+
+
+@pytest.mark.parametrize(
+    'name',
+    ['<b>', '<<x>>', '\\N', 'a\\nb', '&amp;', f'<{LINK}>', f'a{LINK}', '<IMG SRC="a.png"/>'],
+)
+def test_a_name_is_words_to_graphviz_and_no_html(name: str) -> None:
+    assert words_of_node(name) == [name]
+    shape = Shape(Kind.NODE, name, f'<{LINK}>')
+    drawn = draw_svg(Drawing((shape,), (Arrow(shape.key, shape.key),))).decode()
+    assert words_of(drawn, shape.key) == [name]
+    assert ids(drawn, 'edge') == {f'{shape.key}>{shape.key}'}
+
+
+def words_of_node(name: str) -> list[str | None]:
+    """Return what the page writes into the shape of a frame."""
+    buffer = buffer_of(transform('root', name, 1.0))
+    svg = FramesPage(buffer.all_frames_as_yaml, 0).picture({}, 'svg').decode()
+    assert ids(svg, 'node') == {'root', name}
+    assert ids(svg, 'edge') == {f'root>{name}'}
+    return words_of(svg, name)
+
+
+def words_of(svg: str, key: str) -> list[str | None]:
+    (shape,) = (each for each in ElementTree.fromstring(svg).iter() if each.get('id') == key)
+    assert 'href="javascript' not in svg
+    return [text.text for text in shape.iter(f'{SVG}text')]
 
 
 def events(address: str) -> Iterator[dict[str, Any]]:

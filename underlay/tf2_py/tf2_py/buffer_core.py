@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from typing import Any
 
@@ -18,6 +19,7 @@ from tf2_py.motions import as_from_matrix, compose, IDENTITY, Motion
 from tf2_py.paths import describe, find_path, latest_common_time, Path
 
 DEFAULT_CACHE_TIME = 10 * 10**9  # ns
+_PLAIN = re.compile(r'\w[\w/.:+-]*')  # what needs no quotes as a key in YAML
 _UNNAMED = RcutilsLogger()  # tf2 logs without a name
 
 
@@ -281,9 +283,21 @@ def _yaml(name: str, cache: Cache, authority: str) -> str:
     span = cache.latest_stamp - cache.oldest_stamp
     rate = len(cache) * 1e9 / max(span, 100_000)  # of one sample, or all at once: 10 kHz each
     return (
-        f"{name}: \n  parent: '{cache.latest_parent}'\n  broadcaster: '{authority}'\n"
+        f'{name if _PLAIN.fullmatch(name) else _quoted(name)}: \n'
+        f'  parent: {_quoted(cache.latest_parent or "")}\n  broadcaster: {_quoted(authority)}\n'
         f'  rate: {rate:.3f}\n'
         f'  most_recent_transform: {seconds(cache.latest_stamp)}\n'
         f'  oldest_transform: {seconds(cache.oldest_stamp)}\n'
         f'  buffer_length: {span * 1e-9:.3f}\n'
     )
+
+
+def _quoted(text: str) -> str:
+    """Return text as YAML reads it back, whatever is in it: a name may come from anybody."""
+    if text.isprintable() and "'" not in text:
+        return f"'{text}'"  # as tf2 writes all of them
+    escaped = (
+        each if each.isprintable() and each not in '"\\' else f'\\U{ord(each):08x}'
+        for each in text
+    )
+    return f'"{"".join(escaped)}"'

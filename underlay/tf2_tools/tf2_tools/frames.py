@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import yaml
 
@@ -29,16 +28,17 @@ class Frame:
 
 def read_frames(frame_yaml: str) -> list[Frame]:
     """Read what a buffer, or the service `tf2_frames`, says of its frames."""
-    known: dict[Any, dict[str, Any]] = yaml.safe_load(frame_yaml) or {}
+    # Every value is read as text: a frame may be named no, or 007.
+    known: dict[str, dict[str, str]] = yaml.load(frame_yaml, Loader=yaml.BaseLoader) or {}
     return [
         Frame(
-            str(name),
-            str(frame['parent']),
+            name,
+            frame['parent'],
             frame['broadcaster'],
-            frame['rate'],
-            frame['most_recent_transform'],
-            frame['oldest_transform'],
-            frame['buffer_length'],
+            float(frame['rate']),
+            float(frame['most_recent_transform']),
+            float(frame['oldest_transform']),
+            float(frame['buffer_length']),
         )
         for name, frame in known.items()
     ]

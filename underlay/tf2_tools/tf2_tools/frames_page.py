@@ -12,7 +12,7 @@ from typing import Any
 from live_page import KEEP_ALIVE_SEC, Query
 from rqt_graph.document import fill
 from rqt_graph.feed import Feed
-from rqt_graph.picture import draw, empty_graph, FAULTY, NODE_LOOK
+from rqt_graph.picture import as_text, draw, empty_graph, FAULTY, NODE_LOOK
 
 from tf2_tools.frames import Frame, read_frames
 
@@ -99,13 +99,20 @@ def _graph(edges: tuple[Edge, ...]) -> Any:
     for name in _names(edges):
         edge = notes.get(name)
         look = NODE_LOOK | (FAULTY if edge and edge.silent else {})
-        graph.add_node(name, **look, label=name, id=name, tooltip=edge.note if edge else name)
+        note = edge.note if edge else name
+        graph.add_node(
+            _key(name), **look, label=as_text(name), id=as_text(name), tooltip=as_text(note)
+        )
     for edge in edges:
         graph.add_edge(
-            edge.parent,
-            edge.child,
-            id=f'{edge.parent}>{edge.child}',
+            _key(edge.parent),
+            _key(edge.child),
+            id=as_text(f'{edge.parent}>{edge.child}'),
             label=f' {edge.label}',
-            tooltip=edge.note,
+            tooltip=as_text(edge.note),
         )
     return graph
+
+
+def _key(name: str) -> str:
+    return f'frame {name}'  # a name that begins with % is none to Graphviz
