@@ -16,6 +16,7 @@ from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_driver.drive import Drive
 from husky_driver.ros.node import FollowPath
+from husky_grader.scoring import judge
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
 from playpen_testing.spinning import SpunNodes
@@ -33,6 +34,14 @@ from std_msgs.msg import Bool, String
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSE = ROOT / 'config' / 'waypoints' / 'straight.yaml'
+TURNING = COURSE.with_name('figure_eight.yaml')  # it begins with a turn on the spot
+# Of clearpath_control, as docs/real_husky.md has them.
+LIMITS_OF_ROBOT: dict[str, Any] = {
+    'acceleration_limit_m_s2': 1.0,
+    'yaw_rate_limit_rad_s': 1.0,
+    'yaw_acceleration_limit_rad_s2': 1.0,
+    'command_timeout_sec': 0.5,
+}
 # Clearpath's Platform API and Sensors API for ROS 2 Jazzy, of what the simulator has.
 PUBLISHED: dict[str, tuple[Any, str]] = {
     'platform/odom': (Odometry, 'base_link'),
@@ -213,6 +222,30 @@ def test_the_emergency_stop_is_told_and_holds(station: Station) -> None:
         'half a second of commands',
     )
     assert abs(station.speed_m_s) < 1e-3
+
+
+def test_follow_path_drives_a_robot_with_the_limits_of_a_real_one(
+    nodes: SpunNodes, tmp_path: Path
+) -> None:
+    record, route = tmp_path / 'run.record', plan_route(load_course(TURNING))
+    nodes.start(
+        partial(SimulatorNode, namespace='a200_0000'),
+        interface='clearpath',
+        record=str(record),
+        lockstep=True,
+        real_time_factor=0.0,
+        **LIMITS_OF_ROBOT,
+    )
+    driver = nodes.start(
+        partial(FollowPath, namespace='a200_0000'),
+        lambda settings, _: Drive(route, limits=settings.drive_limits),
+        progress='off',
+        interface='clearpath',
+        limits='a200',
+    )
+    wait_until(driver.finished.done, timeout_sec=60.0, what='the end of the drive')
+    assert driver.finished.result() == 0
+    assert judge(read_run(read_record(record)), route).cross_track_max_m < 0.05
 
 
 def test_follow_path_drives_the_same_by_either_interface(nodes: SpunNodes, tmp_path: Path) -> None:

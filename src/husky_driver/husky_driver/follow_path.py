@@ -71,14 +71,16 @@ def _choose_drive(
             raise _Refused(message) from None
         except ValueError as error:
             raise _Refused(str(error)) from None
-    return DistanceDrive(move.speed_m_s, move.distance_m, forward=move.forward)
+    return DistanceDrive(
+        *(move.speed_m_s, move.distance_m), forward=move.forward, limits=settings.drive_limits
+    )
 
 
 def _drive_of(file: str, settings: Settings, warn: Callable[[str], object]) -> Drive:
     route = plan_route(load_course(file))
     if settings.check != 'off':
         _check(route, settings, warn)
-    return Drive(route, slip=settings.has_slip)
+    return Drive(route, slip=settings.has_slip, limits=settings.drive_limits)
 
 
 def _check(route: Route, settings: Settings, warn: Callable[[str], object]) -> None:

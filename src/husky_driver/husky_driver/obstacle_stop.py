@@ -42,7 +42,10 @@ class ObstacleStop:
             start_m_s = drive.course.speed_m_s + SPEED_MARGIN_M_S if self.holds else 0.0
             speed_m_s = max(drive.speed_m_s, start_m_s)
             pose = (now.x_m, now.y_m, now.yaw_rad)
-            self._sighting = look_along(scan, pose, tracker.curve, tracker.s, speed_m_s)
+            self._sighting = look_along(
+                *(scan, pose, tracker.curve, tracker.s, speed_m_s),
+                braking_m_s2=drive.limits.stopping_m_s2,
+            )
 
     def update(self, now_sec: float) -> str:
         """Decide again, for each odometry; return a line for the log when the state changes."""

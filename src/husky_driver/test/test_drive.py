@@ -7,7 +7,7 @@ from pathlib import Path
 import random
 from typing import Any
 
-from husky_course.route import plan_route
+from husky_course.route import A200_LIMITS, plan_route
 from husky_course.waypoints import Course, load_course, parse_course
 from husky_driver.drive.drive import DistanceDrive, Drive
 from husky_driver.drive.route_follower import REST_SEC
@@ -62,6 +62,19 @@ def test_commands_keep_the_limits_of_the_velocity_controller(
         assert abs(after.yaw_rate_rad_s) <= 2.0
         assert abs(after.speed_m_s - before.speed_m_s) <= 3.0 * 0.02 + 1e-9
         assert abs(after.yaw_rate_rad_s - before.yaw_rate_rad_s) <= 6.0 * 0.02 + 1e-9
+
+
+def test_commands_keep_the_lower_limits_of_a_real_robot(
+    courses: Path, drive_to_end: Callable[..., Any]
+) -> None:
+    route = plan_route(load_course(courses / 'central_barrier.yaml'))
+    run = drive_to_end(Drive(route, slip=False, limits=A200_LIMITS))
+    assert (run.drive.failure, run.drive.reached) == ('', 13)
+    for before, after in pairwise(run.commands):
+        assert abs(after.speed_m_s) <= 1.0
+        assert abs(after.yaw_rate_rad_s) <= 1.0
+        assert abs(after.speed_m_s - before.speed_m_s) <= 1.0 * 0.02 + 1e-9
+        assert abs(after.yaw_rate_rad_s - before.yaw_rate_rad_s) <= 1.0 * 0.02 + 1e-9
 
 
 def test_the_same_odometry_gives_bit_identical_commands(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from husky_course.route import plan_route
+from husky_course.route import A200_LIMITS, DriveLimits, LIMITS, plan_route
 from husky_course.route.path import smooth_curve
 from husky_course.waypoints import parse_course
 from husky_driver.checks.path_scan import FRONT_M, LASER_X_M, look_along, Scan, Sighting
@@ -66,9 +66,10 @@ def scan_at(time_sec: float, *points: tuple[float, float]) -> Scan:
     return Scan(time_sec, scan_of(*points), FIRST, STEP)
 
 
-def driving() -> Drive:
+def driving(limits: DriveLimits = LIMITS) -> Drive:
     """Return a drive along the x axis that stands at its start, on its first leg."""
-    drive = Drive(plan_route(parse_course('speed: 0.7\nwaypoints: [[0, 0], [10, 0]]')))
+    route = plan_route(parse_course('speed: 0.7\nwaypoints: [[0, 0], [10, 0]]'))
+    drive = Drive(route, limits=limits)
     drive.step(Odometry(9.98, 0.0, 0.0, 0.0, 0.0, 0.0))
     return drive
 
@@ -96,6 +97,15 @@ def test_a_standing_robot_looks_as_far_as_one_that_drives() -> None:
     stop.update(10.1)
     stop.add_scan(scan_at(10.2, ahead), drive)  # it may drive, but stands: 0 m/s
     assert (stop.update(10.2), stop.holds) == ('', False)
+
+
+def test_a_robot_that_stops_later_looks_farther() -> None:
+    for limits, is_seen in ((LIMITS, False), (A200_LIMITS, True)):
+        stop = ObstacleStop()
+        stop.update(10.0)
+        stop.add_scan(scan_at(10.0, (1.5, 0.0)), driving(limits))
+        stop.update(10.0)
+        assert stop.holds is is_seen
 
 
 def test_without_scans_the_robot_stands() -> None:

@@ -1,5 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+from husky_course.route import A200_LIMITS, LIMITS
 from husky_driver.ros.settings import Settings
 from husky_runtime.settings import refuse_unknown
 import pytest
@@ -8,6 +9,11 @@ import pytest
 def test_each_choice_has_its_topic() -> None:
     assert Settings().odometry_topic == 'odometry/filtered'
     assert Settings(odometry='wheel').odometry_topic == 'husky_velocity_controller/odom'
+
+
+def test_a_robot_has_the_limits_of_its_name() -> None:
+    assert Settings().drive_limits == LIMITS
+    assert Settings(limits='a200').drive_limits == A200_LIMITS
 
 
 def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:

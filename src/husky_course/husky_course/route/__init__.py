@@ -5,14 +5,16 @@
 from husky_course.route.legs import Leg
 from husky_course.route.path import Curve, Point
 from husky_course.route.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, plan_route, Route
-from husky_course.route.speeds import LIMITS, plan_speeds
+from husky_course.route.speeds import A200_LIMITS, DriveLimits, LIMITS, plan_speeds
 from husky_course.route.survey import NearPass, Survey, survey_route
 
 __all__ = [
+    'A200_LIMITS',
     'LIMITS',
     'LIMIT_EXTRA_SEC',
     'LIMIT_FACTOR',
     'Curve',
+    'DriveLimits',
     'Leg',
     'NearPass',
     'Point',

@@ -7,13 +7,12 @@ import math
 from typing import NamedTuple
 
 from husky_course.frames import Array, Pose
-from husky_course.route import Curve
+from husky_course.route import Curve, LIMITS
 import numpy as np
 
 LASER_X_M = 0.337  # front_laser in base_link
 FRONT_M = 0.494  # from base_link to the bumper
 HALF_WIDTH_M = 0.343 + 0.06  # of the robot, and what it may be off the path
-BRAKING_M_S2 = 2.0
 DELAY_SEC = 0.15  # from what the laser sees to wheels that brake
 MARGIN_M = 0.20  # between a corner of the robot and what it stops for
 STEP_M = 0.05
@@ -46,7 +45,13 @@ class Sighting(NamedTuple):
 
 
 def look_along(
-    scan: Scan, pose: Pose, curve: Curve, s: float, speed_m_s: float
+    scan: Scan,
+    pose: Pose,
+    curve: Curve,
+    s: float,
+    speed_m_s: float,
+    *,
+    braking_m_s2: float = LIMITS.stopping_m_s2,
 ) -> Sighting | None:
     """
     Return what stands on the path; None when the way is free.
@@ -56,7 +61,7 @@ def look_along(
     :param pose: of base_link in the frame of the curve.
     :param s: where on the curve the robot is.
     """
-    stop_m = MARGIN_M + speed_m_s**2 / (2 * BRAKING_M_S2) + DELAY_SEC * speed_m_s
+    stop_m = MARGIN_M + speed_m_s**2 / (2 * braking_m_s2) + DELAY_SEC * speed_m_s
     places = np.arange(s + FRONT_M, min(s + stop_m, curve.length_m) + FRONT_M, STEP_M)
     points = _points(scan, pose, FRONT_M + stop_m)
     if len(places) == 0 or len(points) == 0:

@@ -10,7 +10,7 @@ from functools import partial
 import math
 
 from husky_course.frames import Pose, to_world
-from husky_course.route import LIMITS, plan_route, Route
+from husky_course.route import DriveLimits, LIMITS, plan_route, Route
 from husky_course.waypoints import Course, Waypoint
 
 from husky_driver.checks.plausibility import OdometryCheck
@@ -30,14 +30,23 @@ AT_REST_SEC = 0.5
 class Drive:
     """Follows a course; give it every odometry message once, in order."""
 
-    def __init__(self, route: Route, *, slip: bool = True, before: 'Drive | None' = None) -> None:
+    def __init__(
+        self,
+        route: Route,
+        *,
+        slip: bool = True,
+        limits: DriveLimits = LIMITS,
+        before: 'Drive | None' = None,
+    ) -> None:
         """
         Prepare; the course begins at the first odometry.
 
         :param slip: count with what odometry misses; false where it misses nothing.
+        :param limits: of the robot.
         :param before: the drive that this one goes on from, on the same ground.
         """
         self._planned = route
+        self.limits = limits
         known = before._estimate if before else None
         self._estimate: MotionEstimate | None = (known or MotionEstimate()) if slip else None
         self.finished = False
@@ -56,7 +65,7 @@ class Drive:
     def _begin(self, route: Route, odometry: Odometry) -> None:
         self._started_sec = odometry.time_sec
         self._command = STOP
-        self._follower = RouteFollower(route, odometry)
+        self._follower = RouteFollower(route, odometry, self.limits)
         self._watchdog = Watchdog(odometry)
         self._limit = TimeLimit(route, odometry.time_sec)
         self._least_m = math.inf  # of the path left, so far
@@ -143,7 +152,7 @@ class Drive:
 
     def _slipping(self, wish: Command) -> Command:
         """Return the command by which a robot that slips does what is wished."""
-        return wish if self._estimate is None else self._estimate.slip.command(wish)
+        return wish if self._estimate is None else self._estimate.slip.command(wish, self.limits)
 
     def _route_from(self, start: Odometry) -> Route:
         """Return the route from where the robot starts."""
@@ -199,8 +208,8 @@ class Drive:
         return None if self.finished else STOP
 
     def _within_limits(self, wish: Command, period_sec: float) -> Command:
-        change = LIMITS.acceleration_m_s2 * period_sec
-        turn = LIMITS.yaw_acceleration_rad_s2 * period_sec
+        change = self.limits.acceleration_m_s2 * period_sec
+        turn = self.limits.yaw_acceleration_rad_s2 * period_sec
         speed, yaw_rate = self._command
         return Command(
             min(max(wish.speed_m_s, speed - change), speed + change),
@@ -211,9 +220,16 @@ class Drive:
 class DistanceDrive(Drive):
     """Drives straight on or back from where the robot starts, as the lab sheet's questions ask."""
 
-    def __init__(self, speed_m_s: float, distance_m: float, *, forward: bool = True) -> None:
+    def __init__(
+        self,
+        speed_m_s: float,
+        distance_m: float,
+        *,
+        forward: bool = True,
+        limits: DriveLimits = LIMITS,
+    ) -> None:
         plan = partial(_straight_route, speed_m_s, distance_m if forward else -distance_m)
-        super().__init__(plan((0.0, 0.0, 0.0)))
+        super().__init__(plan((0.0, 0.0, 0.0)), limits=limits)
         self._plan = plan
 
     def _route_from(self, start: Odometry) -> Route:

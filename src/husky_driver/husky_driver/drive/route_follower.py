@@ -5,7 +5,7 @@
 from collections.abc import Generator
 import math
 
-from husky_course.route import LIMITS, Route
+from husky_course.route import DriveLimits, LIMITS, Route
 
 from husky_driver.drive.tracker import Tracker
 from husky_driver.motion import Command, Odometry, STOP
@@ -26,8 +26,9 @@ _TWO_PI = 2 * math.pi
 class RouteFollower:
     """Turns odometry into commands, and counts the waypoints that were reached."""
 
-    def __init__(self, route: Route, start: Odometry) -> None:
+    def __init__(self, route: Route, start: Odometry, limits: DriveLimits = LIMITS) -> None:
         self.route = route
+        self._limits = limits
         self.reached = 0  # waypoints, counted in order
         self.tracker: Tracker | None = None  # of the leg it is on; None before the first
         self.is_dwelling = False
@@ -67,7 +68,7 @@ class RouteFollower:
             yield from self._stand()
         for index, leg in enumerate(self.route.legs):
             self._leg_index = index
-            self.tracker = tracker = Tracker(leg)
+            self.tracker = tracker = Tracker(leg, self._limits)
             now = self._now
             tracker.locate(now.x_m, now.y_m, now.yaw_rad)
             if index == 0:
@@ -114,8 +115,8 @@ class RouteFollower:
         return min(max(BACK_PER_SEC * ahead_m, -MAX_BACK_M_S), MAX_BACK_M_S)
 
     def _turn_rate(self, error_rad: float) -> float:
-        braking = math.sqrt(2 * LIMITS.turn_braking_rad_s2 * abs(error_rad))
-        rate = min(LIMITS.turn_yaw_rate_rad_s, braking, 6.0 * abs(error_rad) + 0.01)
+        braking = math.sqrt(2 * self._limits.turn_braking_rad_s2 * abs(error_rad))
+        rate = min(self._limits.turn_yaw_rate_rad_s, braking, 6.0 * abs(error_rad) + 0.01)
         return math.copysign(rate, error_rad)
 
     def _stand(self) -> Generator[Command, None, None]:

@@ -12,7 +12,7 @@ depends on tyres and ground (Mandow, Martinez, Morales, Blanco, Garcia-Cerezo, G
 
 from typing import NamedTuple
 
-from husky_course.route import LIMITS
+from husky_course.route import DriveLimits, LIMITS
 
 from husky_driver.motion import Command, Odometry
 
@@ -44,11 +44,11 @@ class Slip(NamedTuple):
         left = -self.outward_sec2 * ahead * rate * abs(rate) - self.aside_m_s * rate * rate
         return ahead, left
 
-    def command(self, wish: Command) -> Command:
+    def command(self, wish: Command, limits: DriveLimits = LIMITS) -> Command:
         """Return what to command, so that the robot moves as wished."""
         speed, rate = wish
         wheels = (speed - self.pivot_m * rate) / (1.0 + self.onward_sec * abs(rate))
-        limit, turn = LIMITS.speed_m_s, LIMITS.yaw_rate_rad_s
+        limit, turn = limits.speed_m_s, limits.yaw_rate_rad_s
         return Command(
             min(max(wheels, -limit), limit), min(max(rate / self.yaw_gain, -turn), turn)
         )

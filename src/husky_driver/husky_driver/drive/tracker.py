@@ -12,7 +12,7 @@ those planned for the curve.
 
 import math
 
-from husky_course.route import Leg, LIMITS, plan_speeds
+from husky_course.route import DriveLimits, Leg, LIMITS, plan_speeds
 
 _TWO_PI = 2 * math.pi
 
@@ -30,13 +30,14 @@ END_RATE_PER_S = 8.0  # speed over distance left, close to the end
 class Tracker:
     """Follows the curve of one leg; driven backwards, the robot faces against it."""
 
-    def __init__(self, leg: Leg) -> None:
+    def __init__(self, leg: Leg, limits: DriveLimits = LIMITS) -> None:
         self.curve = leg.curve
         self.reverse = leg.reverse
         self.s = 0.0
         self.offset_m = 0.0
         self.heading_error_rad = 0.0
-        self._speeds = plan_speeds(leg.curve, leg.speeds_m_s)
+        self._speeds = plan_speeds(leg.curve, leg.speeds_m_s, limits)
+        self._most_rad_s = limits.yaw_rate_rad_s
         self._sample = 0
 
     @property
@@ -77,7 +78,7 @@ class Tracker:
         ahead = math.cos(error) / max(1.0 - bend * self.offset_m, 0.3)
         sinc = math.sin(error) / error if abs(error) > 1e-6 else 1.0
         feedback = OFFSET_PER_M2 * offset * sinc + HEADING_PER_M * error
-        limit = LIMITS.yaw_rate_rad_s
+        limit = self._most_rad_s
         yaw_rate = min(max(speed * (bend * ahead - feedback), -limit), limit)
         speed *= max(math.cos(error), 0.0)
         return (-speed if self.reverse else speed), yaw_rate

@@ -171,7 +171,12 @@ class FollowPath(Node):
                     route = plan_route(load_course(str(parameter.value)))
                 except ValueError as error:
                     return SetParametersResult(successful=False, reason=str(error))
-                self._drive = Drive(route, slip=self.settings.has_slip, before=self._drive)
+                self._drive = Drive(
+                    route,
+                    slip=self.settings.has_slip,
+                    limits=self.settings.drive_limits,
+                    before=self._drive,
+                )
                 self._display.show(self._drive)
                 self._hold()
                 self._say(f'going over to {parameter.value}')

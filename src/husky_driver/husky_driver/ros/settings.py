@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from husky_course.frames import Pose
+from husky_course.route import A200_LIMITS, DriveLimits, LIMITS
 from husky_runtime.settings import Setting, setting, settings_of
 
 
@@ -49,6 +50,7 @@ CLEARPATH = Interface(
     scan='sensors/lidar2d_0/scan',
 )
 INTERFACES = {'lab': LAB, 'clearpath': CLEARPATH}
+ROBOTS = {'lab': LIMITS, 'a200': A200_LIMITS}
 PROGRESS = ('auto', 'bar', 'lines', 'off')
 
 
@@ -63,6 +65,11 @@ class Settings:
         'lab',
         'topics of the robot: lab, or clearpath, those of a real A200',
         choices=INTERFACES,
+    )
+    limits: str = setting(
+        'lab',
+        'how quickly the robot obeys: lab, or a200, the lower limits of a real one',
+        choices=ROBOTS,
     )
     odometry: str = setting(
         'filtered',
@@ -116,6 +123,10 @@ class Settings:
     @property
     def topics(self) -> Interface:
         return INTERFACES[self.interface]
+
+    @property
+    def drive_limits(self) -> DriveLimits:
+        return ROBOTS[self.limits]
 
     @property
     def has_slip(self) -> bool:
