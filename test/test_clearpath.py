@@ -31,6 +31,7 @@ from rclpy.qos import (
 )
 from sensor_msgs.msg import BatteryState, Imu, JointState, LaserScan, NavSatFix
 from std_msgs.msg import Bool, String
+from tf2_msgs.msg import TFMessage
 
 ROOT = Path(__file__).resolve().parent.parent
 COURSE = ROOT / 'config' / 'waypoints' / 'straight.yaml'
@@ -72,10 +73,11 @@ class Station(Node):
         self.commands = self.create_publisher(TwistStamped, 'cmd_vel', 10)
         self.stops = self.create_publisher(Bool, 'e_stop', 10)
 
-    def drive(self, speed_m_s: float, stamp_sec: int = 0) -> None:
+    def drive(self, speed_m_s: float, stamp_sec: int = 0, *, yaw_rate_rad_s: float = 0.0) -> None:
         message = TwistStamped()
         message.header.stamp.sec = stamp_sec
         message.twist.linear.x = speed_m_s
+        message.twist.angular.z = yaw_rate_rad_s
         self.commands.publish(message)
 
     def latest(self, topic: str) -> Any:
@@ -127,6 +129,26 @@ def test_the_description_has_the_frames_of_the_robot(station: Station) -> None:
     links = {link.get('name') for link in ElementTree.fromstring(told[-1].data).iter('link')}
     assert {frame for _, frame in PUBLISHED.values() if frame} <= links
     assert {'front_laser', 'camera_0_color_optical_frame'} <= links
+
+
+def test_the_imu_feels_what_is_felt_where_its_frame_is(station: Station) -> None:
+    told: list[TFMessage] = []
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    station.create_subscription(TFMessage, 'tf_static', told.append, latched)
+    wait_until(lambda: bool(told), timeout_sec=10.0, what='tf_static')
+    ahead_m = {each.child_frame_id: each.transform.translation.x for each in told[0].transforms}
+    seen = station.heard['sensors/imu_0/data']
+    keep(
+        station,
+        lambda: station.drive(0.0, yaw_rate_rad_s=1.5),
+        lambda: len(seen) > 50 and all(each.angular_velocity.z > 1.4 for each in seen[-25:]),
+        'half a second of turning on the spot',
+    )
+    turning = seen[-25:]
+    felt_m_s2 = sum(each.linear_acceleration.x for each in turning) / len(turning)
+    # In a turn on the spot, what is ahead of the middle is drawn outwards.
+    outwards_m_s2 = -(turning[-1].angular_velocity.z ** 2) * ahead_m['imu_0_link']
+    assert felt_m_s2 == pytest.approx(outwards_m_s2, abs=0.05)
 
 
 def test_the_battery_is_told_as_the_robot_tells_it(station: Station) -> None:

@@ -21,9 +21,13 @@ FIXED_FRAMES = {
 }
 
 CLEARPATH_FRAMES = {
-    'imu_0_link': FIXED_FRAMES['imu_link'],
+    'imu_0_link': Frame((0.0, 0.0, 0.0)),
     'lidar2d_0_laser': FIXED_FRAMES['front_laser'],
     'gps_0_link': Frame((0.0, 0.0, 0.0)),
     'camera_0_color_optical_frame': FIXED_FRAMES['camera'],
 }
-"""The same places, and that of the receiver, by the names of Clearpath's Sensors API."""
+"""
+By the names of Clearpath's Sensors API, each where its sensor measures.
+
+IMU and receiver do so at base_link, where Clearpath's sample of a robot.yaml has them as well.
+"""
