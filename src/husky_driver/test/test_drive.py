@@ -94,6 +94,16 @@ def test_a_far_start_is_led_in_to_the_first_waypoint(
     assert min(math.hypot(o.x_m - 2.0, o.y_m - 1.0) for o in run.track) < 0.02
 
 
+def test_a_wide_tolerance_does_not_leave_the_way_to_the_path_out(
+    drive_to_end: Callable[..., Any],
+) -> None:
+    course = parse_course('tolerance: 1.0\nwaypoints: [[0.0, 0.9], [1.5, 0.9]]')
+    run = drive_to_end(drive_of(course))
+    assert run.drive.reached == 2
+    assert min(math.hypot(o.x_m, o.y_m - 0.9) for o in run.track) < 0.02
+    assert max(abs(o.y_m - 0.9) for o in run.track if o.x_m > 0.1) < 0.02
+
+
 def test_speeds_yaw_dwell_and_reverse_of_waypoints_are_obeyed(
     drive_to_end: Callable[..., Any],
 ) -> None:

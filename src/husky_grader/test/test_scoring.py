@@ -251,6 +251,13 @@ def test_the_way_to_the_first_waypoint_is_none_of_the_path(
     assert not report.errors_m[: len(way)].any()
 
 
+def test_a_wide_tolerance_does_not_begin_the_path_beside_it(make_record: Make) -> None:
+    course = parse_course('speed: 0.5\ntolerance: 1.0\nwaypoints: [[0, 0.9], [3, 0.9]]')
+    report = judge(read_run(make_record(along((0, 0), (0, 0.9), (3, 0.9)))), plan_route(course))
+    assert report.cross_track_max_m < 0.01
+    assert report.score == pytest.approx(100.0)
+
+
 def test_backwards_counts_from_the_first_waypoint_on(make_record: Make) -> None:
     text = '[[2, 0], {x: 4, y: 0.1, reverse: true}, {x: 6, y: 0, reverse: true}]'
     route = plan_route(parse_course(f'speed: 0.5\ntolerance: 1.0\nwaypoints: {text}'))

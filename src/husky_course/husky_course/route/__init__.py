@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The route of a course: legs on smooth curves, and how long they take."""
 
-from husky_course.route.legs import Leg
+from husky_course.route.legs import AT_FIRST_M, Leg
 from husky_course.route.path import Curve, Point
 from husky_course.route.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, plan_route, Route
 from husky_course.route.speeds import A200_LIMITS, DriveLimits, LIMITS, plan_speeds
@@ -10,6 +10,7 @@ from husky_course.route.survey import NearPass, Survey, survey_route
 
 __all__ = [
     'A200_LIMITS',
+    'AT_FIRST_M',
     'LIMITS',
     'LIMIT_EXTRA_SEC',
     'LIMIT_FACTOR',

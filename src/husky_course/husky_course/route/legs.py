@@ -21,6 +21,7 @@ SHARP_CORNER_RAD = math.radians(3.0)  # straighter than this needs no stop
 # the path; without the second, 1 in 7 is more than 6 cm off; without both, some never end.
 TURN_BACK_RAD = math.radians(120.0)  # more than this is done on the spot
 TIGHTEST_PER_M = 20.0  # curvature: so is a bend with less than 5 cm of radius
+AT_FIRST_M = 0.25  # so near, the path begins where the robot is; a tolerance may be a metre
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ def lead_in(course: Course, start: Point) -> Leg | None:
     """Return the straight way to the first waypoint, or None when the robot is at it."""
     first = course.waypoints[0]
     goal = (first.x_m, first.y_m)
-    if math.dist(start, goal) <= course.tolerance_m:
+    if math.dist(start, goal) <= min(course.tolerance_m, AT_FIRST_M):
         return None
     speed = first.speed_m_s or course.speed_m_s
     return Leg(smooth_curve([start, goal]), (speed,), -1)

@@ -15,7 +15,7 @@ import math
 
 from husky_course.frames import Array, Indices
 from husky_course.record import Run
-from husky_course.route import Curve, Route
+from husky_course.route import AT_FIRST_M, Curve, Route
 from husky_course.waypoints import Course, Waypoint
 import numpy as np
 
@@ -58,7 +58,7 @@ def _path_begin(run: Run, course: Course, counted: Mapping[int, int]) -> int:
     first = course.waypoints[0]
     later = min((entry for number, entry in counted.items() if number), default=len(run.x))
     away_m = np.hypot(run.x[run.begin :] - first.x_m, run.y[run.begin :] - first.y_m)
-    if away_m[0] <= course.tolerance_m:
+    if away_m[0] <= min(course.tolerance_m, AT_FIRST_M):
         return 0
     near = away_m <= max(course.tolerance_m, away_m[: later + 1 - run.begin].min())
     came = int(near.argmax())
