@@ -46,6 +46,15 @@ def test_something_on_the_path_blocks_it_and_is_described() -> None:
     )
 
 
+def test_what_is_too_near_to_be_measured_blocks_the_path() -> None:
+    ahead, middle = [math.inf] * BEAMS, BEAMS // 2
+    ahead[middle - 20 : middle + 20] = [-math.inf] * 40
+    found = seen(ahead)
+    assert found is not None
+    assert found.ahead_m == 0.0
+    assert seen([-math.inf] * 20 + [math.inf] * (BEAMS - 20)) is None, 'it is beside the laser'
+
+
 def test_what_stands_beside_the_path_does_not_block_it() -> None:
     assert seen(scan_of((1.0, 0.6), (1.0, -0.6))) is None
     assert seen(scan_of((1.0, 0.3))) is not None

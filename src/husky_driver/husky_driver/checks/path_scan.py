@@ -16,11 +16,16 @@ HALF_WIDTH_M = 0.343 + 0.06  # of the robot, and what it may be off the path
 DELAY_SEC = 0.15  # from what the laser sees to wheels that brake
 MARGIN_M = 0.20  # between a corner of the robot and what it stops for
 STEP_M = 0.05
+AHEAD = 0.5  # cosine of the angle to which a beam looks ahead
 EDGE_M = 0.2  # two neighbours in a scan that are further apart belong to two obstacles
 
 
 class Scan(NamedTuple):
-    """One scan; ranges that are not finite count as free."""
+    """
+    One scan; ranges that are not finite count as free, but for -inf.
+
+    That is an obstacle too near to be measured (REP-117).
+    """
 
     time_sec: float
     ranges: Sequence[float]
@@ -73,14 +78,18 @@ def look_along(
         return None
     nearest = int(away[:, hit[0]].argmin())
     x, y = points[nearest].tolist()
-    ahead = math.hypot(x - pose[0], y - pose[1]) - FRONT_M
+    ahead = max(math.hypot(x - pose[0], y - pose[1]) - FRONT_M, 0.0)
     return Sighting(ahead, x, y, _width_m(points, nearest))
 
 
 def _points(scan: Scan, pose: Pose, look_m: float) -> Array:
     ranges = np.asarray(scan.ranges)
     near = np.isfinite(ranges) & (ranges > 0.0) & (ranges < look_m + HALF_WIDTH_M)
-    angles = scan.first_angle_rad + scan.step_rad * np.nonzero(near)[0] + pose[2]
+    angles = scan.first_angle_rad + scan.step_rad * np.arange(len(ranges))
+    # As if at the scanner itself; what is beside or behind it is not on the path.
+    too_near = np.isneginf(ranges) & (np.cos(angles) > AHEAD)
+    ranges, near = np.where(too_near, 0.0, ranges), near | too_near
+    angles = angles[near] + pose[2]
     x = pose[0] + LASER_X_M * math.cos(pose[2]) + ranges[near] * np.cos(angles)
     y = pose[1] + LASER_X_M * math.sin(pose[2]) + ranges[near] * np.sin(angles)
     return np.stack([x, y], axis=1)
