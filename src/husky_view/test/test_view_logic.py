@@ -13,6 +13,8 @@ import socket
 from husky_course.outline import Outline
 from husky_course.record import read_record, Record, RecordRefused
 from husky_course.robot import RobotStart
+from husky_course.route import plan_route, survey_route
+from husky_course.waypoints import parse_course
 from husky_runtime.web_address import (
     AddressError,
     free_port,
@@ -420,3 +422,17 @@ def test_the_preview_has_no_clearance_inside_the_barrier() -> None:
     assert seen.clearance_m.min() == 0.0
     assert seen.nearest == 'jersey_barrier_15'
     assert json.dumps(seen.line[-1].tolist()) == '[5.0, 0.0]'
+
+
+def test_the_preview_has_the_way_to_the_first_waypoint_and_turns() -> None:
+    simulation = Simulation(SimulationConfig(world=str(default_worlds() / 'playpen.xml')))
+    behind = parse_course('waypoints: [[4.5, 1.5], [6.0, 2.0]]')
+    seen = course.preview(behind, RobotStart(), simulation.world.obstacles)
+    assert seen.line[0].tolist() == [0.0, 0.0]
+    assert (seen.clearance_m.min(), seen.nearest) == (0.0, 'jersey_barrier_15')
+    for text in ('[[0, 0], [0, -1]]', '[[0, 0], {x: -1.0, y: 0, reverse: true, yaw: 2.0}]'):
+        turning = parse_course(f'waypoints: {text}')
+        seen = course.preview(turning, RobotStart(), simulation.world.obstacles)
+        survey = survey_route(plan_route(turning), simulation.world.obstacles)
+        assert seen.clearance_m.min() == survey.least_m
+        assert (np.abs(np.diff(seen.line, axis=0)).max(axis=1) > 0.0).all()

@@ -6,7 +6,7 @@ from husky_course.route.legs import AT_FIRST_M, Leg
 from husky_course.route.path import Curve, Point
 from husky_course.route.route import LIMIT_EXTRA_SEC, LIMIT_FACTOR, plan_route, Route
 from husky_course.route.speeds import A200_LIMITS, DriveLimits, LIMITS, plan_speeds
-from husky_course.route.survey import NearPass, Survey, survey_route
+from husky_course.route.survey import NearPass, poses_along, Survey, survey_route
 
 __all__ = [
     'A200_LIMITS',
@@ -23,5 +23,6 @@ __all__ = [
     'Survey',
     'plan_route',
     'plan_speeds',
+    'poses_along',
     'survey_route',
 ]

@@ -70,7 +70,7 @@ def survey_route(
     found = tuple(obstacles)
     if not found:
         return Survey(found, (), None, '')
-    poses, numbers = _poses(route, start)
+    poses, numbers = poses_along(route, start)
     table = np.array([clearances(poses, [obstacle]) for obstacle in found])
     nearest = int(table.min(axis=1).argmin())
     return Survey(
@@ -102,8 +102,12 @@ def _near_passes(
     return passes
 
 
-def _poses(route: Route, start: Pose) -> tuple[Array, Indices]:
-    """Return poses in the frame world, and the number of the waypoint each one leads to."""
+def poses_along(route: Route, start: Pose) -> tuple[Array, Indices]:
+    """
+    Return all poses of a robot that drives exactly so, also to the first waypoint and in turns.
+
+    :returns: x, y and yaw in the frame world, and the number of the waypoint each one leads to.
+    """
     poses: list[Pose] = []
     numbers: list[int] = []
     heading = 0.0

@@ -17,11 +17,9 @@ from husky_course.files import replacing
 from husky_course.frames import Array
 from husky_course.outline import clearances, Outline
 from husky_course.robot import RobotStart
-from husky_course.route import Leg, plan_route
+from husky_course.route import Leg, plan_route, poses_along
 from husky_course.waypoints import Course, load_course, parse_course, Waypoint
 import numpy as np
-
-from husky_view.picture.geometry import to_world
 
 UNDO_STEPS = 100
 MOST_WAYPOINTS = 200
@@ -29,6 +27,7 @@ NEAR_M = 0.3
 """A click nearer than this to a waypoint means that waypoint."""
 
 NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9_-]{0,60}')
+SAME_M = 1e-6
 EVERY = 5  # of the driver's samples, 2 cm apart
 _EMPTY = Course(name='', waypoints=())
 
@@ -140,6 +139,8 @@ class Preview(NamedTuple):
     """
     The path (n, 2) that the driver would take, in the frame world, and its clearances (n,).
 
+    It begins where the robot starts, also where the first waypoint is elsewhere.
+
     :param nearest: the obstacle that it passes nearest to; empty if there is none.
     """
 
@@ -154,13 +155,15 @@ def preview(course: Course, start: RobotStart, obstacles: Sequence[Outline]) -> 
 
     :raises CourseRefused: if the driver would refuse it.
     """
-    poses = _path(_parsed(text_of(course), 'the draft'))
-    poses[:, :2] = to_world(start, poses[:, :2])
-    poses[:, 2] += start.yaw
+    poses, _ = poses_along(plan_route(_parsed(text_of(course), 'the draft')), start.pose)
     clearance_m = clearances(poses, obstacles)
     worst = poses[clearance_m.argmin()][None]
     nearest = min(obstacles, key=lambda each: clearances(worst, [each])[0], default=None)
-    return Preview(poses[:, :2], clearance_m, nearest.name if nearest else '')
+    # A turn on the spot is one place of the line.
+    goes = np.hypot(*np.diff(poses[:, :2], axis=0).T) > SAME_M
+    places = np.flatnonzero(np.append(True, goes))
+    least_m = np.minimum.reduceat(clearance_m, places)
+    return Preview(poses[places, :2], least_m, nearest.name if nearest else '')
 
 
 def _path(course: Course) -> Array:
