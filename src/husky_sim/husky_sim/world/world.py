@@ -335,9 +335,10 @@ def _check_start(
         ours, theirs = sorted(int(owners[geom]) for geom in pair)
         if ours >= _FIRST_OWNER and ours < len(robots) and theirs != ours:
             robot = robots[ours]
+            where = line_of(path, names[theirs]) if theirs >= len(robots) else ''
             raise StartPoseError(
                 f'{robot.name} at x={robot.x:g}, y={robot.y:g}, yaw={robot.yaw:g} would start '
-                f'inside {names[theirs]} ({path}{line_of(path, names[theirs])}); start it further '
+                f'inside {names[theirs]} ({path}{where}); start it further '
                 'away'
             )
 
