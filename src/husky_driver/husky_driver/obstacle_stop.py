@@ -4,7 +4,7 @@
 
 import math
 
-from husky_driver.checks.path_scan import look_along, Scan, Sighting
+from husky_driver.checks.path_scan import LASER_X_M, look_along, Scan, Sighting
 from husky_driver.drive.drive import Drive
 
 SCAN_TIMEOUT_SEC = 1.0  # an older scan says nothing about the path
@@ -17,10 +17,11 @@ class ObstacleStop:
     Decides when the robot has to stand; times are the stamps of scans and odometry.
 
     :param topic: of the scans, to be named.
+    :param laser_x_m: how far ahead of base_link the laser stands.
     """
 
-    def __init__(self, topic: str = 'front/scan') -> None:
-        self._topic = topic
+    def __init__(self, topic: str = 'front/scan', laser_x_m: float = LASER_X_M) -> None:
+        self._topic, self._laser_x_m = topic, laser_x_m
         self._restart(-math.inf)
 
     def _restart(self, now_sec: float) -> None:
@@ -45,6 +46,7 @@ class ObstacleStop:
             self._sighting = look_along(
                 *(scan, pose, tracker.curve, tracker.s, speed_m_s),
                 braking_m_s2=drive.limits.stopping_m_s2,
+                laser_x_m=self._laser_x_m,
             )
 
     def update(self, now_sec: float) -> str:

@@ -117,6 +117,14 @@ def test_a_robot_that_stops_later_looks_farther() -> None:
         assert stop.holds is is_seen
 
 
+def test_a_laser_farther_back_sees_what_is_nearer() -> None:
+    for laser_x_m, ahead_m in ((LASER_X_M, 0.71), (0.0, 0.71 - LASER_X_M)):
+        stop = ObstacleStop(laser_x_m=laser_x_m)
+        stop.update(10.0)
+        stop.add_scan(scan_at(10.0, (1.2, 0.0)), driving())
+        assert f'{ahead_m:.2f} m ahead' in stop.update(10.0)
+
+
 def test_without_scans_the_robot_stands() -> None:
     stop, waiting = ObstacleStop(), Drive(plan_route(parse_course('waypoints: [[0, 0], [9, 0]]')))
     stop.update(10.0)

@@ -57,6 +57,7 @@ def look_along(
     speed_m_s: float,
     *,
     braking_m_s2: float = LIMITS.stopping_m_s2,
+    laser_x_m: float = LASER_X_M,
 ) -> Sighting | None:
     """
     Return what stands on the path; None when the way is free.
@@ -65,10 +66,11 @@ def look_along(
 
     :param pose: of base_link in the frame of the curve.
     :param s: where on the curve the robot is.
+    :param laser_x_m: how far ahead of base_link the laser stands.
     """
     stop_m = MARGIN_M + speed_m_s**2 / (2 * braking_m_s2) + DELAY_SEC * speed_m_s
     places = np.arange(s + FRONT_M, min(s + stop_m, curve.length_m) + FRONT_M, STEP_M)
-    points = _points(scan, pose, FRONT_M + stop_m)
+    points = _points(scan, pose, laser_x_m, FRONT_M + stop_m)
     if len(places) == 0 or len(points) == 0:
         return None
     path = np.array([_beyond(curve, float(place)) for place in places])
@@ -82,7 +84,7 @@ def look_along(
     return Sighting(ahead, x, y, _width_m(points, nearest))
 
 
-def _points(scan: Scan, pose: Pose, look_m: float) -> Array:
+def _points(scan: Scan, pose: Pose, laser_x_m: float, look_m: float) -> Array:
     ranges = np.asarray(scan.ranges)
     near = np.isfinite(ranges) & (ranges > 0.0) & (ranges < look_m + HALF_WIDTH_M)
     angles = scan.first_angle_rad + scan.step_rad * np.arange(len(ranges))
@@ -90,8 +92,8 @@ def _points(scan: Scan, pose: Pose, look_m: float) -> Array:
     too_near = np.isneginf(ranges) & (np.cos(angles) > AHEAD)
     ranges, near = np.where(too_near, 0.0, ranges), near | too_near
     angles = angles[near] + pose[2]
-    x = pose[0] + LASER_X_M * math.cos(pose[2]) + ranges[near] * np.cos(angles)
-    y = pose[1] + LASER_X_M * math.sin(pose[2]) + ranges[near] * np.sin(angles)
+    x = pose[0] + laser_x_m * math.cos(pose[2]) + ranges[near] * np.cos(angles)
+    y = pose[1] + laser_x_m * math.sin(pose[2]) + ranges[near] * np.sin(angles)
     return np.stack([x, y], axis=1)
 
 

@@ -83,8 +83,10 @@ class FollowPath(Node):
         self._stop_deadline_sec = 0.0
         self._hint = ''
         self._paused = False
-        scan = self.settings.topics.scan
-        self._obstacles = ObstacleStop(scan) if self.settings.scan else None
+        self._obstacles: ObstacleStop | None = None
+        if self.settings.scan:
+            laser_x_m = self.settings.laser_ahead_m
+            self._obstacles = ObstacleStop(self.settings.topics.scan, laser_x_m)
         self._silent_ticks = 0  # of the timer: while this process sleeps too, nothing is late
         self._imu: Subscription | None = None
         self._imu_wait = ImuWait(TICK_SEC)

@@ -10,6 +10,8 @@ from husky_course.frames import Pose
 from husky_course.route import A200_LIMITS, DriveLimits, LIMITS
 from husky_runtime.settings import Setting, setting, settings_of
 
+from husky_driver.checks.path_scan import LASER_X_M
+
 
 @dataclass(frozen=True)
 class Interface:
@@ -100,6 +102,9 @@ class Settings:
         0.0, 'where the IMU is in the robot: so far ahead of base_link', low=-2.0, high=2.0
     )
     scan: bool = setting(False, 'stop before what the laser sees on the path')
+    laser_ahead_m: float = setting(
+        LASER_X_M, 'where the laser is, upright: so far ahead of base_link', low=-1.0, high=1.0
+    )
     progress: str = setting(
         'auto', 'how progress is shown: auto, bar, lines or off', choices=PROGRESS
     )
