@@ -1,9 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A program that opens its output once more, to read it, is watched all the same, and ends.
+A program that would not be watched is watched all the same, and ends.
 
-Where the grader and the program are the same user, as those of an ordinary one are, it can.
+It may open its output once more, to read it, where the grader and the program are the same user,
+as those of an ordinary one are; or have a name that is no word.
 """
 
 from collections.abc import Sequence
@@ -49,6 +50,13 @@ import os, time
 os.write(1, b'a word')
 eaten = b'x' * 200_000_000
 time.sleep(600)
+"""
+
+# A digit for str.isdigit, of which int makes no number.
+NAMED = f"""
+import ctypes
+ctypes.CDLL(None).prctl(15, '\u00b2'.encode(), 0, 0, 0)  # PR_SET_NAME
+{EATS}
 """
 
 
@@ -115,3 +123,11 @@ def test_its_limits_are_watched_whoever_reads_faster(
         assert process.wait(10.0)
     assert 'MB of memory; 150 MB are allowed' in process.stopped
     assert 'a word' not in log.read_text()
+
+
+@in_each_way_with_processes
+def test_its_limits_are_watched_whatever_its_name_is(sandbox: Sandbox, folder: Path) -> None:
+    with Jail(sandbox, folder, limits=Limits(memory_mb=150)) as jail:
+        process = jail.start([sys.executable, '-c', NAMED], log=folder.with_name('log'))
+        assert process.wait(10.0)
+    assert 'MB of memory; 150 MB are allowed' in process.stopped

@@ -87,13 +87,16 @@ def _overuse(processes: Sequence[psutil.Process], limits: Limits) -> str:
 def _status_of(pid: int) -> dict[str, int]:
     """Return the numbers of /proc/PID/status; none of a process that has ended."""
     try:
-        lines = (
-            Path(f'/proc/{pid}/status').read_text(encoding='utf-8', errors='replace').splitlines()
-        )
+        lines = Path(f'/proc/{pid}/status').read_bytes().split(b'\n')
     except OSError:
         return {}
     words = [line.split() for line in lines]
-    return {each[0][:-1]: int(each[1]) for each in words if len(each) > 1 and each[1].isdigit()}
+    # Of bytes, for in a text other digits count, too: a program may have the name ².
+    return {
+        each[0][:-1].decode(): int(each[1])
+        for each in words
+        if len(each) > 1 and each[1].isdigit()
+    }
 
 
 def _room_bytes(folder: Path) -> int:
