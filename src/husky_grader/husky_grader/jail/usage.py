@@ -142,7 +142,7 @@ def _overfull(folder: Path, limits: Limits, processes: Sequence[psutil.Process])
             with os.scandir(folders.pop()) as entries:
                 for entry in entries:
                     files += 1
-                    size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK_BYTES
+                    size += _size_of(entry)
                     if files > limits.files:
                         return f'made over {limits.files} files'
                     if entry.is_dir(follow_symlinks=False):
@@ -155,3 +155,11 @@ def _overfull(folder: Path, limits: Limits, processes: Sequence[psutil.Process])
             continue  # removed meanwhile
     too_much = size > limits.folder_mb * MB
     return f'filled its folder with over {limits.folder_mb} MB' if too_much else ''
+
+
+def _size_of(entry: 'os.DirEntry[str]') -> int:
+    """Return the bytes that it takes on the disk; what lies beside it counts if it is gone."""
+    try:
+        return entry.stat(follow_symlinks=False).st_blocks * _BLOCK_BYTES
+    except FileNotFoundError:
+        return 0
