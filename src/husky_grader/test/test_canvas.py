@@ -202,3 +202,20 @@ def test_a_name_that_is_no_text_costs_nobody_the_feedback(tmp_path: Path) -> Non
     with zipfile.ZipFile(tmp_path / 'feedback_for_canvas.zip') as archive:
         assert archive.namelist() == ['student_5001_9001_?.zip']
     assert r'Ann \xff' in (tmp_path / one.id / 'index.html').read_text()
+
+
+def test_a_folder_in_the_place_of_a_file_costs_nobody_the_outputs(tmp_path: Path) -> None:
+    (tmp_path / 'export' / 'deann_5001_90001_lab' / 'src').mkdir(parents=True)
+    (tmp_path / 'export' / 'tosam_5005_90002_lab.zip').write_bytes(b'PK\x05\x06' + bytes(18))
+    submissions = find_submissions([str(tmp_path / 'export')])
+    assert [(each.lms, each.kind) for each in submissions] == [
+        ('canvas', 'folder'),
+        ('canvas', 'zip'),
+    ]
+    written = write_outputs(tmp_path / 'class', list(map(full, submissions)), title='Lab')
+    assert (tmp_path / 'class' / 'class.html').is_file()
+    assert written.notes == [
+        'not in feedback_for_canvas.zip, for want of a file that was handed in (1): deann_5001'
+    ]
+    with zipfile.ZipFile(tmp_path / 'class' / 'feedback_for_canvas.zip') as archive:
+        assert archive.namelist() == ['tosam_5005_90002_lab.zip']

@@ -163,8 +163,9 @@ def write_canvas_feedback(path: Path, everyone: Sequence[Graded], folder: Path) 
 
 
 def _handed_file(submission: Submission) -> str:
-    """Return the newest file that was handed in, as Canvas has named it."""
-    if submission.lms != LMS or not submission.attempt:  # a text or a link has no number
+    """Return the newest file that was handed in, as Canvas has named it; nothing for a folder."""
+    # A text or a link has no number; who unpacks an export may leave a folder of its name.
+    if submission.lms != LMS or not (submission.attempt and submission.files):
         return ''
     name = PurePosixPath(submission.files[-1][0]).name
     return name.encode(errors='replace').decode()  # in a folder, it may be no text
