@@ -59,6 +59,16 @@ def graded(folder: Path) -> list[str]:
     )
 
 
+def uploaded(job: Mapping[str, Any], folder: Path) -> list[Path]:
+    """Return the files in an artifact: in the first folder of its path, without the others."""
+    (step,) = (each for each in job['steps'] if 'upload-artifact' in each.get('uses', ''))
+    top, *others = step['with']['path'].split()
+    assert all(each.startswith(f'!{top}/') for each in others)
+    left_out = {path for each in others for path in folder.glob(each[1:])}
+    files = (path for path in (folder / top).rglob('*') if path.is_file())
+    return [path for path in files if left_out.isdisjoint(path.parents)]
+
+
 def test_the_slurm_array_grades_a_class(folder: Path) -> None:
     text = (FILES / 'slurm.sbatch').read_text()
     assert '$LAB/lab grade --lab $HANDED_IN --report class --collect $SHARDS/*' in text
@@ -91,3 +101,16 @@ def test_the_matrix_of_github_grades_a_class(folder: Path) -> None:
     collected = {path.stat().st_mtime_ns for path in folder.glob('class/*/lab.json')}
     assert len(collected) == 2
     assert ann.stat().st_mtime_ns in collected, 'it was graded again'
+
+
+def test_no_name_that_a_student_gave_keeps_a_share_from_github(folder: Path) -> None:
+    for report in ('shards/1/Ann', 'class/Ann'):
+        (folder / report).mkdir(parents=True)
+        (folder / report / 'lab.json').touch()
+        (folder / report / '.graded').touch()
+        for place in ('built', 'handed_in', 'running-1a2b3c4d'):
+            (folder / report / place / 'src').mkdir(parents=True)
+            (folder / report / place / 'src' / 'a:b').touch()
+    jobs = read('github_matrix.yml')['jobs']
+    for job in (jobs['grade'], jobs['collect']):
+        assert sorted(path.name for path in uploaded(job, folder)) == ['.graded', 'lab.json']
