@@ -55,11 +55,6 @@ def grade_submission(
         if sandbox is None:
             steps = grade_path(given.path, rubric, folder, done=alive)
         else:
-
-            def did(step: Step) -> None:
-                done(step)
-                alive()
-
             with own_turn(sandbox):
                 steps = grade_lab(
                     given.path,
@@ -67,7 +62,8 @@ def grade_submission(
                     folder,
                     sandbox=sandbox,
                     real_time_factor=real_time_factor,
-                    done=did,
+                    done=done,
+                    alive=alive,
                 )
     except ValueError as error:  # it must not stop the others
         return replace(graded, refused=f'{submission.place}: cannot be graded: {error}')

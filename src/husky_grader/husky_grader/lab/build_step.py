@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build a workspace, and find what was built."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
+import time
 
-from husky_grader.jail import Jail
+from husky_grader.jail import Jail, JailedProcess
 from husky_grader.lab.file_steps import find_manifests, no_packages
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.programs import is_there
@@ -20,6 +21,7 @@ from husky_grader.rubric.colcon_errors import (
 from husky_grader.run.diagnosis import crash, how_ended
 
 BUILD_WITHIN_SEC = 300.0
+LOOK_SEC = 1.0  # meanwhile
 SOURCE_WITHIN_SEC = 60.0
 NO_PROGRAM = 127  # as a shell says it
 MAX_VARIABLES = 30_000  # bytes, of all of them together; Linux starts no program with too many
@@ -33,10 +35,13 @@ class ColconMissing(ValueError):
     """There is no colcon in the jail; the message says what to do."""
 
 
-def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
+def build_step(
+    workspace: Path, jail: Jail, log: Path, *, alive: Callable[[], object] = lambda: None
+) -> Finding:
     """
     Build the workspace with colcon, into the jail's folder, so that nothing of it changes.
 
+    :param alive: called now and then.
     :raises ColconMissing: when it cannot be started, which is not the student's fault.
     """
     if not find_manifests(workspace):
@@ -47,7 +52,7 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
     command += ['--build-base', str(jail.folder / 'build')]
     command += ['--install-base', str(jail.folder / 'install')]
     with jail.started(command, _AS_ANYWHERE, log=log) as build:
-        exit_code = build.exit_code if build.wait(BUILD_WITHIN_SEC) else None
+        exit_code = build.exit_code if _has_ended(build, alive) else None
     if build.stopped:
         return nothing(f'colcon build was ended: it {build.stopped}')
     if exit_code is None:
@@ -65,6 +70,16 @@ def build_step(workspace: Path, jail: Jail, log: Path) -> Finding:
         why = spoilt or crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
+
+
+def _has_ended(build: JailedProcess, alive: Callable[[], object]) -> bool:
+    """Wait for the end of a build; tell whether it came in time."""
+    deadline_sec = time.monotonic() + BUILD_WITHIN_SEC
+    while not build.wait(LOOK_SEC):
+        alive()
+        if time.monotonic() > deadline_sec:
+            return False
+    return True
 
 
 def sourced(jail: Jail) -> Mapping[str, str]:

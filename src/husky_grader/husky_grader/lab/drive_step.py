@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The step in which a program drives courses."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 import shlex
@@ -30,10 +30,11 @@ FOR_STAFF = 'staff'
 
 @dataclass(frozen=True)
 class DriveRunner:
-    """Runs a program with the simulator."""
+    """Runs a program with the simulator; `alive` is called about twice a second."""
 
     programs: Programs
     real_time_factor: float = 1.0
+    alive: Callable[[], object] = lambda: None
 
     def drive(self, step: DriveStep, course: CourseToDrive, folder: Path) -> Report:
         """Let a program drive a course, and write the report on it into a folder."""
@@ -53,6 +54,7 @@ class DriveRunner:
                 environment=self.programs.environment,
                 without=self.programs.place,
                 real_time_factor=self.real_time_factor,
+                on_progress=lambda _told: self.alive(),
             )
         if step.executable and (wrong := wrong_first_line(Path(command[0]))):
             live = replace(live, notes=(f'{step.executable} cannot be started: {wrong}',))

@@ -48,12 +48,15 @@ def grade_lab(
     sandbox: Sandbox,
     real_time_factor: float = 1.0,
     done: Callable[[Step], None] = lambda _step: None,
+    alive: Callable[[], object] = lambda: None,
 ) -> list[StepGrade]:
     """
     Grade step after step; a step that cannot be tried for want of another gets nothing.
 
     :param folder: of the report.
     :param sandbox: in which what students wrote is built and run.
+    :param done: called after each step.
+    :param alive: called now and then, also amid a step.
     :raises ValueError: when the computer fails before a program of the student's has run.
     :raises OSError: when something is written, or may have failed, where there is no room.
     """
@@ -62,11 +65,12 @@ def grade_lab(
     remove(folder / BUILT)
     remove_running(folder)
     findings = {}
-    grading = _Grading(workspace, folder, sandbox, rubric, real_time_factor)
+    grading = _Grading(workspace, folder, sandbox, rubric, real_time_factor, alive)
     try:
         for step in rubric.steps:
             findings[step.name] = grading.find(step)
             done(step)
+            alive()
     finally:
         remove(folder / BUILT)  # whatever a build has left is nothing for a report
     return list(_with_needs(rubric.steps, findings))
@@ -100,12 +104,14 @@ class _Grading:
         sandbox: Sandbox,
         rubric: Rubric,
         real_time_factor: float,
+        alive: Callable[[], object],
     ) -> None:
         self._workspace = workspace
         self._folder = folder
         self._sandbox = sandbox
         self._rubric = rubric
         self._real_time_factor = real_time_factor
+        self._alive = alive
         self._programs: Programs | None = None
         self._not_sourced = 'nothing was built'
 
@@ -143,7 +149,7 @@ class _Grading:
         built.mkdir(exist_ok=True)
         (built / IGNORED).touch()  # it stays where this is killed
         with Jail(self._sandbox, built, readable=[self._workspace]) as jail:
-            found = build_step(self._workspace, jail, log)
+            found = build_step(self._workspace, jail, log, alive=self._alive)
             try:
                 self._programs = Programs(
                     self._workspace,
@@ -162,9 +168,9 @@ class _Grading:
             return nothing(self._not_sourced)
         try:
             if isinstance(step, DriveStep):
-                drives = DriveRunner(self._programs, self._real_time_factor)
+                drives = DriveRunner(self._programs, self._real_time_factor, self._alive)
                 return drive_step(step, drives, self._folder)
-            return live_step(step, self._programs, log)
+            return live_step(step, self._programs, log, alive=self._alive)
         except _OF_THE_COMPUTER:  # no program of the student's has run yet
             raise
         except ValueError as error:  # it costs this step, not the others

@@ -35,10 +35,13 @@ class ObserverFailed(ValueError):
     """The grader's own node failed; the message says why."""
 
 
-def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
+def live_step(
+    step: ProgramStep, programs: Programs, log: Path, *, alive: Callable[[], object] = lambda: None
+) -> Finding:
     """
     Run a program, and find out what it does.
 
+    :param alive: called now and then.
     :raises PackageMissing: when the package is not there.
     :raises ProgramMissing: when the program is not there.
     :raises ObserverFailed: when the grader's own node fails.
@@ -49,7 +52,7 @@ def live_step(step: ProgramStep, programs: Programs, log: Path) -> Finding:
         # The check of fields would refuse the largest float32, which may be sent.
         ours = {**os.environ, **jail.graph, CHECK_FIELDS: '0'}
         ours = with_types(ours, programs.interfaces)
-        found = _observe(step, jail.beside, ours, program, log, programs.world)
+        found = _observe(step, jail.beside, ours, program, log, programs.world, alive)
         exit_code = program.exit_code
     printed = read_printed(log, without=programs.place)
     if exit_code is not None and step.executable:
@@ -86,6 +89,7 @@ def _observe(
     program: JailedProcess,
     log: Path,
     world: str,
+    alive: Callable[[], object],
 ) -> Finding:
     """
     Let the grader's own node find it out, a process in the network of the program.
@@ -104,6 +108,7 @@ def _observe(
         ):
             patience = Patience(OBSERVED_SEC)
             while not (observer.wait(POLL_SEC) or patience.is_over()):
+                alive()
                 if program.exit_code is not None:
                     (place / OVER_FILE).touch()
         if not (place / FINDING_FILE).is_file():
