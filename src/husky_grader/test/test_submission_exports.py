@@ -174,9 +174,19 @@ def test_several_files_of_one_canvas_user_stay_together(tmp_path: Path, as_zip: 
     assert unpack(cem, tmp_path / 'cem').kind == 'waypoints'
 
 
-def test_like_names_of_people_are_not_taken_for_canvas(tmp_path: Path) -> None:
-    files = {f'cse461_7_{group}_ws.zip': packed() for group in (3, 4)}
-    files |= {f'cse461_8_{group}_ws.zip': packed() for group in (3, 4)}
+@pytest.mark.parametrize(
+    'names',
+    [
+        [f'cse461_{section}_{group}_ws' for section in (7, 8) for group in (3, 4)],
+        [f'cse461_7_{group}_ws' for group in (3, 4)],
+        [f'lab2_461_{group}_{name}' for group, name in enumerate(('ann', 'bob'), 1)],
+        [f'2026_{number}_{name}' for number, name in enumerate(('ann', 'bob'), 1)],
+        [f'{5100 + number}_{number}_{name}' for number, name in enumerate(('ann', 'bob'), 1)],
+        [f'{name}_2026_{number}_{name}' for number, name in enumerate(('ann', 'bob'), 1)],
+    ],
+)
+def test_like_names_of_people_are_not_taken_for_canvas(names: list[str], tmp_path: Path) -> None:
+    files = {f'{name}.zip': packed() for name in names}
     found = find_submissions([str(export(tmp_path / 'class', files, as_zip=False))])
     assert [one.id for one in found] == sorted(name.removesuffix('.zip') for name in files)
     assert {one.lms for one in found} == {''}

@@ -22,6 +22,7 @@ from husky_grader.submission.names import composed, is_of_a_word
 from husky_grader.submission.submission import Submission
 
 _NUMBER = re.compile(r'[1-9]\d{0,17}', re.ASCII)
+_ANONYMOUSLY = 'anon'
 _ANONYMOUS = re.compile(r'[0-9A-Za-z]{5}')
 _TEXTS = ('text.html', 'link.html')
 
@@ -43,7 +44,7 @@ def canvas_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> l
     Return the submissions of an export of Canvas; none where it is not one.
 
     Every name must be of Canvas, and the number of a file must not come twice: people name files
-    in a like way.
+    in a like way, and so those of a class would be taken for the files of one student.
 
     :param tops: the names directly in the export, and the files in each.
     """
@@ -55,16 +56,32 @@ def canvas_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> l
             return []
         numbers.add(file.number)
         by_user.setdefault(file.user, []).append(file)
-    if not numbers - {0}:
+    if not numbers - {0} or not _are_users(listing, by_user):
         return []
     return [_of_user(listing, files) for files in by_user.values()]
+
+
+def _are_users(listing: Listing, by_user: Mapping[str, Sequence[_File]]) -> bool:
+    """
+    Tell users from numbers in the names that people give: years, sections of a course.
+
+    Each has one name, and somebody has one. Only one, with several archives, is rather a class.
+    None of this is in the hands of a student who would hide the export of a class.
+    """
+    names = {user: {file.name for file in files} for user, files in by_user.items()}
+    if any(len(each) > 1 for each in names.values()):
+        return False
+    if not any(each != {''} or user.startswith(_ANONYMOUSLY) for user, each in names.items()):
+        return False
+    first, *others = by_user.values()
+    return bool(others) or sum(_is_archive(listing, file) for file in first) <= 1
 
 
 def _parse(top: str) -> _File | None:
     """Return what a name says; None where it is not of Canvas."""
     words = top.split('_')
     for at, word in enumerate(words):
-        anonymous = word == 'anon' and _ANONYMOUS.fullmatch(''.join(words[at + 1 : at + 2]))
+        anonymous = word == _ANONYMOUSLY and _ANONYMOUS.fullmatch(''.join(words[at + 1 : at + 2]))
         if anonymous or _NUMBER.fullmatch(word):
             after = at + 2 if anonymous else at + 1
             return _parsed(top, words[:at], '_'.join(words[at:after]), words[after:])
