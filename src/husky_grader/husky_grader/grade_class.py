@@ -114,8 +114,12 @@ def grade_labs(options: argparse.Namespace) -> int:
     rubric = load_rubric(options.rubric or default_rubric())
     for line in impossible_courses(rubric):
         _tell(line)
-    submissions = find_submissions(_places(options.lab, options), taken=OUTPUT_FILES)
-    submissions = _without_report(submissions, options)
+    report = os.path.realpath(options.report)  # not Path.resolve: links may lead in a circle
+    given = _places(options.lab, options)
+    # It is none of what was handed in: the next call finds the same.
+    without = '' if report in map(os.path.realpath, given) else report
+    submissions = find_submissions(given, taken=OUTPUT_FILES, without=without)
+    _check_report(submissions, options)
     gradebook = None
     if options.gradebook:
         gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
@@ -127,27 +131,21 @@ def grade_labs(options: argparse.Namespace) -> int:
     return _grade_labs(submissions, rubric, sandbox, gradebook, options)
 
 
-def _without_report(
-    submissions: Sequence[Submission], options: argparse.Namespace
-) -> list[Submission]:
+def _check_report(submissions: Sequence[Submission], options: argparse.Namespace) -> None:
     """
-    Return submissions without the report itself, where it lies in their folder.
+    Check that no report is written into what was handed in.
 
-    :raises ValueError: if the report on one would be written into what was handed in.
+    :raises ValueError: if one would be.
     """
-    # By os.path: Path.resolve fails where links lead in a circle.
     report = os.path.realpath(options.report)
-    named = report in map(os.path.realpath, options.lab)
-    found = [each for each in submissions if named or os.path.realpath(each.source) != report]
-    for each in found:
-        place = Path(report) if _is_alone(found, options) else Path(report, each.id)
+    for each in submissions:
+        place = Path(report) if _is_alone(submissions, options) else Path(report, each.id)
         source = Path(os.path.realpath(each.source))
         if source == place or _is_taken(place / COPY, source):
             raise ValueError(
                 f'--report {options.report}: there the report on {each.id} would lie in what was '
                 'handed in; name another folder'
             )
-    return found or list(submissions)
 
 
 def _is_taken(copy: Path, source: Path) -> bool:

@@ -160,3 +160,25 @@ def test_a_report_among_what_was_handed_in_is_none_of_it(
     assert grade(['--lab', '.', '--rubric', str(rubric), '--report', '.']) == 2
     told = '--report .: there the report on cem would lie in what was handed in; name another'
     assert capsys.readouterr().err == f'{told} folder\n'
+
+
+@pytest.mark.parametrize(
+    ('names', 'expected'),
+    [
+        (['deann_5101_90001_lab.yaml', 'ecem_5102_90002_lab.yaml'], ['deann_5101', 'ecem_5102']),
+        (['one/package.xml', 'two/package.xml'], ['class']),
+    ],
+)
+def test_who_has_handed_in_is_found_again_beside_the_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, names: list[str], expected: list[str]
+) -> None:
+    rubric, place = tmp_path / 'rubric.yaml', tmp_path / 'class'
+    rubric.write_text(THERE_AND_BACK)
+    for name in names:
+        (place / name).parent.mkdir(parents=True, exist_ok=True)
+        (place / name).write_text('waypoints: [[0, 0], [1, 0], [0, 0]]')
+    monkeypatch.chdir(place)
+    for _ in range(2):
+        grade(['--lab', '.', '--rubric', str(rubric), '--shard', '1/1'])
+        entries = json.loads((place / 'report' / 'grades.json').read_text())['submissions']
+        assert [each['id'] for each in entries] == expected

@@ -32,7 +32,9 @@ _MOST_OF_A_MANIFEST = 100_000  # bytes
 _URL = re.compile(r'[a-z][a-z0-9+.-]*://.*|[\w.-]+@[\w.-]+:.*', re.IGNORECASE)
 
 
-def find_submissions(given: Sequence[str], *, taken: Iterable[str] = ()) -> list[Submission]:
+def find_submissions(
+    given: Sequence[str], *, taken: Iterable[str] = (), without: str = ''
+) -> list[Submission]:
     """
     Return the submissions in files, folders and exports, in the order given, then of their names.
 
@@ -42,8 +44,9 @@ def find_submissions(given: Sequence[str], *, taken: Iterable[str] = ()) -> list
     :param given: paths: one submission, a folder of submissions, or an export of Moodle, Canvas or
         Gradescope, as a zip or unpacked.
     :param taken: names that no id may be.
+    :param without: the real path of what is none of it, though it may lie in one of the folders.
     """
-    found = _newest(_without_forged(given, [_found_in(path) for path in given]))
+    found = _newest(_without_forged(given, [_found_in(path, without) for path in given]))
     names = folder_names([each.source.parent / each.id for each in found], taken=taken)
     return [
         replace(each, id=name, notes=tuple(map(printable, each.notes)))
@@ -70,7 +73,7 @@ def _without_forged(
             yield from each
 
 
-def _found_in(given: str) -> list[Submission]:
+def _found_in(given: str, without: str) -> list[Submission]:
     """Return the submissions in one of the paths; one that says why where there are none."""
     path = Path(given)
     refused = ''
@@ -80,7 +83,7 @@ def _found_in(given: str) -> list[Submission]:
         if not given:
             refused = 'an empty name; give a file or a folder'
         elif path.is_dir():
-            return _in_folder(path)
+            return _in_folder(path, without)
         elif path.is_file():
             return _in_file(path)
         elif _URL.fullmatch(given):
@@ -103,10 +106,10 @@ def _in_file(path: Path) -> list[Submission]:
     return [one]
 
 
-def _in_folder(folder: Path) -> list[Submission]:
-    names = visible(folder)
+def _in_folder(folder: Path, without: str) -> list[Submission]:
+    names = visible(folder, without)
     children = [folder / name for name in names]
-    if found := _in_export(FolderListing(folder)):
+    if found := _in_export(FolderListing(folder, without)):
         return found
     if (folder / '.git').exists() or is_bare(folder) or _is_workspace(children):
         return [submission_at(folder)]

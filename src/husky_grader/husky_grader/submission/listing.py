@@ -5,6 +5,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+import os
 from pathlib import Path
 from typing import Protocol
 import zipfile
@@ -49,20 +50,21 @@ class Listing(Protocol):
 class FolderListing:
     """An export that was unpacked."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, without: str = '') -> None:
         """
-        List it.
+        List it; see `visible`.
 
         :raises Refused: when it cannot be read.
         """
-        self._folder = folder
-        self.names = visible(folder)
+        self._folder, self._without = folder, without
+        self.names = visible(folder, without)
 
     def inside(self) -> Listing | None:
         if len(self.names) != 1:
             return None
         path = self._folder / self.names[0]
-        return FolderListing(path) if path.is_dir() and not path.is_symlink() else None
+        is_folder = path.is_dir() and not path.is_symlink()
+        return FolderListing(path, self._without) if is_folder else None
 
     def read(self, name: str, most: int) -> bytes:
         return head_of(self._folder / name, most)
@@ -128,15 +130,18 @@ def listed_zip(path: Path) -> Iterator[ZipListing]:
         yield ZipListing(path, archive)
 
 
-def visible(folder: Path) -> list[str]:
+def visible(folder: Path, without: str = '') -> list[str]:
     """
     Return the names in a folder that people see, in order.
 
+    :param without: the real path of what is passed over.
     :raises Refused: when it cannot be read.
     """
     with refusing_what_is_broken(folder.name):
         names = [path.name for path in folder.iterdir()]
-    return sorted(n for n in names if not (is_left_out(n) or n.startswith('.')))
+    names = [n for n in names if not (is_left_out(n) or n.startswith('.'))]
+    # By os.path: Path.resolve fails where links lead in a circle.
+    return sorted(n for n in names if not without or os.path.realpath(folder / n) != without)
 
 
 def submission_at(path: Path, name: str = '') -> Submission:
