@@ -17,7 +17,7 @@ from husky_runtime.command_line import BAD_INPUT
 
 from husky_grader.batch.shards import parse_shard
 from husky_grader.playpen import default_rubric
-from husky_grader.submission.limits import COPY, IGNORED
+from husky_grader.submission.limits import BUILT, COPY, IGNORED
 from husky_grader.tally import Tally
 
 if TYPE_CHECKING:  # they take their time
@@ -119,7 +119,7 @@ def grade_labs(options: argparse.Namespace) -> int:
     # It is none of what was handed in: the next call finds the same.
     without = '' if report in map(os.path.realpath, given) else report
     submissions = find_submissions(given, taken=OUTPUT_FILES, without=without)
-    _check_report(submissions, options)
+    _check_report(submissions, options, builds=not rubric.is_of_files)
     gradebook = None
     if options.gradebook:
         gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
@@ -131,9 +131,11 @@ def grade_labs(options: argparse.Namespace) -> int:
     return _grade_labs(submissions, rubric, sandbox, gradebook, options)
 
 
-def _check_report(submissions: Sequence[Submission], options: argparse.Namespace) -> None:
+def _check_report(
+    submissions: Sequence[Submission], options: argparse.Namespace, *, builds: bool
+) -> None:
     """
-    Check that no report is written into what was handed in.
+    Check that no report is written into what was handed in, or removes a folder of a person's.
 
     :raises ValueError: if one would be.
     """
@@ -146,12 +148,19 @@ def _check_report(submissions: Sequence[Submission], options: argparse.Namespace
                 f'--report {options.report}: there the report on {each.id} would lie in what was '
                 'handed in; name another folder'
             )
+        # Of a grading that was killed the mark in it may be gone; the copy has one all the time.
+        is_new = builds and not (place / COPY / IGNORED).exists()
+        if is_new and _is_taken(place / BUILT, source):
+            raise ValueError(
+                f'--report {options.report}: {place / BUILT} is not of the grader, which would '
+                'build there and remove it; name another folder'
+            )
 
 
-def _is_taken(copy: Path, source: Path) -> bool:
-    """Tell whether the folder for the copy is a person's, or has what was handed in."""
-    return source.is_relative_to(copy) or (
-        copy.is_dir() and not (copy / IGNORED).exists() and any(copy.iterdir())
+def _is_taken(folder: Path, source: Path) -> bool:
+    """Tell whether a folder for the grader is a person's, or has what was handed in."""
+    return source.is_relative_to(folder) or (
+        folder.is_dir() and not (folder / IGNORED).exists() and any(folder.iterdir())
     )
 
 

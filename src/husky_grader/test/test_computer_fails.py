@@ -127,6 +127,28 @@ def test_a_report_in_a_folder_that_is_not_utf8_is_refused(
     assert not folder.exists()
 
 
+def test_a_folder_of_a_person_is_not_taken_for_what_is_built(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    workspace = write_workspace(tmp_path / 'ws')
+    (tmp_path / 'rubric.yaml').write_text('title: T\nsteps:\n  - {kind: build, points: 10}\n')
+    (kept := tmp_path / 'report' / 'built' / 'kept').parent.mkdir(parents=True)
+    kept.touch()
+    words = ['--lab', str(workspace), '--rubric', str(tmp_path / 'rubric.yaml')]
+    words += ['--sandbox', 'none', '--report', str(tmp_path / 'report')]
+    assert grade(words) == 2
+    assert capsys.readouterr().err == (
+        f'--report {tmp_path}/report: {kept.parent} is not of the grader, which would build there '
+        'and remove it; name another folder\n'
+    )
+    kept.rename(tmp_path / 'kept')
+    assert grade(words) == 1
+    kept.parent.mkdir()
+    (tmp_path / 'kept').rename(kept)  # as one that was killed while it removed what it built
+    assert grade(words) == 1
+    assert not kept.parent.exists()
+
+
 def test_a_missing_colcon_is_not_the_fault_of_a_student(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
