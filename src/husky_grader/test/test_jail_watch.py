@@ -16,7 +16,8 @@ import sys
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
-from husky_grader.jail import Jail, Limits, Sandbox
+from husky_grader.jail import Jail, JailedProcess, Limits, Sandbox
+from husky_grader.jail.sandbox import Call, Entry
 from playpen_testing.jails import (
     as_ordinary_user,
     in_each_of_namespaces,
@@ -25,6 +26,7 @@ from playpen_testing.jails import (
     running,
 )
 from playpen_testing.waiting import wait_until
+import psutil
 import pytest
 
 GRADER = """
@@ -130,4 +132,25 @@ def test_its_limits_are_watched_whatever_its_name_is(sandbox: Sandbox, folder: P
     with Jail(sandbox, folder, limits=Limits(memory_mb=150)) as jail:
         process = jail.start([sys.executable, '-c', NAMED], log=folder.with_name('log'))
         assert process.wait(10.0)
+    assert 'MB of memory; 150 MB are allowed' in process.stopped
+
+
+def test_its_limits_are_watched_where_it_is_no_descendant(folder: Path) -> None:
+    pid = folder / 'pid'
+
+    def first(_: object) -> psutil.Process | None:
+        return psutil.Process(int(pid.read_text())) if pid.exists() else None
+
+    # As a container: who starts it waits beside it.
+    writes = f'echo $$ >{pid}.part; mv {pid}.part {pid}; exec {sys.executable} -c "$0"'
+    client = ['bash', '-c', 'setsid --fork sh -c "$1" "$2"; sleep 600', 'sh', writes, EATS]
+    entry = Entry(client, os.environ, first, is_first_elsewhere=True)
+    call = Call(client, {}, folder, (), Limits(memory_mb=150))
+    cell: Any = SimpleNamespace(enter=lambda _: entry)
+    with JailedProcess(cell, call, log=folder.with_name('log')) as process:
+        wait_until(
+            lambda: process.stopped != '',
+            timeout_sec=10.0,
+            what='the end of one that takes too much',
+        )
     assert 'MB of memory; 150 MB are allowed' in process.stopped

@@ -62,7 +62,8 @@ class _Cell:
         # Who else runs with the same number counts too, where there is no namespace of users.
         # Nor does an open file get into it: what removes it ends with the grader.
         last = inside(replace(call, lifeline=None), user=None, counts_tasks=False)
-        return Entry([*words, *last], os.environ, _First(self.program, name))
+        first = _First(self.program, name)
+        return Entry([*words, *last], os.environ, first, is_first_elsewhere=True)
 
     def beside(self, command: Sequence[str]) -> list[str]:
         return [*joining(self.holder), *command]

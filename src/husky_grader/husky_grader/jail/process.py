@@ -130,6 +130,9 @@ class JailedProcess:
     def _processes(self) -> list[psutil.Process]:
         """Return all that run the command; not who put it into the jail, if that is another."""
         with contextlib.suppress(psutil.NoSuchProcess):
+            if self._entry.is_first_elsewhere:
+                first = self._first()
+                return [first, *first.children(recursive=True)] if first else []
             child = psutil.Process(self._child.pid)
             within = child.children(recursive=True)  # it reads all of /proc: once for each look
             return within if self._entry.first else [child, *within]

@@ -62,6 +62,7 @@ class Entry:
     # Returns the process whose end ends all that was started; None until it is there. Where there
     # is no such function, there will be no such process.
     first: Callable[[ChildProcess], psutil.Process | None] | None = None
+    is_first_elsewhere: bool = False  # that process is no descendant of the command
     takes_lifeline: bool = False  # whether the command gets the lifeline of the call
 
 
