@@ -74,7 +74,7 @@ def _checked(result: int, what: str) -> int:
 
 def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
     """Leave the host's files for a root that holds nothing but what is named."""
-    given = os.umask(0o022)  # what is made here another user must be able to pass
+    os.umask(0o022)  # what is made here another user must be able to pass
     _mount('tmpfs', _PLACE, kind='tmpfs', flags=_MS_NOSUID | _MS_NODEV)
     os.chdir(_PLACE)
     os.mkdir('host')
@@ -106,7 +106,6 @@ def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
     _checked(_LIBC.pivot_root(b'.', b'.'), 'pivot_root')
     _checked(_LIBC.umount2(b'.', _MNT_DETACH), 'umount')
     os.chdir('/')
-    os.umask(given)
 
 
 def _mount(source: str, target: str, *, kind: str = '', flags: int, data: str = '') -> None:
@@ -288,6 +287,7 @@ def main(
     limits: list[tuple[int, int]],
     user: int | None,
     lifeline: int | None,
+    umask: int,
     folder: str,
     environment: dict[str, str],
     command: list[str],
@@ -302,6 +302,7 @@ def main(
     :param limits: numbers of setrlimit(2) and values.
     :param user: whose number to take; None: it stays.
     :param lifeline: the number of the pipe that ends with the grader; None: it is the output.
+    :param umask: that of the grader; a container begins with one of its own.
     :returns: the exit code.
     """
     for number in (_SIGINT, _SIGTERM):  # these are for the command
@@ -317,6 +318,7 @@ def main(
             _enter_root(mounts)
             name = host_name.encode()
             _checked(_LIBC.sethostname(name, ctypes.c_size_t(len(name))), 'sethostname')
+        os.umask(umask)
         os.chdir(folder)
         with open('/proc/self/oom_score_adj', 'w') as score:  # if memory runs out, these go first
             score.write('1000')

@@ -145,12 +145,20 @@ def inside(
         'limits': call.limits.for_each_process(counts_tasks=counts_tasks),
         'user': user,
         'lifeline': call.lifeline,
+        'umask': _umask(),
         'folder': str(call.folder),
         'environment': dict(call.environment),
         'command': list(call.command),
     }
     # As JSON it would take longer to read than all the rest.
     return [str(PYTHON), '-I', '-S', str(INSIDE), marshal.dumps(plan).hex()]
+
+
+def _umask() -> int:
+    """Return that of this process; to ask by os.umask is to change it, for other threads too."""
+    lines = Path('/proc/self/status').read_bytes().splitlines()
+    found = (int(line.split()[1], 8) for line in lines if line.startswith(b'Umask:'))
+    return next(found, 0o022)  # gVisor's status has none
 
 
 class Nothing:
