@@ -17,6 +17,7 @@ from husky_grader.lab.build_step import build_step, ColconMissing
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.room import check_room
 from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
+from husky_grader.rubric.steps import Step
 import pytest
 
 RUBRIC = parse_rubric('title: T\nsteps:\n  - {kind: build, points: 10}\n')
@@ -39,6 +40,10 @@ steps:
   - {kind: build, points: 10}
   - {kind: drive, points: 90, package: p, executable: drive, courses: [{file: course.yaml}]}
 """
+PUBLISH = """\
+  - {kind: publisher, points: 10, package: p, executable: drive, topic: t,
+     type: std_msgs/msg/String}
+"""
 
 
 def write_workspace(folder: Path) -> Path:
@@ -48,6 +53,15 @@ def write_workspace(folder: Path) -> Path:
     (package / 'package.xml').write_text(MANIFEST)
     (package / 'setup.py').write_text('raise SystemExit("no such thing")\n')
     return folder
+
+
+def write_driver(folder: Path, program: str) -> None:
+    """Write a workspace that can be built, ws, with a program that is to drive course.yaml."""
+    package = write_workspace(folder / 'ws') / 'src' / 'p'
+    (package / 'CMakeLists.txt').write_text(CMAKE)
+    (package / 'package.xml').write_text(MANIFEST.replace('ament_python', 'cmake'))
+    (package / 'drive').write_text(program)
+    (folder / 'course.yaml').write_text('waypoints: [[0, 0], [-1, 0]]\n')
 
 
 @contextmanager
@@ -167,11 +181,7 @@ def test_a_missing_colcon_is_not_the_fault_of_a_student(
 def test_a_simulator_that_does_not_start_is_told_to_who_grades(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    package = write_workspace(tmp_path / 'ws') / 'src' / 'p'
-    (package / 'CMakeLists.txt').write_text(CMAKE)
-    (package / 'package.xml').write_text(MANIFEST.replace('ament_python', 'cmake'))
-    (package / 'drive').touch()
-    (tmp_path / 'course.yaml').write_text('waypoints: [[0, 0], [-1, 0]]\n')
+    write_driver(tmp_path, '')
     (tmp_path / 'rubric.yaml').write_text(DRIVE)
     monkeypatch.setenv('RMW_IMPLEMENTATION', 'rmw_of_nobody')
     with pytest.raises(ValueError, match='the simulator did not start: '):
@@ -197,3 +207,29 @@ def test_a_build_that_the_kernel_ends_is_told_of_memory(
         found = build_step(workspace, jail, tmp_path / 'log')
     killed = 'SIGKILL, as by the kernel where memory runs out'
     assert (found.score, found.why) == (0.0, f'colcon build failed: {killed}')
+
+
+@pytest.mark.timeout(60)
+def test_a_job_is_alive_amid_each_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However much time the watch over programs takes there: else it would be ended."""
+    write_driver(tmp_path, '#!/bin/sh\nsleep 2\n')
+    monkeypatch.setattr('husky_grader.lab.build_step.ALIVE_EVERY_SEC', 0.05)
+    calls: list[None] = []
+    amid: dict[str, int] = {}
+
+    def done(step: Step) -> None:
+        amid[step.name] = len(calls)
+        calls.clear()
+
+    steps = grade_lab(
+        tmp_path / 'ws',
+        parse_rubric(DRIVE + PUBLISH, str(tmp_path / 'rubric.yaml')),
+        tmp_path / 'report',
+        sandbox=find_sandbox('none'),
+        done=done,
+        alive=lambda: calls.append(None),
+    )
+    assert [step.points for step in steps] == [10.0, 0.0, 0.0], steps
+    # Once is after the step before.
+    assert {name: count > 1 for name, count in amid.items()} == dict.fromkeys(amid, True), amid
+    assert [*amid] == ['build', 'drive', 'publisher']

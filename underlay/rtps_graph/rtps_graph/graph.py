@@ -222,8 +222,9 @@ def _qos(values: dict[int, list[bytes]], written: bool) -> Qos:
 
 def _nodes(sample: bytes | None) -> list[tuple[str, str, list[bytes]]]:
     """Return namespace, name and GUIDs of each node; none where the sample is cut short."""
-    with contextlib.suppress(IndexError, struct.error):
-        return [] if sample is None else _read_nodes(sample)
+    if sample is not None:
+        with contextlib.suppress(IndexError, struct.error):
+            return _read_nodes(sample)
     return []
 
 

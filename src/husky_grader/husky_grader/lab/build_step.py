@@ -21,7 +21,7 @@ from husky_grader.rubric.colcon_errors import (
 from husky_grader.run.diagnosis import crash, how_ended
 
 BUILD_WITHIN_SEC = 300.0
-LOOK_SEC = 1.0  # meanwhile
+ALIVE_EVERY_SEC = 1.0  # how often `alive` is called during a build
 SOURCE_WITHIN_SEC = 60.0
 NO_PROGRAM = 127  # as a shell says it
 MAX_VARIABLES = 30_000  # bytes, of all of them together; Linux starts no program with too many
@@ -75,7 +75,7 @@ def build_step(
 def _has_ended(build: JailedProcess, alive: Callable[[], object]) -> bool:
     """Wait for the end of a build; tell whether it came in time."""
     deadline_sec = time.monotonic() + BUILD_WITHIN_SEC
-    while not build.wait(LOOK_SEC):
+    while not build.wait(ALIVE_EVERY_SEC):
         alive()
         if time.monotonic() > deadline_sec:
             return False
