@@ -6,6 +6,7 @@ import math
 
 from husky_driver.checks.path_scan import LASER_X_M, look_along, Scan, Sighting
 from husky_driver.drive.drive import Drive
+import numpy as np
 
 SCAN_TIMEOUT_SEC = 1.0  # an older scan says nothing about the path
 GIVE_UP_SEC = 60.0  # how long the robot waits for a free path
@@ -27,6 +28,7 @@ class ObstacleStop:
     def _restart(self, now_sec: float) -> None:
         self.holds = True  # also before the first scan
         self._sighting: Sighting | None = None
+        self._blind = False  # whether the last scan has measured nothing
         self._scanned_sec = -math.inf
         self._begun_sec = self._free_sec = self._now_sec = now_sec
         self._state = 'free'
@@ -36,6 +38,9 @@ class ObstacleStop:
         now, tracker = drive.odometry, drive.tracker
         if now is not None and scan.time_sec > now.time_sec + SCAN_TIMEOUT_SEC:
             return  # from before a reset: its stamp would hide that scans are missing
+        self._blind = bool(np.isnan(scan.ranges).all())  # also without a single range
+        if self._blind:
+            return
         self._scanned_sec = scan.time_sec
         self._sighting = None
         if now is not None and tracker is not None and not tracker.reverse:
@@ -70,6 +75,8 @@ class ObstacleStop:
         return f'stood for {GIVE_UP_SEC:g} s: {self._describe()}'
 
     def _describe(self) -> str:
+        if self._state == 'silent' and self._blind:
+            return f'standing: the scans on {self._topic} measure nothing: no range is a number'
         if self._state == 'silent':
             return f'standing: no scan comes on {self._topic}; is the laser on (lidar_rate_hz)?'
         return f'stopping: {self._sighting}' if self._sighting else 'the way is free: driving on'

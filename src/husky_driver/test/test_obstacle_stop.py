@@ -138,6 +138,23 @@ def test_without_scans_the_robot_stands() -> None:
     assert stop.holds
 
 
+def test_scans_that_measure_nothing_do_not_tell_that_the_way_is_free() -> None:
+    for ranges in ([math.nan] * 720, []):
+        stop, drive = ObstacleStop(), driving()
+        stop.update(10.0)
+        stop.add_scan(scan_at(10.0), drive)
+        for time_sec in (10.1, 10.9):
+            stop.add_scan(Scan(time_sec, ranges, FIRST, STEP), drive)
+        assert (stop.update(11.0), stop.holds) == ('', False)
+        assert stop.update(11.1) == (
+            'standing: the scans on front/scan measure nothing: no range is a number'
+        )
+        assert stop.holds
+        drive.step(Odometry(11.2, 0.0, 0.0, 0.0, 0.0, 0.0))
+        stop.add_scan(scan_at(11.2), drive)  # +inf: nothing within reach
+        assert (stop.update(11.2), stop.holds) == ('the way is free: driving on', False)
+
+
 def test_it_waits_a_minute_and_no_longer() -> None:
     stop = ObstacleStop()
     for tenth in range(610):

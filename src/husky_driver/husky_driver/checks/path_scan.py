@@ -24,7 +24,8 @@ class Scan(NamedTuple):
     """
     One scan; ranges that are not finite count as free, but for -inf.
 
-    That is an obstacle too near to be measured (REP-117).
+    That is an obstacle too near to be measured (REP-117). One of NaN alone tells nothing and is
+    not to be searched.
     """
 
     time_sec: float
