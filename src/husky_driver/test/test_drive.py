@@ -126,6 +126,16 @@ def test_speeds_yaw_dwell_and_reverse_of_waypoints_are_obeyed(
     assert run.drive.reached == 4
 
 
+def test_the_way_to_a_first_waypoint_with_reverse_is_driven_backwards(
+    drive_to_end: Callable[..., Any],
+) -> None:
+    course = parse_course('waypoints: [{x: -2, y: 0, reverse: true}, [0, 0], [2, 0]]')
+    run = drive_to_end(drive_of(course))
+    assert run.drive.reached == 3
+    assert min(o.speed_m_s for o in run.track) < -0.4
+    assert max(abs(o.yaw_rad) for o in run.track) < 0.05  # it does not turn round
+
+
 def test_sharp_corners_are_turned_on_the_spot(drive_to_end: Callable[..., Any]) -> None:
     course = parse_course('corners: sharp\nwaypoints: [[0, 0], [2, 0], [2, 2]]')
     run = drive_to_end(drive_of(course))

@@ -73,7 +73,7 @@ def lead_in(course: Course, start: Point) -> Leg | None:
     if math.dist(start, goal) <= min(course.tolerance_m, AT_FIRST_M):
         return None
     speed = first.speed_m_s or course.speed_m_s
-    return Leg(smooth_curve([start, goal]), (speed,), -1)
+    return Leg(smooth_curve([start, goal]), (speed,), -1, first.reverse)
 
 
 def _is_cut(course: Course, i: int) -> bool:
