@@ -18,6 +18,7 @@ from husky_course.waypoints import load_course
 from husky_grader.run.in_process import Conditions, drive_route
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
+from playpen_testing.keyboard import Keyboard
 from playpen_testing.page_client import PageClient
 from playpen_testing.processes import IN_A_TERMINAL, Process, Processes
 from playpen_testing.shared_memory import left, own_files
@@ -431,3 +432,18 @@ def test_a_drive_opens_its_page_first_and_replays_at_the_end(
     assert run.wait(timeout_sec=15.0) == 0, run.output
     assert 'interrupted' not in run.output
     assert 'Traceback' not in run.output
+
+
+def test_who_debugs_a_test_can_type_into_it(tmp_path: Path) -> None:
+    (tmp_path / 'test_mine.py').write_text(
+        'def test_mine():\n    value = 20\n    breakpoint()\n    assert value\n'
+    )
+    keyboard = Keyboard(LAB, 'test', str(tmp_path))
+    try:
+        keyboard.wait_for_text('(Pdb)')
+        keyboard.press('print(value * 2 + 1)\n')
+        keyboard.wait_for_text('41')
+        keyboard.press('continue\n')
+        keyboard.wait_for_text('1 passed')
+    finally:
+        keyboard.close()

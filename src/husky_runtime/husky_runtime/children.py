@@ -45,6 +45,7 @@ class ChildProcess:
 
     :param log: takes what it prints; None: what this process prints goes there too.
     :param answers: what it reads from its standard input.
+    :param reads: it has the standard input of this process instead, as a debugger needs.
     :param parent_death: the signal that it gets when its parent, the thread that starts it, ends.
     :param inherited: numbers of open files that it gets besides, as they are here.
     """
@@ -56,6 +57,7 @@ class ChildProcess:
         log: IO[str] | None = None,
         answers: str = '',
         *,
+        reads: bool = False,
         parent_death: int = signal.SIGTERM,
         inherited: Sequence[int] = (),
     ) -> None:
@@ -68,7 +70,7 @@ class ChildProcess:
         self._child = subprocess.Popen(
             command,
             env={**environment, MARK: self._mark},
-            stdin=subprocess.PIPE if answers else subprocess.DEVNULL,
+            stdin=subprocess.PIPE if answers else None if reads else subprocess.DEVNULL,
             stdout=log,
             stderr=None if log is None else subprocess.STDOUT,
             start_new_session=True,

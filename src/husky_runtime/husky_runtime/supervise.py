@@ -26,12 +26,17 @@ POLL_SEC = 0.02
 
 
 def run_to_end(
-    command: Sequence[str], environment: Mapping[str, str], *, ends_by_itself: bool = True
+    command: Sequence[str],
+    environment: Mapping[str, str],
+    *,
+    ends_by_itself: bool = True,
+    reads: bool = False,
 ) -> int:
     """
     Run a command until it ends, and everything that it has started with it.
 
     :param ends_by_itself: of one that does not, Ctrl-C is the end, and no interruption.
+    :param reads: it has the standard input of this process.
     :returns: its exit status; minus the number of the signal that ended it.
     :raises SystemExit: when a signal has asked this process to end, with 128 and its number.
     """
@@ -50,7 +55,7 @@ def run_to_end(
         signal.signal(signal.SIGTSTP, lambda number, _: stops.append(number))
     firm_sec = FIRM_SEC
     try:
-        child = ChildProcess(command, environment)
+        child = ChildProcess(command, environment, reads=reads)
         while not asked and not child.wait(POLL_SEC):
             if stops:
                 stops.clear()  # before: a Ctrl-Z soon after `fg` is another one
@@ -89,7 +94,7 @@ def _stop_with_descendants() -> None:
 
 
 def main() -> int:
-    status = run_to_end(sys.argv[1:], os.environ)
+    status = run_to_end(sys.argv[1:], os.environ, reads=True)  # pytest's debugger does
     return 128 - status if status < 0 else status
 
 
