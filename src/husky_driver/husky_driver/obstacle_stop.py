@@ -4,9 +4,10 @@
 
 import math
 
+import numpy as np
+
 from husky_driver.checks.path_scan import LASER_X_M, look_along, Scan, Sighting
 from husky_driver.drive.drive import Drive
-import numpy as np
 
 SCAN_TIMEOUT_SEC = 1.0  # an older scan says nothing about the path
 GIVE_UP_SEC = 60.0  # how long the robot waits for a free path
