@@ -354,7 +354,7 @@ def test_a_namespace_and_remaps_apply(
             'follow_path: parameter wayponts does not exist; did you mean waypoints?',
         ),
         (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
-        (['--ros-args', '-p', 'odometry_timeout_sec:=a'], 'must be of numbers'),
+        (['--ros-args', '-p', 'odometry_timeout_sec:=a'], "'a' is not allowed; allowed is 0.1 to"),
         (['--ros-args', '-p', 'waypoints:=~/no.yaml'], f'{Path.home()}/no.yaml: no such file'),
         ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
     ],

@@ -19,6 +19,8 @@ def test_a_robot_has_the_limits_of_its_name() -> None:
 def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:
     with pytest.raises(ValueError, match="check: 'loudly' is not allowed; allowed: warn, refuse"):
         Settings(check='loudly')
+    with pytest.raises(ValueError, match='imu_ahead_m: 3 is not allowed; allowed is -2 to 2'):
+        Settings(imu_ahead_m=3)  # whole, as it is where somebody writes no decimal point
     with pytest.raises(ValueError, match=r'start: 2 numbers; write \[x, y, yaw\]'):
         Settings(start=(0.0, 1.0))
 

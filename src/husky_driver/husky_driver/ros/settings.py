@@ -145,8 +145,11 @@ def refuse(setting: Setting, given: Any) -> ValueError:
     if setting.choices:
         allowed = ', '.join(setting.choices)
         return ValueError(f'parameter {name}: {given!r} is not allowed; allowed: {allowed}')
-    if isinstance(given, float) and setting.has_range:
-        return ValueError(f'parameter {name}: allowed is {setting.low:g} to {setting.high:g}')
+    if setting.has_range:
+        return ValueError(
+            f'parameter {name}: {given!r} is not allowed; allowed is {setting.low:g} to '
+            f'{setting.high:g}'
+        )
     kinds = {str: 'text', bool: 'true or false'}
     example = list(default) if isinstance(default, tuple) else default
     return ValueError(
