@@ -32,7 +32,7 @@ from husky_sim.world.world import default_worlds
 import numpy as np
 import pytest
 
-from husky_sim.config import SensorConfig, SimulationConfig
+from husky_sim.config import DriveConfig, SensorConfig, SimulationConfig
 
 X = COLUMNS.index('x')
 
@@ -220,6 +220,25 @@ def test_what_no_husky_can_have_done_is_refused(
     with pytest.raises(RecordRefused, match=said) as refused:
         read_record(path)
     assert '\n' not in str(refused.value)
+
+
+def test_a_robot_may_be_as_fast_as_the_run_allows_it(tmp_path: Path) -> None:
+    world = str(default_worlds() / 'empty.xml')
+    drive_config = DriveConfig(speed_limit_m_s=5.0, acceleration_limit_m_s2=10.0)
+    simulation = Simulation(SimulationConfig(world=world, drive=drive_config))
+    with RunRecorder(simulation, tmp_path / FILE_NAME) as recorder:
+        for _ in range(150):
+            simulation.robots[0].controller.command(5.0, 0.0, time_sec=simulation.time_sec)
+            simulation.advance()
+            recorder.append()
+    run = read_record(tmp_path)
+    assert run.column(0, 'speed_m_s').max() > 4.9
+    header, *blocks = content_of(tmp_path / FILE_NAME)
+    for limit, said in (('2.0', 'jumps'), ('inf', 'limit of inf'), ('nan', 'limit of nan')):
+        header['conditions'] = [f'speed_limit_m_s:={limit}']
+        (tmp_path / FILE_NAME).write_bytes(b''.join(map(block_of, [header, *blocks])))
+        with pytest.raises(RecordRefused, match=said):
+            read_record(tmp_path)
 
 
 HEADER = {'format': 'husky_playpen_record', 'version': 3, 'columns': COLUMNS, 'world': 'w'}

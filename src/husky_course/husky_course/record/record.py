@@ -24,8 +24,10 @@ from husky_course.record.contents import (
 from husky_course.record.writer import FILE_NAME, FORMAT, VERSION
 from husky_course.robot import RobotStart
 
-MAX_SPEED_M_S = 3.0
-"""Three times what the wheels can do: faster is no Husky."""
+SPEED_LIMIT, MOST_LIMIT_M_S = 'speed_limit_m_s:=', 10.0
+"""The condition that lets the wheels do another speed than 1 m/s, and the greatest there is."""
+FASTER_M_S = 2.0
+"""More than this above what the wheels may do is no Husky."""
 MAX_POSITION_M = 1e6
 MAX_YAW_RAD = 1e6
 MAX_OBSTACLES = 10_000
@@ -197,11 +199,13 @@ def _read(file: str, blocks: Iterator[Any], size: int) -> Record:
         else:
             events.take(block)
     rows = table[:count]
-    _check_rows(rows, robots, _number(header['control_period_sec']))
+    conditions = _conditions(header['conditions'])
+    period_sec = _number(header['control_period_sec'])
+    _check_rows(rows, robots, period_sec, most_m_s=_limit_m_s(conditions) + FASTER_M_S)
     return Record(
         file=file,
         world=_text(header['world']),
-        conditions=_conditions(header['conditions']),
+        conditions=conditions,
         robots=robots,
         obstacles=_outlines(header['obstacles']),
         rows=rows,
@@ -277,7 +281,9 @@ class _Events:
         }
 
 
-def _check_rows(rows: Array, robots: tuple[RobotStart, ...], period_sec: float) -> None:
+def _check_rows(
+    rows: Array, robots: tuple[RobotStart, ...], period_sec: float, *, most_m_s: float
+) -> None:
     """Refuse what no simulation gives: holes, NaN, time that runs back, jumps."""
     if not len(rows):
         raise ValueError('no entries')
@@ -294,7 +300,7 @@ def _check_rows(rows: Array, robots: tuple[RobotStart, ...], period_sec: float) 
     if (wrong := np.flatnonzero(np.abs(steps - period_sec).max(axis=1, initial=0.0) > 1e-6)).size:
         begin, end = time[wrong[0] : wrong[0] + 2, 0]
         raise ValueError(f'its time goes from {begin:.2f} s to {end:.2f} s in one step')
-    most_m = MAX_SPEED_M_S * period_sec + 1e-3
+    most_m = most_m_s * period_sec + 1e-3
     for place, robot in enumerate(robots):
         for name in ('x', 'odom_x'):
             first = COLUMNS.index(name)
@@ -354,6 +360,15 @@ def _conditions(given: Iterable[Any]) -> tuple[str, ...]:
     if sum(map(len, conditions)) > MAX_CONDITIONS:
         raise ValueError(f'conditions longer than {MAX_CONDITIONS} characters')
     return conditions
+
+
+def _limit_m_s(conditions: tuple[str, ...]) -> float:
+    """Return how fast the wheels may be: 1 m/s, but where the run was driven with more."""
+    given = [each.removeprefix(SPEED_LIMIT) for each in conditions if each.startswith(SPEED_LIMIT)]
+    limit_m_s = max(map(float, given), default=1.0)
+    if not 0.0 <= limit_m_s <= MOST_LIMIT_M_S:  # also of nan
+        raise ValueError(f'a speed limit of {limit_m_s:g} m/s')
+    return max(limit_m_s, 1.0)
 
 
 def _text(value: Any) -> str:
