@@ -70,6 +70,13 @@ def test_simulated_time_is_limited_to_the_period(
     assert simulator.simulation.time_sec == pytest.approx(2.0, abs=1e-6)
 
 
+def test_the_limit_is_told_as_it_was_given(
+    domain_id: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    run_until(domain_id, is_over, real_time_factor=0.0, limit_sec=0.5)
+    assert 'time is up after 0.5 s of simulated time' in capfd.readouterr().err
+
+
 def test_without_a_limit_it_goes_on(domain_id: int) -> None:
     simulator = run_until(
         domain_id, lambda node: node.simulation.time_sec > 10.0, real_time_factor=0.0

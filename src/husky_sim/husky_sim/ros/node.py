@@ -191,7 +191,7 @@ class SimulatorNode(SettingsNode):
             self._record.append()
         self._topics.publish(tells_time=tells_time)
         if 0.0 < self._run.limit_sec <= self.simulation.time_sec:
-            self.end(f'time is up after {self._run.limit_sec:.0f} s of simulated time')
+            self.end(f'time is up after {self._run.limit_sec:g} s of simulated time')
         self._topics.warn_of_timeouts()
         self._topics.warn_of_empty_batteries()
         self._topics.warn_of_turned_over()
