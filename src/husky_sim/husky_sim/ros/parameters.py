@@ -31,8 +31,8 @@ FACTOR = next(each for each in settings_of(RunConfig) if each.changeable)
 """real_time_factor, the one setting that may change while the simulation runs."""
 
 _ROBOTS = (
-    "Many robots, each as 'NAME X Y YAW' (m, m, rad); each gets NAME as its namespace. "
-    'Empty: one robot named husky, at x, y, yaw, in the namespace of the node.'
+    "Many robots, each as 'NAME X Y YAW' (m, m, rad); of several, each gets NAME as its "
+    'namespace. Empty: one robot named husky, at x, y, yaw, in the namespace of the node.'
 )
 
 _NAMES = (
