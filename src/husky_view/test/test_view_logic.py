@@ -377,6 +377,15 @@ def test_opening_a_file_keeps_what_the_editor_does_not_edit(tmp_path: Path) -> N
     assert '{x: 2.00, y: 0.00, speed: 0.3, yaw: 1.5, dwell: 2}' in course.text_of(edited.course)
 
 
+def test_the_path_of_a_file_begins_where_the_robot_does(tmp_path: Path) -> None:
+    file = tmp_path / 'away.yaml'
+    file.write_text('waypoints: [[3, 4], [5, 4]]')
+    line, waypoints = course.path_of(file)
+    assert line[[0, -1]].tolist() == [[0.0, 0.0], [5.0, 4.0]]
+    assert waypoints.tolist() == [[3.0, 4.0], [5.0, 4.0]]
+    assert np.hypot(*np.diff(line, axis=0).T).sum() == pytest.approx(7.0, abs=0.01)
+
+
 @pytest.mark.timeout(30)
 @pytest.mark.parametrize('read', [course.load, course.path_of])
 def test_what_the_driver_cannot_read_is_refused(

@@ -167,8 +167,8 @@ def preview(course: Course, start: RobotStart, obstacles: Sequence[Outline]) -> 
 
 
 def _path(course: Course) -> Array:
-    """Return the poses (n, 3) of the driver's path."""
-    return np.concatenate([_poses(leg) for leg in plan_route(course).legs])
+    """Return the poses (n, 3) of the driver's path, with the way to its first waypoint."""
+    return np.concatenate([_poses(leg) for leg in plan_route(course).begun_at((0.0, 0.0)).legs])
 
 
 def _poses(leg: Leg) -> Array:
