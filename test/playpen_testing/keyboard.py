@@ -49,6 +49,10 @@ class Keyboard:
     def is_as_before(self) -> bool:
         return termios.tcgetattr(self._slave) == self.before
 
+    def put_back(self) -> None:
+        """Put the terminal back as it was before the command."""
+        termios.tcsetattr(self._slave, termios.TCSADRAIN, self.before)
+
     def close(self) -> None:
         self.process.kill()
         self.process.wait()

@@ -123,11 +123,19 @@ class Teleop(Node):
 @contextmanager
 def raw_terminal(terminal: int) -> Iterator[None]:
     """Let every key through at once; put the terminal back afterwards."""
+
+    def on_resume(*_: object) -> None:
+        with suppress(termios.error):  # the terminal may be closed
+            tty.setcbreak(terminal)
+
     before = termios.tcgetattr(terminal)
+    # After Ctrl-Z the shell puts back what it had before, and leaves that so with `fg`.
+    handler = signal.signal(signal.SIGCONT, on_resume)
     try:
         tty.setcbreak(terminal)
         yield
     finally:
+        signal.signal(signal.SIGCONT, handler)
         with suppress(termios.error):  # the terminal may be closed
             termios.tcsetattr(terminal, termios.TCSADRAIN, before)
 

@@ -4,6 +4,7 @@ from collections.abc import Callable
 import fcntl
 import os
 import pty
+import signal
 import subprocess
 import sys
 import termios
@@ -16,6 +17,8 @@ from husky_driver.keys import HELP, Keyboard, MOVES, split_keys
 from husky_driver.motion import Command, STOP
 from husky_driver.teleop import main
 from husky_runtime.executor import make_executor
+from playpen_testing.keyboard import CTRL_C
+from playpen_testing.keyboard import Keyboard as Terminal
 import pytest
 import rclpy
 
@@ -155,6 +158,29 @@ def test_a_released_key_or_a_closed_terminal_stops_the_robot(
     finally:
         process.kill()
         process.wait()
+
+
+def test_keys_get_through_again_after_ctrl_z_and_fg(
+    domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+    monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
+    terminal = Terminal(sys.executable, '-m', 'husky_driver.teleop')
+    try:
+        terminal.wait_for_text('forward, with a turn')
+        terminal.press('w')
+        terminal.wait_for_text('0.55 m/s')
+        terminal.put_back()  # as a shell does when it has stopped a program
+        terminal.send_signal(signal.SIGCONT)
+        wait_until(lambda: not terminal.is_as_before(), timeout_sec=5.0, what='terminal for keys')
+        terminal.press('w')
+        terminal.wait_for_text('0.61 m/s')
+        terminal.press(CTRL_C)
+        assert terminal.process.wait(timeout=10.0) == 0
+        assert terminal.is_as_before()
+    finally:
+        terminal.close()
 
 
 def test_without_a_simulator_or_with_a_wrong_parameter_it_says_so(
