@@ -10,6 +10,7 @@ import os
 from typing import Any
 
 from husky_runtime.settings import Setting, setting, settings_of
+import numpy as np
 
 from husky_sim.config import FLOORS
 
@@ -45,6 +46,7 @@ class EnvironmentSettings:
         for each in settings_of(type(self)):
             given = getattr(self, each.name)
             given = os.fspath(given) if isinstance(given, os.PathLike) else given
+            given = given.item() if isinstance(given, np.generic) else given  # drawn by chance
             object.__setattr__(self, each.name, each.checked(given, _refused))
         if self.laser_beams == 1:
             raise ValueError('laser_beams=1: allowed is 0, none, or from 2 to 720')

@@ -166,6 +166,21 @@ def test_a_bad_setting_is_refused(settings: dict[str, Any], message: str) -> Non
     assert '\n' not in str(refused.value)
 
 
+def test_a_setting_may_be_drawn_by_numpy() -> None:
+    from husky_gym.settings import EnvironmentSettings
+
+    draw = np.random.default_rng(1)
+    drawn: dict[str, Any] = {
+        'frame_skip': draw.integers(1, 9),
+        'floor': draw.choice(['grass', 'wet']),
+        'lost_m': np.float32(0.5),
+    }
+    settings = EnvironmentSettings(**drawn)
+    assert type(settings.frame_skip) is int
+    assert type(settings.floor) is str
+    assert settings.lost_m == 0.5
+
+
 def test_without_gymnasium_it_says_how_to_get_it() -> None:
     program = 'import sys\nsys.modules["gymnasium"] = None\nimport husky_gym'
     done = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
