@@ -41,6 +41,14 @@ def test_without_a_terminal_every_tenth_is_a_line() -> None:
     assert lines[-1] == '100 %: 0.00 m left, 25.0 s, on its way'
 
 
+def test_another_drive_has_lines_of_its_own() -> None:
+    lines = list[str]()
+    progress = Progress(StringIO(), lines.append, bar=False)
+    for remaining_m in (10.0, 2.0, 10.0, 8.0):  # as after a reset
+        progress.update(10.0, remaining_m, 1.0, 'on its way')
+    assert [line.split(':')[0] for line in lines] == ['80 %', '0 %', '20 %']
+
+
 @pytest.mark.parametrize('bar', [True, False])
 def test_what_is_no_number_is_not_shown(bar: bool) -> None:
     terminal, lines = StringIO(), list[str]()

@@ -29,7 +29,7 @@ class Progress:
             self._draw(part, f'{remaining_m:6.2f} m left  {elapsed_sec:6.1f} s  {note}')
             return
         tenth = int(part * 10 + 1e-9)
-        if tenth > self._tenth:
+        if tenth > self._tenth or tenth < self._tenth - 1:  # or another drive has begun
             self._tenth = tenth
             self._line(f'{tenth * 10} %: {remaining_m:.2f} m left, {elapsed_sec:.1f} s, {note}')
 
