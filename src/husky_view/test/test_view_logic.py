@@ -24,7 +24,7 @@ from husky_runtime.web_address import (
 )
 from husky_sim.recording import loose_bodies, MOVED, RunRecorder
 from husky_sim.simulation import Simulation
-from husky_sim.world import default_worlds
+from husky_sim.world import default_worlds, load_world
 from husky_view.editor import course
 from husky_view.editor.course import EditableCourse
 from husky_view.live.checks import RealTimeFactor
@@ -95,6 +95,25 @@ def test_alike_obstacles_are_one_mesh_and_the_ground_another() -> None:
         ground = server.scene.get_handle_by_name('/fixed_bodies/world/group0')
         assert isinstance(ground, viser.GlbHandle)
         assert ground.receive_shadow is False, 'it would be drawn a second time'
+    finally:
+        server.stop()
+
+
+def test_what_has_no_name_is_drawn_where_it_was_pushed_to(tmp_path: Path) -> None:
+    file = tmp_path / 'world.xml'
+    file.write_text(
+        '<mujoco><worldbody><geom name="ground" type="plane" size="9 9 1"/>'
+        '<body pos="2 0 0.3"><freejoint/><geom size="0.3"/></body></worldbody></mujoco>'
+    )
+    world = load_world(str(file), [RobotStart()])
+    server = viser.ViserServer('127.0.0.1', free_port('127.0.0.1', 18200), verbose=False)
+    try:
+        scene = PlaypenScene(server, world)
+        qpos = world.model.qpos0.copy()
+        qpos[0:2] = 3.0, 1.0
+        scene.show(qpos)
+        (ball,) = scene.outlines()
+        assert (ball.name, ball.x, ball.y) == ('body 1', 3.0, 1.0)
     finally:
         server.stop()
 

@@ -4,7 +4,7 @@
 
 from husky_sim.recording.played_run import PlayedRun
 from husky_sim.recording.recorded_scans import RecordedScans, SCAN_RATE_HZ
-from husky_sim.recording.recorder import loose_bodies, MOVED, RunRecorder
+from husky_sim.recording.recorder import loose_bodies, loose_body_ids, MOVED, RunRecorder
 
 __all__ = [
     'MOVED',
@@ -13,4 +13,5 @@ __all__ = [
     'RecordedScans',
     'RunRecorder',
     'loose_bodies',
+    'loose_body_ids',
 ]

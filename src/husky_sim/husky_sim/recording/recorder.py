@@ -22,21 +22,30 @@ MOVED = 1e-3
 _DIGITS = 4
 
 
-def loose_bodies(world: World) -> dict[str, slice]:
+def loose_body_ids(world: World) -> dict[str, int]:
     """
-    Return which part of qpos belongs to every loose body, by name.
+    Return the number in the model of every loose body, by name.
 
     Loose is every body outside the robots that has a joint.
     """
     model = world.model
     robots = {int(model.body(f'{robot.name}/base_link').rootid[0]) for robot in world.robots}
+    return {
+        model.body(body).name or f'body {body}': body
+        for body in range(model.nbody)
+        if model.body_jntnum[body] and int(model.body_rootid[body]) not in robots
+    }
+
+
+def loose_bodies(world: World) -> dict[str, slice]:
+    """Return which part of qpos belongs to every loose body, by name."""
+    model = world.model
     ends = [*model.jnt_qposadr.tolist(), model.nq]
     return {
-        model.body(body).name or f'body {body}': slice(ends[first], ends[first + count])
-        for body, (first, count) in enumerate(
-            zip(model.body_jntadr, model.body_jntnum, strict=True)
+        name: slice(
+            ends[model.body_jntadr[body]], ends[model.body_jntadr[body] + model.body_jntnum[body]]
         )
-        if count and int(model.body_rootid[body]) not in robots
+        for name, body in loose_body_ids(world).items()
     }
 
 

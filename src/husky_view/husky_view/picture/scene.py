@@ -5,9 +5,9 @@
 from dataclasses import replace
 import math
 
-from husky_course.frames import Array
+from husky_course.frames import Array, Pose
 from husky_course.outline import Outline
-from husky_sim.recording import loose_bodies
+from husky_sim.recording import loose_body_ids
 from husky_sim.world import World
 from mjviser import ViserMujocoScene
 import mujoco
@@ -51,13 +51,8 @@ class PlaypenScene:
         self._lasers = [world.model.site(f'{robot.name}/front_laser').id for robot in world.robots]
         self._bases = [world.model.body(f'{robot.name}/base_link').id for robot in world.robots]
         self.ground_m = float(self._data.xpos[self._bases[0]][2]) - _BASE_HEIGHT_M
-        self._loose = {
-            name: (
-                *self._data.body(name).xpos[:2].tolist(),
-                _yaw(self._data.body(name).xmat),
-            )
-            for name in loose_bodies(world)
-        }
+        self._loose = loose_body_ids(world)
+        self._before = {name: self._place_of(body) for name, body in self._loose.items()}
         self._scene.update_from_mjdata(self._data)
 
     def show(self, qpos: Array) -> None:
@@ -78,17 +73,21 @@ class PlaypenScene:
     def _moved(self, outline: Outline) -> Outline:
         if outline.name not in self._loose:
             return outline
-        body = self.world.model.body(outline.name).id
-        (x, y), yaw = self._data.xpos[body][:2], _yaw(self._data.xmat[body])
-        before_x, before_y, before_yaw = self._loose[outline.name]
+        x, y, yaw = self._place_of(self._loose[outline.name])
+        before_x, before_y, before_yaw = self._before[outline.name]
         turned = yaw - before_yaw
         dx, dy = outline.x - before_x, outline.y - before_y
         return replace(
             outline,
-            x=float(x + dx * math.cos(turned) - dy * math.sin(turned)),
-            y=float(y + dx * math.sin(turned) + dy * math.cos(turned)),
+            x=x + dx * math.cos(turned) - dy * math.sin(turned),
+            y=y + dx * math.sin(turned) + dy * math.cos(turned),
             yaw=outline.yaw + turned,
         )
+
+    def _place_of(self, body: int) -> Pose:
+        rotation = self._data.xmat[body]
+        yaw = math.atan2(float(rotation[3]), float(rotation[0]))
+        return float(self._data.xpos[body][0]), float(self._data.xpos[body][1]), yaw
 
     def beam_ends(self, robot: int, ranges: Array, angles: Array) -> Array:
         """Return the ends of beams (n, 3) in the world; angles in radians to the left."""
@@ -97,10 +96,6 @@ class PlaypenScene:
         beams = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * angles])
         ends: Array = beams @ rotation.T + self._data.site_xpos[laser]
         return ends
-
-
-def _yaw(rotation: Array) -> float:
-    return math.atan2(float(rotation[3]), float(rotation[0]))
 
 
 def _light(server: viser.ViserServer) -> None:
