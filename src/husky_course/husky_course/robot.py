@@ -13,7 +13,7 @@ from husky_course.frames import Pose
 ROBOT_LENGTH_M = 0.9874  # of the A200's collision box, bumpers included
 ROBOT_WIDTH_M = 0.6851
 
-_NAME = re.compile(r'[A-Za-z][A-Za-z0-9_]*')
+_NAME = re.compile(r'[A-Za-z](_?[A-Za-z0-9]){0,59}_?')  # ROS takes no __ in a namespace
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +44,7 @@ class RobotStart:
             x = y = yaw = math.nan
         if not _NAME.fullmatch(name) or not all(math.isfinite(value) for value in (x, y, yaw)):
             raise ValueError(
-                f"{line!r}: a robot is 'NAME X Y YAW', a name of letters, digits and _ and "
-                "three numbers, as in 'husky_beta 1.0 3.0 0.5236'"
+                f"{line!r}: a robot is 'NAME X Y YAW', a name of letters, digits and single _ "
+                "and three numbers, as in 'husky_beta 1.0 3.0 0.5236'"
             )
         return cls(name=name, x=x, y=y, yaw=yaw)

@@ -31,7 +31,13 @@ def test_a_robot_is_read_from_its_line() -> None:
     assert robot.pose == (1.0, 3.0, -0.5)
 
 
-@pytest.mark.parametrize('line', ['', 'a/b 0 0 0', 'a 0 0', 'a 0 0 nan', 'a 0 0 0 0', '1a 0 0 0'])
+@pytest.mark.parametrize(
+    'line',
+    [
+        *('', 'a/b 0 0 0', 'a 0 0', 'a 0 0 nan', 'a 0 0 0 0', '1a 0 0 0'),
+        *('a__b 0 0 0', f'{"a" * 300} 0 0 0'),
+    ],
+)
 def test_a_line_of_another_form_is_refused(line: str) -> None:
     with pytest.raises(ValueError, match="a robot is 'NAME X Y YAW', a name of letters"):
         RobotStart.parse(line)
