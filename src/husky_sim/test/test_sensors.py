@@ -417,6 +417,24 @@ class Missing(ModuleType):
         raise ImportError(f'no {self.__name__}:\nlibEGL.so is missing')
 
 
+def test_a_world_that_asks_for_smaller_pictures_has_whole_ones(tmp_path: Path) -> None:
+    world = tmp_path / 'small.xml'
+    world.write_text(
+        '<mujoco><visual><global offwidth="160" offheight="120"/></visual><worldbody>'
+        '<geom name="ground" type="plane" size="9 9 1" rgba="0 1 0 1"/><light pos="0 0 5"/>'
+        '</worldbody></mujoco>'
+    )
+    simulation = Simulation(SimulationConfig(world=str(world)))
+    try:
+        camera = Camera('husky', simulation.model, simulation.data)
+    except SettingError as error:
+        assert 'set camera_rate_hz to 0' in str(error)
+        return
+    pixels = camera.picture()
+    camera.close()
+    assert pixels[300:, :, 1].min() > 0, 'black ground'
+
+
 def test_without_egl_and_osmesa_the_camera_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ('mujoco.egl', 'mujoco.osmesa'):
         monkeypatch.setitem(sys.modules, name, Missing(name))

@@ -83,6 +83,9 @@ class Camera:
         context = self._new_context()
         context.make_current()
         scene = mujoco.MjvScene(self._model, maxgeom=5000)
+        visual = self._model.vis.global_  # a world may ask for less, and the rest would be black
+        visual.offwidth = max(visual.offwidth, WIDTH)
+        visual.offheight = max(visual.offheight, HEIGHT)
         options = mujoco.MjvOption()
         options.geomgroup[:] = [group in _SEEN_GROUPS for group in range(6)]
         renderer = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
