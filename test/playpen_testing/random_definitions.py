@@ -48,8 +48,12 @@ def write_package(folder: Path, definitions: dict[str, str]) -> None:
     depends = '\n  '.join(f'<depend>{name}</depend>' for name in _DEPENDENCIES)
     (folder / 'package.xml').write_text(_MANIFEST.format(name=folder.name, depends=depends))
     files = '\n  '.join(f'"msg/{name}.msg"' for name in definitions)
+    finds = '\n'.join(
+        f'find_package({name} REQUIRED)' for name in ('rosidl_default_generators', *_DEPENDENCIES)
+    )
     (folder / 'CMakeLists.txt').write_text(
-        f'project({folder.name})\nrosidl_generate_interfaces(${{PROJECT_NAME}}\n  {files}\n'
+        f'project({folder.name})\n{finds}\n'
+        f'rosidl_generate_interfaces(${{PROJECT_NAME}}\n  {files}\n'
         f'  DEPENDENCIES {" ".join(_DEPENDENCIES)}\n)\n'
     )
 

@@ -39,8 +39,12 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def write_cmake(folder: Path, text: str) -> None:
-    (folder / 'CMakeLists.txt').write_text(f'project(own_msgs)\n{text}\n')
+FINDS = ('rosidl_default_generators', 'geometry_msgs', 'nav_msgs')
+
+
+def write_cmake(folder: Path, text: str, finds: tuple[str, ...] = FINDS) -> None:
+    found = ' '.join(f'find_package({name} REQUIRED)' for name in finds)
+    (folder / 'CMakeLists.txt').write_text(f'project(own_msgs) {found}\n{text}\n')
 
 
 def refusal(folder: Path, name: str, text: str, dependencies: str = 'geometry_msgs') -> str:
@@ -157,6 +161,31 @@ def test_what_is_named_and_not_there_is_told(folder: Path) -> None:
     reason = refusal(folder, 'msg/Own.msg', 'int8 a', 'lost_msgs')
     assert 'DEPENDENCIES names lost_msgs, which is not found' in reason
     assert reason.endswith('; package.xml: add <depend>lost_msgs</depend>')
+
+
+def test_what_cmake_does_not_know_yet_is_told(folder: Path) -> None:
+    (folder / 'msg').mkdir()
+    (folder / 'msg/Own.msg').write_text('geometry_msgs/Point place')
+    generate = 'rosidl_generate_interfaces(own_msgs "msg/Own.msg" DEPENDENCIES geometry_msgs)'
+
+    def build_with(*finds: str, text: str = generate) -> None:
+        write_cmake(folder, text, finds)
+        build(folder, folder / 'prefix', link=False)
+
+    generators, messages = FINDS[:2]
+    later = f'{generate}\nfind_package({generators})'
+    for text in (generate, later):
+        with pytest.raises(CMakeListsError, match=rf':2: .*write find_package\({generators} REQ'):
+            build_with(messages, text=text)
+    with pytest.raises(BuildError, match=rf'names {messages}, .*write find_package\({messages} R'):
+        build_with(generators)
+    assert not (folder / 'prefix').exists()
+    build_with(generators, 'nav_msgs')  # which itself looks for geometry_msgs
+    write_cmake(folder, f'ament_auto_find_build_dependencies()\n{generate}', ())
+    depends = f'<depend>{generators}</depend><depend>geometry_msgs</depend>'
+    manifest = MANIFEST.replace('<depend>geometry_msgs</depend>', depends)
+    (folder / 'package.xml').write_text(manifest)
+    build(folder, folder / 'prefix', link=False)
 
 
 def test_definitions_may_name_what_cmake_finds(

@@ -138,6 +138,9 @@ def _shares(manifest: Package, package: CMakePackage) -> dict[str, Path]:
     """
     declared = {dependency.name for dependency in manifest.build_depends}
     shares: dict[str, Path] = {}
+    found: dict[str, Path] = {}  # with what these look for themselves
+    for name in package.found:
+        _add_share(name, found)
     for name in package.dependencies:
         if name in _WITHOUT_INTERFACES:
             continue
@@ -146,6 +149,11 @@ def _shares(manifest: Package, package: CMakePackage) -> dict[str, Path]:
             raise BuildError(
                 f'CMakeLists.txt: DEPENDENCIES names {name}, which is not found: mend the name, '
                 f'or put that package into the workspace{add and f"; {add}"}'
+            )
+        if name not in found:
+            raise BuildError(
+                f'CMakeLists.txt: DEPENDENCIES names {name}, which CMake does not know yet: write '
+                f'find_package({name} REQUIRED) above it'
             )
         if add:  # CMake asks no manifest, but colcon does, for what to build first
             print(f'{manifest.name}: {add}; CMakeLists.txt names it', file=sys.stderr)

@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from catkin_pkg.package import parse_package
+
 from colcon_rosidl_python.cmake_commands import Command, read_commands
 
 # They change nothing here: they find, check or describe.
@@ -42,6 +44,8 @@ _TESTS = {
     *('ament_add_pytest_test', 'add_launch_test', 'ament_add_test', 'add_test'),
     *('ament_add_gtest', 'ament_add_gmock'),
 }
+_GENERATORS = {'rosidl_default_generators', 'rosidl_cmake'}
+_FINDS_ALL = 'ament_auto_find_build_dependencies'
 _OPTIONS_OF_INTERFACES = {'ADD_LINTER_TESTS', 'SKIP_INSTALL', 'SKIP_GROUP_MEMBERSHIP_CHECK'}
 _OPTIONS_OF_INSTALL = {'USE_SOURCE_PERMISSIONS', 'OPTIONAL'}
 
@@ -69,11 +73,13 @@ class CMakePackage:
     What a package asks for.
 
     :param dependencies: whose messages its interfaces may name.
+    :param found: what find_package has found before.
     :param modules: folders of Python, by the names of the packages that they become.
     """
 
     interfaces: list[Path] = field(default_factory=list)
     dependencies: list[str] = field(default_factory=list)
+    found: list[str] = field(default_factory=list)
     installs: list[Install] = field(default_factory=list)
     modules: dict[str, Path] = field(default_factory=dict)
 
@@ -90,7 +96,10 @@ def read_cmake_package(folder: Path) -> CMakePackage:
         complete = complete or command.name == 'ament_package'
         if complete and command.name == 'rosidl_generate_interfaces':
             raise command.refused('stands behind ament_package(): move it before that')
-        if 'BUILD_TESTING' in ' '.join(command.conditions) or command.name in _HARMLESS:
+        if 'BUILD_TESTING' in ' '.join(command.conditions):
+            continue
+        if command.name in _HARMLESS:
+            package.found += _found(command, folder)
             continue
         if command.name in _COMPILED or command.arguments[:1] == ('TARGETS',):
             raise command.refused(_NEEDS_A_COMPILER)
@@ -119,7 +128,20 @@ def tests_left_out(folder: Path) -> Iterator[str]:
             )
 
 
+def _found(command: Command, folder: Path) -> Iterator[str]:
+    """Yield the names of the packages that a command finds."""
+    if command.name == 'find_package':
+        yield from command.arguments[:1]
+    elif command.name == _FINDS_ALL:
+        yield from (each.name for each in parse_package(folder).build_depends)
+
+
 def _add_interfaces(package: CMakePackage, command: Command, folder: Path) -> None:
+    if _GENERATORS.isdisjoint(package.found):
+        raise command.refused(
+            'CMake does not know it yet: write find_package(rosidl_default_generators REQUIRED) '
+            'above it'
+        )
     wanted: str | None = 'INTERFACES'
     for argument in command.arguments[1:]:
         if argument in ('DEPENDENCIES', 'LIBRARY_NAME'):
