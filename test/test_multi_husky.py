@@ -68,3 +68,25 @@ def test_one_of_three_huskies_is_driven_alone(
     launch.signal(signal.SIGINT)
     assert launch.wait(timeout_sec=10.0) == 0
     assert 'Traceback' not in launch.output
+
+
+@pytest.mark.timeout(60)
+def test_in_lockstep_a_robot_drives_on_when_another_is_done(
+    processes: Processes, tmp_path: Path
+) -> None:
+    simulator = processes.start(
+        *('ros2', 'run', 'husky_sim', 'husky_sim', '--ros-args', '-p', 'lockstep:=true'),
+        *('-p', "robots:=['near 0 0 0', 'far -3 -1 0']", '-p', 'real_time_factor:=0.0'),
+    )
+    drivers = []
+    for name, distance_m in (('near', 0.3), ('far', 2.0)):
+        course = tmp_path / f'{name}.yaml'
+        course.write_text(f'waypoints: [[0, 0], [{distance_m}, 0]]')
+        drivers.append(
+            processes.start(
+                *('ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', str(course)),
+                *('--ros-args', '-r', f'__ns:=/{name}', '-p', 'check:=off'),
+            )
+        )
+    for driver in drivers:
+        assert driver.wait(timeout_sec=30.0) == 0, driver.output + simulator.output

@@ -87,8 +87,15 @@ class SimulationTopics:
 
     @property
     def commanded(self) -> bool:
-        """Whether every robot was commanded since the last `forget_commands`."""
-        return all(topics.commands.commanded for topics in self._robots)
+        """
+        Whether every robot was commanded since the last `forget_commands`.
+
+        Of several, one whose driver has ended is not waited for.
+        """
+        waits = [topics for topics in self._robots if not topics.commands.commanded]
+        if len(waits) == len(self._robots):
+            return False
+        return not any(topics.commands.is_commanded() for topics in waits)
 
     def forget_commands(self) -> None:
         """Wait for a new command for every robot."""
