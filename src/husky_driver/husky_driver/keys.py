@@ -27,6 +27,8 @@ MOVES = {
     **{'i': (1, 0), 'u': (1, 1), 'o': (1, -1), 'j': (0, 1), 'l': (0, -1)},
     **{',': (-1, 0), 'm': (-1, -1), '.': (-1, 1)},
     **{'\x1b[A': (1, 0), '\x1b[B': (-1, 0), '\x1b[D': (0, 1), '\x1b[C': (0, -1)},
+    # What a terminal sends where a program before has asked for it (DECCKM).
+    **{'\x1bOA': (1, 0), '\x1bOB': (-1, 0), '\x1bOD': (0, 1), '\x1bOC': (0, -1)},
 }
 CHANGES = {
     **{'q': (FASTER, FASTER), 'z': (SLOWER, SLOWER), 'w': (FASTER, 1.0), 'x': (SLOWER, 1.0)},
@@ -68,10 +70,10 @@ class Keyboard:
 
 
 def split_keys(text: str) -> list[str]:
-    """Return the keys in what a terminal sent; an arrow is three characters."""
+    """Return the keys in what a terminal sent; an arrow or F1 is three characters."""
     keys = []
     while text:
-        length = 3 if text.startswith('\x1b[') and len(text) >= 3 else 1
+        length = 3 if text.startswith(('\x1b[', '\x1bO')) and len(text) >= 3 else 1
         keys.append(text[:length])
         text = text[length:]
     return keys

@@ -38,6 +38,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"
         ('m', (-0.5, -1.0)),
         ('.', (-0.5, 1.0)),
         ('\x1b[A', (0.5, 0.0)),
+        ('\x1bOD', (0.0, 1.0)),
         ('k', (0.0, 0.0)),
         ('?', (0.0, 0.0)),
     ],
@@ -86,6 +87,7 @@ def test_speeds_change_by_a_tenth_and_keep_the_limits() -> None:
 
 def test_an_arrow_is_one_key() -> None:
     assert split_keys('i\x1b[Aj') == ['i', '\x1b[A', 'j']
+    assert split_keys('\x1bOP') == ['\x1bOP'], 'F1 counts as Esc, which ends'
     assert all(split_keys(key) == [key] for key in MOVES)
 
 
