@@ -34,7 +34,7 @@ from husky_view.picture.history import History, MOST_POINTS
 from husky_view.picture.meshes import matte_meshes
 from husky_view.picture.page import Direction, in_decimals
 from husky_view.picture.picture import first_of_run
-from husky_view.picture.scene import PlaypenScene
+from husky_view.picture.scene import GROUND, PlaypenScene
 from husky_view.picture.shadows import ObstacleShadows, REACH_M, soft_spot
 from husky_view.replay.panel import Playback
 from husky_view.replay.run import load_run, RunScenes
@@ -99,10 +99,10 @@ def test_alike_obstacles_are_one_mesh_and_the_ground_another() -> None:
         server.stop()
 
 
-def test_what_has_no_name_is_drawn_where_it_was_pushed_to(tmp_path: Path) -> None:
+def test_what_has_no_name_is_drawn_as_what_has_one(tmp_path: Path) -> None:
     file = tmp_path / 'world.xml'
     file.write_text(
-        '<mujoco><worldbody><geom name="ground" type="plane" size="9 9 1"/>'
+        '<mujoco><worldbody><geom type="plane" size="9 9 1"/>'
         '<body pos="2 0 0.3"><freejoint/><geom size="0.3"/></body></worldbody></mujoco>'
     )
     world = load_world(str(file), [RobotStart()])
@@ -114,6 +114,9 @@ def test_what_has_no_name_is_drawn_where_it_was_pushed_to(tmp_path: Path) -> Non
         scene.show(qpos)
         (ball,) = scene.outlines()
         assert (ball.name, ball.x, ball.y) == ('body 1', 3.0, 1.0)
+        nodes = server.scene._handle_from_node_name.values()
+        (ground,) = [node for node in nodes if isinstance(node, viser.GridHandle) and node.visible]
+        assert ground.plane_color == GROUND
     finally:
         server.stop()
 

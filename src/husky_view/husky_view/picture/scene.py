@@ -10,6 +10,7 @@ from husky_course.outline import Outline
 from husky_sim.recording import loose_body_ids
 from husky_sim.world import World
 from mjviser import ViserMujocoScene
+from mjviser.conversions import get_body_name
 import mujoco
 import numpy as np
 import viser
@@ -126,8 +127,9 @@ def _color_planes(server: viser.ViserServer, model: mujoco.MjModel) -> None:
     for geom in range(model.ngeom):
         if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_PLANE:
             continue
-        body = model.body(model.geom_bodyid[geom]).name
-        grid = server.scene.get_handle_by_name(f'{FIXED}{body}/{model.geom(geom).name}')
+        body = get_body_name(model, int(model.geom_bodyid[geom]))
+        name = model.geom(geom).name or None  # as mjviser calls what has none
+        grid = server.scene.get_handle_by_name(f'{FIXED}{body}/{name}')
         if isinstance(grid, viser.GridHandle):
             grid.visible = bool(model.geom_rgba[geom, 3])
             grid.plane_color = GROUND
