@@ -182,7 +182,7 @@ def test_what_cmake_does_not_know_yet_is_told(folder: Path) -> None:
     assert not (folder / 'prefix').exists()
     build_with(generators, 'nav_msgs')  # which itself looks for geometry_msgs
     write_cmake(folder, f'ament_auto_find_build_dependencies()\n{generate}', ())
-    depends = f'<depend>{generators}</depend><depend>geometry_msgs</depend>'
+    depends = f'<buildtool_depend>{generators}</buildtool_depend><depend>geometry_msgs</depend>'
     manifest = MANIFEST.replace('<depend>geometry_msgs</depend>', depends)
     (folder / 'package.xml').write_text(manifest)
     build(folder, folder / 'prefix', link=False)

@@ -133,7 +133,8 @@ def _found(command: Command, folder: Path) -> Iterator[str]:
     if command.name == 'find_package':
         yield from command.arguments[:1]
     elif command.name == _FINDS_ALL:
-        yield from (each.name for each in parse_package(folder).build_depends)
+        manifest = parse_package(folder)
+        yield from (each.name for each in manifest.build_depends + manifest.buildtool_depends)
 
 
 def _add_interfaces(package: CMakePackage, command: Command, folder: Path) -> None:
