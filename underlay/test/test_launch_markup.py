@@ -6,9 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from launch import InvalidLaunchFileError
+from launch import InvalidLaunchFileError, LaunchContext
+from launch.actions import LogInfo
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
 from launch.source_location import describe_error
+from launch.utilities import perform_substitutions
 from launch_xml.launch_description_sources import XMLLaunchDescriptionSource
 from launch_yaml.launch_description_sources import YAMLLaunchDescriptionSource
 import pytest
@@ -213,6 +215,15 @@ def test_a_file_in_utf_16_is_told(name: str, tmp_path: Path) -> None:
     with pytest.raises(InvalidLaunchFileError, match='it is saved as UTF-16') as caught:
         get_launch_description_from_any_launch_file(str(path))
     assert describe_error(caught.value).endswith(f'save it as UTF-8 (at {path}:1)')
+
+
+@pytest.mark.parametrize('encoding', ['ISO-8859-1', 'UTF-16', 'unknown'])
+def test_an_xml_file_is_utf_8_whatever_it_declares(encoding: str, launch_file: LaunchFile) -> None:
+    text = f'<?xml version="1.0" encoding="{encoding}"?><launch><log message="grün"/></launch>'
+    path = launch_file(text, 'declared.launch.xml')
+    (log,) = get_launch_description_from_any_launch_file(str(path)).entities
+    assert isinstance(log, LogInfo)
+    assert perform_substitutions(LaunchContext(), log.msg) == 'grün'
 
 
 def test_a_file_of_no_known_name_is_tried_in_each_format(launch_file: LaunchFile) -> None:

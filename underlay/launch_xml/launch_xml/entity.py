@@ -57,7 +57,7 @@ def read_xml(text: str, name: str) -> Element:
     parser.EndElementHandler = end
     parser.CharacterDataHandler = data
     try:
-        parser.Parse(text.encode(), True)
+        parser.Parse(text, True)  # as text: what the document says of its encoding is over
     except expat.ExpatError as error:
         failure = ValueError(f'XML syntax error: {error}')
         raise located_error(failure, (name, error.lineno)) from None
