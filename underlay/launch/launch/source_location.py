@@ -14,7 +14,7 @@ _OWN_FOLDERS = tuple(
     for name in ('launch', 'launch_ros', 'launch_xml', 'launch_yaml')
 )
 # What a command line tool builds around a launch file has no place worth naming.
-_TOOLS_FOLDER = f'{Path(__file__).parent.parent / "ros2cli"}/'
+_TOOLS_FOLDER = f'{Path(__file__).parent.parent / "ros2launch"}/'
 _launch_files: set[str] = set()
 _explainers: list[Callable[[BaseException], str]] = []
 

@@ -52,6 +52,17 @@ def test_a_path_is_launched_too(package: Path, ros2: Callable[..., Any]) -> None
     assert 'hello world' in answer.out + answer.err
 
 
+def test_no_file_of_ros2_launch_is_named_as_the_place_of_an_error(
+    package: Path, ros2: Callable[..., Any]
+) -> None:
+    path = package / 'latin.launch.xml'
+    path.write_bytes(b'<launch><log message="gr\xfcn"/></launch>')
+    answer = ros2('launch', str(path))
+    assert answer.status == 1
+    assert "'utf-8' codec can't decode byte" in answer.out + answer.err
+    assert 'ros2launch' not in answer.out + answer.err
+
+
 @pytest.mark.usefixtures('package')
 def test_arguments_are_shown(ros2: Callable[..., Any]) -> None:
     answer = ros2('launch', 'demo', 'greet.launch.py', '--show-args')
