@@ -91,13 +91,15 @@ class Playback:
         self._serve_at_sec = -math.inf
         self._tick_at_sec = math.inf
 
-    def play(self, serve: Callable[[], None]) -> None:
+    def play(self, serve: Callable[[], None]) -> bool:
         """Play the bag once; return at its end, but not while it is paused.
 
         :param serve: called every 10 ms.
+        :return: whether there was anything to play.
         """
         self._messages = _messages(self._args, list(self._publishers), self._first_ns)
         self._next = next(self._messages, None)
+        is_empty = self._next is None
         self._clock.jump(self._first_ns)
         self._tick_at_sec = time.monotonic() if self._args.clock else math.inf
         while self._next is not None or self.is_paused:
@@ -107,6 +109,7 @@ class Playback:
                 self._publish_next()
             else:
                 self._sleep(left_sec)
+        return not is_empty
 
     def wait(self, duration_sec: float, serve: Callable[[], None]) -> None:
         """Wait before the bag is played, with the same `serve`."""

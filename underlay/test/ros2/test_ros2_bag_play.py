@@ -92,6 +92,18 @@ def test_a_bag_of_unknown_types_is_refused(
     assert "'/stranger' is left out: " in played.err
 
 
+@pytest.mark.parametrize(('count', 'words'), [(0, ()), (6, ('--start-offset', '100'))])
+def test_what_has_nothing_to_play_is_not_played_again_and_again(
+    write_bag: Callable[..., Path],
+    domain: int,
+    ros2: Callable[..., Any],
+    count: int,
+    words: tuple[str, ...],
+) -> None:
+    bag = write_bag({'/chatter': STRING}, count)
+    assert ros2('bag', 'play', str(bag), '--loop', *words).status == 0
+
+
 def test_a_file_sets_the_quality_of_service(
     write_bag: Callable[..., Path], processes: Any, ros2: Callable[..., Any], tmp_path: Path
 ) -> None:

@@ -112,9 +112,8 @@ class PlayVerb(VerbExtension):
                 )
                 while True:
                     playback.wait(args.delay, keyboard.serve)
-                    playback.play(keyboard.serve)
-                    if not args.loop:
-                        break
+                    if not (playback.play(keyboard.serve) and args.loop):
+                        break  # also where there is nothing to play again and again
             service_requests.wait_for_answers(node, requests)
             timeout_sec = args.wait_for_all_acked / 1000.0 or None
             player.wait_for_acknowledgements(node, heard, timeout_sec)
