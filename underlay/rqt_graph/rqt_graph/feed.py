@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+import sys
 import threading
 from typing import Generic, TypeVar
 
@@ -17,7 +18,8 @@ Value = TypeVar('Value')
 class Feed(Generic[Value]):
     """The newest value; read in a thread of its own while there is a watcher.
 
-    :param read: returns the value; None: there is none now, and the one before still counts.
+    :param read: returns the value; None: there is none now, and the one before still counts, as
+        where it raises, which is said.
     """
 
     def __init__(self, read: Callable[[], Value | None], period_sec: float = PERIOD_SEC) -> None:
@@ -48,10 +50,17 @@ class Feed(Generic[Value]):
             return self._version, self._value
 
     def _read_repeatedly(self) -> None:
+        trouble = ''
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._watchers > 0)
-            value = self._read()
+            value, before, trouble = None, trouble, ''
+            try:
+                value = self._read()
+            except Exception as error:  # the next time it may be over, as too many open files
+                trouble = f'{type(error).__name__}: {error}'
+                if trouble != before:
+                    print(f'nothing newer is shown: {trouble}', file=sys.stderr)
             with self._changed:
                 if value is not None and value != self._value:
                     self._value = value

@@ -24,6 +24,7 @@ from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 from playwright.sync_api import Browser
 import pytest
+from rqt_graph.feed import Feed
 
 SVG = '{http://www.w3.org/2000/svg}'
 NODE, TOPIC = f'{SVG}ellipse', f'{SVG}path'
@@ -207,6 +208,24 @@ def test_a_system_without_a_library_is_told_what_to_install(
 
 
 @pytest.mark.usefixtures('domain')
+def test_a_reading_that_fails_is_told_and_the_next_one_shown(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    found: list[Any] = ['first', OSError('too many'), OSError('too many'), 'second']
+
+    def read() -> str | None:
+        value = found.pop(0) if found else None
+        if isinstance(value, OSError):
+            raise value
+        return value
+
+    feed = Feed(read, period_sec=0.01)
+    with feed.watching():
+        assert feed.wait(0, 5.0) == (1, 'first')
+        assert feed.wait(1, 5.0) == (2, 'second')
+    assert capsys.readouterr().err == 'nothing newer is shown: OSError: too many\n'
+
+
 def test_it_is_a_package_of_the_ament_prefix() -> None:
     def ros2(*words: str) -> str:
         return subprocess.run(
