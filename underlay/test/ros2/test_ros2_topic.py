@@ -203,6 +203,13 @@ def test_bw_and_delay_measure_too(world: Any) -> None:
         assert 'Traceback' not in rest
 
 
+def test_delay_says_when_nothing_new_comes(processes: Any) -> None:
+    sender = processes.node('stamped', 'sender')
+    delay = processes.ros2('topic', 'delay', '/stamped', ready='average delay: 0.0')
+    processes.end_one(sender)
+    find_line(delay.stdout, '^no new messages$')
+
+
 @pytest.mark.usefixtures('world')
 def test_delay_needs_a_header(ros2: Callable[..., Any]) -> None:
     assert ros2('topic', 'delay', '/chatter').err == 'msg does not have header\n'

@@ -46,6 +46,8 @@ class DelayVerb(VerbExtension):
                 if fresh:
                     print(describe(list(delays_sec)))
                     fresh = False
+                elif delays_sec:
+                    print('no new messages')
 
             measuring.subscribe(node, topic, on_message)
             measuring.report_repeatedly(node, report, {topic.name: lambda: bool(delays_sec)})
