@@ -17,6 +17,7 @@ from example_interfaces.msg import Float64MultiArray, String, WString
 from geometry_msgs.msg import Point, Pose
 from husky_runtime.domains import in_own_domain
 from husky_sim.messages.cdr import decode, encode
+import numpy as np
 from playpen_testing import interface_stress
 from playpen_testing.random_messages import random_message
 import pytest
@@ -25,6 +26,7 @@ from rosidl_runtime_py import get_message_interfaces
 from rosidl_runtime_py.utilities import get_message
 from rosidl_typesupport_python.build_native import with_plain_stack
 from rosidl_typesupport_python.cdr import codec_of
+from rosidl_typesupport_python.cdr.row import CODES, Number, Place
 from rosidl_typesupport_python.native import LIBRARY
 from sensor_msgs.msg import JointState
 from simulation_interfaces.msg import EntityInfo
@@ -73,6 +75,13 @@ def test_what_is_read_is_as_if_it_had_been_made_in_python() -> None:
     ]
     read.position.append(2.0)
     assert list(read.position) == [1.0, 2.0]
+
+
+@pytest.mark.parametrize('name', ['int64', 'uint64', 'int32', 'uint8'])
+def test_an_array_that_is_read_prints_as_one_that_was_made(name: str) -> None:
+    made = np.array([1, 2], dtype=name)
+    read = Number(Place(('_numbers',), 0), CODES[name], 2).array(made.tobytes())
+    assert (repr(read), read.dtype.char) == (repr(made), made.dtype.char)
 
 
 def wrong(value: Any) -> Point:

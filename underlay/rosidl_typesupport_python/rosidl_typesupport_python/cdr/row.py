@@ -17,6 +17,8 @@ CODES = {
     **{'uint8': 'B', 'uint16': 'H', 'uint32': 'I', 'uint64': 'Q'},
 }
 _NAMES = {code: name for name, code in CODES.items()}
+# numpy has two kinds of 64 bits; an array of the other one is printed with its dtype.
+_OF_NUMPY = {'q': 'int64', 'Q': 'uint64'}
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,8 @@ class Number:
         """Return the array that bytes stand for, which can be written to."""
         import numpy as np
 
-        return np.frombuffer(data, f'<{self.code}').astype(self.code)
+        kind = _OF_NUMPY.get(self.code, self.code)
+        return np.frombuffer(data, f'<{self.code}').astype(kind)
 
 
 class Row:
