@@ -276,7 +276,7 @@ def test_environment_working_folder_prefix_and_shell(
         )
     )
     assert f'[echo-1] red round {tmp_path}' in launched.lines
-    assert '[hello-2] before hello' in launched.lines
+    assert '[echo-2] before hello' in launched.lines  # as upstream: the program that is started
     assert '[bare-3] ONLY=this' in launched.lines
     assert '[bare-3] COLOUR=red' not in launched.lines
 

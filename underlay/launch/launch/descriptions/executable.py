@@ -87,12 +87,11 @@ class Executable:
         cmd = [perform_substitutions(context, part) for part in parts]
         if not cmd or not cmd[0].strip():
             raise ValueError(f'the command {cmd} is empty: its first item is the program')
-        program = Path(cmd[0]).name
-        name = program
+        self.final_cmd = self.__prefix_words(context, Path(cmd[0]).name) + cmd
+        name = Path(self.final_cmd[0]).name
         if self.name is not None:
             name = perform_substitutions(context, self.name)
         self.final_name = f'{name}-{next(_process_numbers)}'
-        self.final_cmd = self.__prefix_words(context, program) + cmd
         if self.cwd is not None:
             self.final_cwd = str(Path(perform_substitutions(context, self.cwd)).expanduser())
         env = dict(context.environment) if self.env is None else _perform_env(context, self.env)
