@@ -91,7 +91,7 @@ def profile_configure_short_keys(
     if liveliness_lease_duration_s is not None and liveliness_lease_duration_s >= 0:
         lease_ns = int(liveliness_lease_duration_s * 10**9)
         profile.liveliness_lease_duration = Duration(nanoseconds=lease_ns)
-    if depth is not None and depth >= 0:
+    if depth is not None and depth > 0:  # 0 is that of the preset, as upstream has it
         profile.depth = depth
     if profile.durability == DurabilityPolicy.TRANSIENT_LOCAL and profile.depth == 0:
         profile.depth = 1

@@ -118,6 +118,18 @@ def test_echo_shows_raw_bytes(ros2: Callable[..., Any]) -> None:
 
 
 @pytest.mark.usefixtures('world')
+def test_what_echo_filters_are_the_bytes_with_raw(ros2: Callable[..., Any]) -> None:
+    words = ('topic', 'echo', '--raw', '/latched', '--timeout', '2', '--filter')
+    assert "b'" in ros2(*words, "b'once' in m").out
+    assert ros2(*words, "b'once' not in m").out == ''
+
+
+def test_a_depth_of_0_is_that_of_the_preset() -> None:
+    assert qos.qos_profile_from_short_keys('sensor_data', depth=0).depth == 5
+    assert qos.qos_profile_from_short_keys('sensor_data', depth=7).depth == 7
+
+
+@pytest.mark.usefixtures('world')
 def test_echo_ends_quietly_at_its_timeout(ros2: Callable[..., Any]) -> None:
     answer = ros2('topic', 'echo', '/silence', 'std_msgs/msg/String', '--timeout', '0.3')
     assert (answer.status, answer.out, answer.err) == (0, '', '')

@@ -70,8 +70,8 @@ class EchoVerb(VerbExtension):
         def on_message(msg: Any, info: Any) -> None:
             nonlocal shown, arrived
             arrived = True
-            value = msg if args.raw else _field(msg, path)
-            if (args.once and shown) or not (args.raw or keep(value)):
+            value = _field(msg, path)
+            if (args.once and shown) or not keep(value):
                 return
             printing.show(value, args, info if args.include_message_info else None)
             shown += 1
