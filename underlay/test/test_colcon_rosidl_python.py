@@ -310,7 +310,8 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
         'link_directories(${GAZEBO_LIBRARY_DIRS})\n'  # where nothing is linked, it does nothing
         'install(DIRECTORY data/ DESTINATION share/one FILES_MATCHING PATTERN "*.txt")\n'
         'install(DIRECTORY data DESTINATION share/two PATTERN deep EXCLUDE)\n'
-        'ament_python_install_package(own_tools)\n',
+        'ament_python_install_package(own_tools)\n'
+        'install(DIRECTORY own_tools/ DESTINATION ${PYTHON_INSTALL_DIR}/by_hand)\n',
     )
     prefix = folder / 'prefix'
     build(folder, prefix, link=True)
@@ -319,7 +320,8 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
         'share/one/a.txt', 'share/one/deep/b.txt', 'share/two/data/a.txt', 'share/two/data/c.bak',
     }  # fmt: skip
     assert (prefix / 'share/one/a.txt').is_symlink()
-    assert any(name.endswith('-packages/own_tools/__init__.py') for name in files)
+    for name in ('own_tools', 'by_hand'):
+        assert any(file.endswith(f'-packages/{name}/__init__.py') for file in files)
 
 
 def test_a_program_can_be_executed_where_it_is_installed(folder: Path) -> None:

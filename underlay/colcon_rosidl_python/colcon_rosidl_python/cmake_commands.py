@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 import re
 
+from colcon_core.python_install_path import get_python_install_path
+
 _TOKEN = re.compile(
     r"""
     (?P<comment> \#\[(?P<equals>=*)\[ .*? \](?P=equals)\] | \#[^\n]* )
@@ -67,6 +69,7 @@ def read_commands(path: Path) -> Iterator[Command]:
         **dict.fromkeys(('CMAKE_CURRENT_SOURCE_DIR', 'CMAKE_SOURCE_DIR'), folder),
         **dict.fromkeys(('PROJECT_SOURCE_DIR', 'CMAKE_CURRENT_LIST_DIR'), folder),
         'CMAKE_INSTALL_PREFIX': '.',
+        'PYTHON_INSTALL_DIR': str(python_folder()),  # ament_cmake_python's
     }
     conditions: list[str] = []
     for name, raw, line in _raw_commands(_text_of(path)):
@@ -93,6 +96,12 @@ def read_commands(path: Path) -> Iterator[Command]:
                 raise command.refused(f'{error}; allowed is msg/*.msg or the like') from None
         else:
             yield command
+
+
+def python_folder() -> Path:
+    """Return where in a prefix modules are: lib/python3.12/site-packages."""
+    base = 'prefix'
+    return Path(get_python_install_path('purelib', {'base': base})).relative_to(base)
 
 
 def _raw_commands(text: str) -> Iterator[tuple[str, list[tuple[str, bool]], int]]:

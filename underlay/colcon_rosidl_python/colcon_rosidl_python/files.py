@@ -11,9 +11,9 @@ import shutil
 from types import SimpleNamespace
 
 from catkin_pkg.package import Package
-from colcon_core.python_install_path import get_python_install_path
 from colcon_core.task import install
 
+from colcon_rosidl_python.cmake_commands import python_folder
 from colcon_rosidl_python.cmake_package import CMakePackage, Install
 
 _INDEX = 'share/ament_index/resource_index'
@@ -79,9 +79,3 @@ def _mark(prefix: Path, index: str, name: str, content: str) -> None:
     mark = prefix / _INDEX / index / name
     mark.parent.mkdir(parents=True, exist_ok=True)
     mark.write_text(content)
-
-
-def python_folder() -> Path:
-    """Return where in a prefix modules are: lib/python3.12/site-packages."""
-    base = 'prefix'
-    return Path(get_python_install_path('purelib', {'base': base})).relative_to(base)
