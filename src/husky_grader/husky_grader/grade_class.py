@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # they take their time
 PASSED, NOT_PASSED = 0, 1
 AJob = TypeVar('AJob', bound='Job')
 # Parts lists of folders; begin and end variables of setuptools; end names in scripts of shells.
-_NOT_BUILT_IN = ':${}"`'
+_NOT_BUILT_IN = ':${}"`*'
 FEW_FILES = 8  # so many are told by their names
 
 

@@ -112,7 +112,7 @@ def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize('char', ':${}"`')
+@pytest.mark.parametrize('char', ':${}"`*')
 def test_a_report_where_nothing_can_be_built_is_refused(
     tmp_path: Path, char: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
