@@ -30,9 +30,12 @@ class FileJob:
     def is_result(self, content: object) -> bool:
         return is_report(content)
 
-    def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
-        for name in (*REPORT_FILES, FILE_NAME):  # of what was handed in before
+    def forget(self, folder: Path) -> None:
+        for name in (*REPORT_FILES, FILE_NAME):
             (folder / name).unlink(missing_ok=True)
+
+    def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
+        self.forget(folder)
         # A class's pictures nobody opens; each page has the same map.
         grade = grade_file(self.file, folder, world=self.world, picture=False, each_second=alive)
         return Outcome(grade.report, grade.refused)

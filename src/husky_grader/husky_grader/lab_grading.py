@@ -37,7 +37,7 @@ def grade_submission(
     """
     name = sandbox.name if sandbox else ''
     graded = Graded(submission, rubric.points, sandbox=name, notes=submission.notes)
-    _forget_earlier(folder, rubric)
+    forget_earlier(folder, rubric)
     copy = folder / COPY
     copy.mkdir(parents=True, exist_ok=True)
     (copy / IGNORED).touch()
@@ -70,7 +70,7 @@ def grade_submission(
     return replace(graded, steps=steps)
 
 
-def _forget_earlier(folder: Path, rubric: Rubric) -> None:
+def forget_earlier(folder: Path, rubric: Rubric) -> None:
     """Remove what an earlier grading left: of an older submission, or of what is hidden now."""
     shutil.rmtree(folder / COPY, ignore_errors=True)
     (folder / LAB_FILE).unlink(missing_ok=True)

@@ -15,7 +15,7 @@ from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, versions, world_digest
 from husky_grader.graded import Graded, LAB_FILE, StepGrade
 from husky_grader.jail import find_sandbox, Sandbox
-from husky_grader.lab_grading import grade_submission
+from husky_grader.lab_grading import forget_earlier, grade_submission
 from husky_grader.rubric.steps import Rubric
 from husky_grader.submission import digest_of, Submission
 
@@ -61,6 +61,9 @@ class LabJob:
             and set(content) == set(_FIELDS)
             and all(isinstance(content[name], kind) for name, kind in _FIELDS.items())
         )
+
+    def forget(self, folder: Path) -> None:
+        forget_earlier(folder, self.rubric)
 
     def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
         graded = grade_submission(

@@ -73,6 +73,9 @@ class Generated:
     def is_result(self, content: object) -> bool:
         return isinstance(content, dict)
 
+    def forget(self, folder: Path) -> None:
+        (folder / self.result_file).unlink(missing_ok=True)
+
     def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
         alive()
         folder.mkdir(parents=True)
@@ -116,6 +119,18 @@ def test_the_files_of_collected_shards_are_those_of_one_call(
     assert tables(tmp_path / 'all') == serial.csv
     took = tmp_path / 'all' / 's0' / 'report.json'
     assert took.stat().st_mtime_ns == (tmp_path / 'shard_1/s0/report.json').stat().st_mtime_ns
+
+
+def test_a_collected_report_takes_nothing_of_a_person(serial: Serial, tmp_path: Path) -> None:
+    command = [*serial.files[:2], *ONE, '--report']
+    grade([*command, str(tmp_path / 'shard')])
+    (own := tmp_path / 'all' / 's0').mkdir(parents=True)
+    (own / 'notes.txt').write_text('called me on Monday')
+    (own / 'path.png').write_text('of an earlier drive')
+    grade([*command, str(tmp_path / 'all'), '--collect', str(tmp_path / 'shard')])
+    assert (own / 'notes.txt').read_text() == 'called me on Monday'
+    collected = {path.name for path in (tmp_path / 'shard' / 's0').iterdir()}
+    assert {path.name for path in own.iterdir()} == {*collected, 'notes.txt'}
 
 
 def tables(report: Path) -> str:

@@ -110,6 +110,7 @@ class Batch:
             return Outcome(content, remembered=True)
         for there in self._elsewhere.get(job.name, ()):
             if content := self._seals.load(there, job, key):
+                job.forget(own)
                 _copy_report(there, own)
                 return Outcome(content, remembered=True)
         return None
@@ -144,9 +145,10 @@ class Batch:
 
 
 def _copy_report(there: Path, own: Path) -> None:
-    """Copy a report, whole or not at all."""
-    part = own.with_name(f'.{own.name}.part')
-    shutil.rmtree(part, ignore_errors=True)  # of a call that was killed
-    shutil.copytree(there, part, symlinks=True)
-    shutil.rmtree(own, ignore_errors=True)
-    part.rename(own)
+    """Copy a report to where files of a person may lie; its seal last, as one is written."""
+
+    def seal(folder: str, _names: Sequence[str]) -> list[str]:
+        return [SEAL_FILE] if Path(folder) == there else []
+
+    shutil.copytree(there, own, symlinks=True, ignore=seal, dirs_exist_ok=True)
+    shutil.copyfile(there / SEAL_FILE, own / SEAL_FILE)

@@ -39,6 +39,9 @@ class Job(Protocol):
     def is_result(self, content: object) -> bool:
         """Tell whether what was read has the shape of a result."""
 
+    def forget(self, folder: Path) -> None:
+        """Remove what an earlier grading has left in its folder, and nothing else."""
+
     def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
         """
         Grade it; its result and its report go to a folder of its own.
