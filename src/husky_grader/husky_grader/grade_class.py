@@ -105,7 +105,7 @@ def grade_files(options: argparse.Namespace) -> int:
 
 def grade_labs(options: argparse.Namespace) -> int:
     """Grade what was handed in for a lab; return the exit code."""
-    from husky_grader.jail import find_sandbox
+    from husky_grader.jail import find_sandbox, NoSandbox
     from husky_grader.outputs import OUTPUT_FILES, read_gradebook
     from husky_grader.rubric.impossible import impossible_courses
     from husky_grader.rubric.rubric_file import load_rubric
@@ -123,7 +123,12 @@ def grade_labs(options: argparse.Namespace) -> int:
     gradebook = None
     if options.gradebook:
         gradebook = read_gradebook(Path(options.gradebook), submissions, title=rubric.title)
-    sandbox = None if rubric.is_of_files else find_sandbox(options.sandbox)
+    sandbox = None
+    try:
+        sandbox = None if rubric.is_of_files else find_sandbox(options.sandbox)
+    except NoSandbox:
+        if not options.collect:  # what was graded elsewhere needs none here
+            raise
     if sandbox is not None:
         _check_programs_run(Path(options.report))
     if _is_alone(submissions, options):
@@ -241,7 +246,7 @@ def _grade_labs(
 
     folder = Path(options.report)
     folder.mkdir(parents=True, exist_ok=True)
-    name = sandbox.name if sandbox else ''
+    name = '' if rubric.is_of_files else sandbox.name if sandbox else options.sandbox
     every = [LabJob(each, each.id, rubric, name, options.real_time_factor) for each in submissions]
     jobs = parse_shard(options.shard or '1/1').of(every)
     outcomes, unsealed = _done(

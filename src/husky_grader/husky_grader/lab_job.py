@@ -14,7 +14,7 @@ from husky_course.files import replacing
 from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, versions, world_digest
 from husky_grader.graded import Graded, LAB_FILE, StepGrade
-from husky_grader.jail import find_sandbox, Sandbox
+from husky_grader.jail import find_sandbox, MissingSandbox, NoSandbox, Sandbox
 from husky_grader.lab_grading import forget_earlier, grade_submission
 from husky_grader.rubric.steps import Rubric
 from husky_grader.submission import digest_of, Submission
@@ -115,4 +115,7 @@ def from_result(submission: Submission, content: Mapping[str, Any]) -> Graded:
 
 @lru_cache(maxsize=1)
 def _sandbox(name: str) -> Sandbox:
-    return find_sandbox(name)
+    try:
+        return find_sandbox(name)
+    except NoSandbox as error:  # what is refused anyhow needs none
+        return MissingSandbox(name, str(error))

@@ -11,6 +11,7 @@ import json
 import os
 from pathlib import Path
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,6 +27,7 @@ from husky_grader.playpen import config_folder
 from playpen_testing.processes import Child
 import pytest
 
+BUILD = 'title: T\nsteps:\n  - {kind: build, points: 10}\n'
 SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-%g, 0]]\n'
 ONE = ['--jobs', '1']  # a worker takes longer to start than these files
 
@@ -131,6 +133,30 @@ def test_a_collected_report_takes_nothing_of_a_person(serial: Serial, tmp_path: 
     assert (own / 'notes.txt').read_text() == 'called me on Monday'
     collected = {path.name for path in (tmp_path / 'shard' / 's0').iterdir()}
     assert {path.name for path in own.iterdir()} == {*collected, 'notes.txt'}
+
+
+@pytest.mark.timeout(60)
+def test_to_collect_what_was_graded_takes_no_sandbox(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (rubric := tmp_path / 'rubric.yaml').write_text(BUILD)
+    handed_in, shard, report = (tmp_path / name for name in ('handed_in', 'shard', 'all'))
+    for name in ('ann', 'bob'):
+        (handed_in / name / 'src').mkdir(parents=True)
+    (handed_in / 'ann' / 'src' / 'package.xml').write_text('<package/>')
+    command = ['--lab', str(handed_in), '--rubric', str(rubric), *ONE, '--report']
+    grade([*command, str(shard)])
+    shutil.copytree(handed_in / 'ann', handed_in / 'cem')  # handed in late
+    (programs := tmp_path / 'bin').mkdir()
+    for name in ('chmod', 'rm'):
+        (programs / name).symlink_to(shutil.which(name) or '')
+    monkeypatch.setenv('PATH', str(programs))
+    assert grade([*command, str(report), '--collect', str(shard)]) == 1
+    ann, bob, cem = json.loads((report / 'grades.json').read_text())['submissions']
+    before = json.loads((shard / 'grades.json').read_text())['submissions']
+    assert [ann, bob] == before
+    assert (ann['refused'], bob['refused']) == (None, before[1]['refused'])
+    assert 'cem: cannot be graded: no sandbox works here (bwrap: ' in cem['refused']
 
 
 def tables(report: Path) -> str:

@@ -13,7 +13,7 @@ from husky_grader.jail.jail import Jail
 from husky_grader.jail.limits import Limits
 from husky_grader.jail.process import JailedProcess
 from husky_grader.jail.removal import remove
-from husky_grader.jail.sandbox import NoSandbox, Sandbox
+from husky_grader.jail.sandbox import MissingSandbox, NoSandbox, Sandbox
 from husky_grader.jail.turn import own_turn
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     'Jail',
     'JailedProcess',
     'Limits',
+    'MissingSandbox',
     'NoSandbox',
     'Sandbox',
     'find_sandbox',

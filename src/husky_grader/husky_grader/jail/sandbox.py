@@ -161,6 +161,18 @@ def _umask() -> int:
     return next(found, 0o022)  # gVisor's status has none
 
 
+@dataclass(frozen=True)
+class MissingSandbox:
+    """One that was not found, for what may be refused before it is asked for."""
+
+    name: str
+    why: str
+    one_at_a_time = False
+
+    def open(self) -> AbstractContextManager[Cell]:
+        raise NoSandbox(self.why)
+
+
 class Nothing:
     """No sandbox: a DDS domain of its own, and no process that outlives the jail."""
 
