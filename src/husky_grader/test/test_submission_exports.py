@@ -5,6 +5,7 @@
 from collections.abc import Mapping
 import io
 from pathlib import Path
+import time
 import unicodedata
 import zipfile
 
@@ -213,6 +214,14 @@ submission_2003:
 """
 
 
+def test_many_files_named_as_by_canvas_are_listed_quickly(tmp_path: Path) -> None:
+    files = {f'ann_1_{number}_a': b'' for number in range(1, 20_001)}
+    handed_in = str(export(tmp_path / 'ann.zip', files, as_zip=True))
+    begun_sec = time.thread_time()
+    find_submissions([handed_in])
+    assert time.thread_time() - begun_sec < 10.0
+
+
 @AS_ZIP
 def test_an_export_of_gradescope_keeps_all_of_a_group(tmp_path: Path, as_zip: bool) -> None:
     files = {
@@ -247,9 +256,16 @@ def test_broken_metadata_costs_only_the_names(tmp_path: Path) -> None:
     [
         (b'[' * 200_000, 'nested too deep'),
         (b'[' + b'[],' * 1_000_000 + b']', 'of more than 1000000 parts'),
+        (
+            b'f: &f {":submitters": ['
+            + b'{},' * 2_000
+            + b']}\n'
+            + b''.join(b'%d: *f\n' % number for number in range(2_000)),
+            'larger than 32 MB with its aliases written out',
+        ),
         (b'&a {x: *a, *a : {b: !!python/none {c: {d: {e: {f: g}}}}}}', ''),
     ],
-    ids=['deep', 'long', 'odd'],
+    ids=['deep', 'long', 'aliases', 'odd'],
 )
 def test_hostile_metadata_costs_only_the_names(tmp_path: Path, metadata: bytes, why: str) -> None:
     files = {'submission_metadata.yml': metadata, f'submission_1/{MANIFEST}': b'<package/>'}

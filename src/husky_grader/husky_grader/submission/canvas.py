@@ -52,7 +52,8 @@ def canvas_submissions(listing: Listing, tops: Mapping[str, Sequence[str]]) -> l
     numbers: set[int] = set()
     for top, names in tops.items():
         file = _parse(top)
-        if file is None or list(names) != [top] or file.number in numbers - {0}:
+        again = file is not None and file.number > 0 and file.number in numbers
+        if file is None or list(names) != [top] or again:
             return []
         numbers.add(file.number)
         by_user.setdefault(file.user, []).append(file)
@@ -104,8 +105,9 @@ def _of_user(listing: Listing, files: list[_File]) -> Submission:
     """Return the submission of one user: the newest archive, or all files where there is none."""
     uploads = sorted((file for file in files if file.number), key=lambda file: file.number)
     archives = [file for file in uploads if _is_archive(listing, file)]
-    taken = (archives[-1:] if len(uploads) > 1 else []) or uploads or files
-    left = ', '.join(file.original for file in uploads if file not in taken)
+    chosen = archives[-1:] if len(uploads) > 1 else []
+    taken = chosen or uploads or files
+    left = ', '.join(file.original for file in uploads if chosen and file not in chosen)
     note = f'taken: {taken[-1].original}, the newest archive; left out: {left}'
     newest = taken[-1]
     wanted = f'{newest.name}_{newest.user}' if newest.name else newest.user

@@ -23,6 +23,7 @@ from husky_grader.submission.submission import Submission
 
 _METADATA = 'submission_metadata.yml'
 _MOST_BYTES = 32_000_000  # of the metadata, which has the results of earlier gradings in it
+_LEAST_BYTES = 32  # of a submitter
 _MOST_EVENTS = 1_000_000
 _DEPTH = 4  # of a submitter: all folders, one of them, `:submitters:`, one of those
 _DEEPEST = 100  # of what else is in it
@@ -79,7 +80,7 @@ def _read(listing: Listing) -> dict[str, list[_Submitter]]:
     """
     Return who handed in each folder.
 
-    :raises Refused: when the file is too large or is not YAML.
+    :raises Refused: when the file is too large, also by its aliases, or is not YAML.
     """
     data = listing.read(_METADATA, _MOST_BYTES + 1)
     if len(data) > _MOST_BYTES:
@@ -92,13 +93,17 @@ def _read(listing: Listing) -> dict[str, list[_Submitter]]:
         if isinstance(error, Refused):
             raise
         raise Refused(f'not valid YAML ({" ".join(str(error).split())})') from None
-    return {
-        folder: [
-            _Submitter(*(_text(_pairs(each).get(key)) for key in (':name', ':sid', ':email')))
-            for each in _items(_pairs(facts).get(':submitters'))
-        ]
-        for folder, facts in _pairs(root).items()
-    }
+    submitters: dict[str, list[_Submitter]] = {}
+    size = 0
+    for folder, facts in _pairs(root).items():
+        submitters[folder] = []
+        for each in _items(_pairs(facts).get(':submitters')):
+            words = [_text(_pairs(each).get(key)) for key in (':name', ':sid', ':email')]
+            size += _LEAST_BYTES + sum(map(len, words))
+            if size > _MOST_BYTES:  # by aliases each folder may have all that the file has
+                raise Refused(f'larger than {_MOST_BYTES / 1e6:g} MB with its aliases written out')
+            submitters[folder].append(_Submitter(*words))
+    return submitters
 
 
 class _Builder:
