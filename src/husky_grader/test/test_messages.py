@@ -7,7 +7,7 @@ from husky_grader.rubric.steps import FieldCheck
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import LaserScan
-from std_msgs.msg import Float32
+from std_msgs.msg import Float32, Float64
 
 
 @pytest.mark.parametrize(
@@ -29,6 +29,19 @@ def test_another_number_of_32_bits_is_told() -> None:
     assert complaint(heard, [FieldCheck(field='data', equals=0.1)]) == wrong
     most = complaint(heard, [FieldCheck(field='data', most=0.1)])
     assert most == f'{wrong} or less'
+
+
+@pytest.mark.parametrize(
+    ('sent', 'check', 'wrong'),
+    [
+        (0.1 + 0.2, FieldCheck(field='data', equals=0.3), '0.30000000000000004; the lab asks'),
+        (0.4999, FieldCheck(field='data', least=0.5), '0.4999; the lab asks for 0.5 or more'),
+    ],
+)
+def test_no_number_is_told_as_what_is_asked_for(
+    sent: float, check: FieldCheck, wrong: str
+) -> None:
+    assert complaint(Float64(data=sent), [check]).startswith(f'data is {wrong}')
 
 
 @pytest.mark.parametrize(

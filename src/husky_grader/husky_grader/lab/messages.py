@@ -32,7 +32,7 @@ def complaint(message: Any, checks: Sequence[FieldCheck]) -> str:
         )
         for entry in entries:
             if not _fits(entry, held):
-                return f'{check.field} is {_shown(entry)}; {asked(_wanted(check))}'
+                return f'{check.field} is {_shown(entry, held)}; {asked(_wanted(check))}'
     return ''
 
 
@@ -50,9 +50,10 @@ def _float32(value: float) -> float:
     return c_float(value).value
 
 
-def _shown(value: Any) -> str:
+def _shown(value: Any, check: FieldCheck) -> str:
     if isinstance(value, float):
-        return str(float(f'{value:.3g}'))  # no more than is the same in each grading
+        rounded = float(f'{value:.3g}')  # no more than is the same in each grading
+        return str(value if _fits(rounded, check) else rounded)
     return shortened(repr(value) if isinstance(value, str) else str(value))
 
 
