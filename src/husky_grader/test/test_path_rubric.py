@@ -104,6 +104,17 @@ def test_points_count_in_their_order(tmp_path: Path, course: str, points: float)
     assert json.loads((report / 'lab.json').read_text())['score'] == pytest.approx(points)
 
 
+def test_a_path_almost_near_enough_is_told_by_how_much(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (rubric := tmp_path / 'rubric.yaml').write_text(THERE_AND_BACK.replace('y: 0}', 'y: 0.203}'))
+    (course := tmp_path / 'ann.yaml').write_text('waypoints: [[0, 0], [1, 0], [0, 0]]')
+    command = ['--lab', str(course), '--rubric', str(rubric)]
+    grade([*command, '--report', str(tmp_path / 'report')])
+    told = 'the path leaves out (1, 0.203): it comes no nearer than 0.203 m, allowed are 0.2 m'
+    assert told in capsys.readouterr().out
+
+
 def test_a_path_is_driven_in_the_world_of_the_rubric(tmp_path: Path) -> None:
     world = shutil.copyfile(default_worlds() / 'empty.xml', tmp_path / 'yard.xml')
     rubric, report = tmp_path / 'rubric.yaml', tmp_path / 'report'

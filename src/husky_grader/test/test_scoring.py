@@ -54,6 +54,21 @@ def test_a_run_along_the_path_gets_every_point(make_record: Make) -> None:
     assert report.cross_track_max_m < 1e-6
 
 
+@pytest.mark.parametrize(
+    ('corners', 'speed_m_s', 'told'),
+    [
+        ([(0, 0), (4, 0)], 0.3862, '10.34 s, full marks up to 10.33 s'),
+        ([(0, 0.1003), (4, 0.1003)], 0.5, '0.1003 m RMS off the path, full marks up to 0.10 m'),
+    ],
+)
+def test_what_costs_points_is_told_with_enough_digits(
+    make_record: Make, corners: Places, speed_m_s: float, told: str
+) -> None:
+    report = judge(read_run(make_record(along(*corners, speed_m_s=speed_m_s))), STRAIGHT)
+    (costly,) = [part for part in report.parts if part.cost_points > 0.0]
+    assert told in costly.why
+
+
 def test_a_parallel_run_is_off_the_path_by_its_distance(make_record: Make) -> None:
     report = judge(read_run(make_record(along((0, 0.2), (4, 0.2)))), STRAIGHT)
     assert report.cross_track_rms_m == pytest.approx(0.2)

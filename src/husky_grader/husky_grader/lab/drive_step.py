@@ -20,7 +20,7 @@ from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveS
 from husky_grader.run.diagnosis import crash
 from husky_grader.run.live import drive_live
 from husky_grader.scoring.reasons import disturbed_by
-from husky_grader.scoring.report import judge, Report
+from husky_grader.scoring.report import digits_apart, judge, Report
 
 COURSE_FILE = 'course.yaml'
 LEAST = 0.05  # points that are worth a word
@@ -131,14 +131,17 @@ def exceeded(
     :param off_path_m: root of the mean square.
     """
     found = {}
+    time_sec = round(time_sec, 6)  # of 60 s the difference of two times may be a hair more
     if limits.collisions is not None and collisions > limits.collisions:
         found['collisions'] = f'{collisions} collisions, {limits.collisions:g} are allowed'
     if limits.off_path_m is not None and off_path_m > limits.off_path_m:
+        digits = digits_apart(off_path_m, limits.off_path_m, least=3)
         found['off_path_m'] = (
-            f'{off_path_m:.3f} m RMS off the path, {limits.off_path_m:g} m are allowed'
+            f'{off_path_m:.{digits}f} m RMS off the path, {limits.off_path_m:g} m are allowed'
         )
     if limits.time_sec is not None and time_sec > limits.time_sec:
-        found['time_sec'] = f'{time_sec:.1f} s, {limits.time_sec:g} s are allowed'
+        digits = digits_apart(time_sec, limits.time_sec, least=1)
+        found['time_sec'] = f'{time_sec:.{digits}f} s, {limits.time_sec:g} s are allowed'
     return found
 
 

@@ -13,6 +13,7 @@ from husky_grader.file_grading import grade_file
 from husky_grader.lab.drive_step import exceeded, passed
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.rubric.steps import PathStep, Place
+from husky_grader.scoring.report import digits_apart
 
 
 def path_step(
@@ -65,4 +66,6 @@ def _how(
     away_m: 'np.ndarray[tuple[int, ...], np.dtype[np.float64]]', most_m: float, begin: int
 ) -> str:
     after = ' after the point before it' if begin else ''
-    return f'it comes no nearer than {away_m.min():.2f} m{after}, allowed are {most_m:g} m'
+    least_m = float(away_m.min())
+    digits = digits_apart(least_m, most_m, least=2)
+    return f'it comes no nearer than {least_m:.{digits}f} m{after}, allowed are {most_m:g} m'

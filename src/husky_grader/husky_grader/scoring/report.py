@@ -93,6 +93,21 @@ def judge(run: Run, route: Route, *, wall_time_sec: float | None = None) -> Repo
     )
 
 
+def digits_apart(number: float, other: float, *, least: int) -> int:
+    """
+    Return how many digits behind the point tell a number from another one.
+
+    :param least: so many at least.
+
+    >>> [digits_apart(number, 60.0, least=1) for number in (61.0, 60.02, 60.0)]
+    [1, 2, 1]
+    """
+    digits = least
+    while number != other and f'{number:.{digits}f}' == f'{other:.{digits}f}':
+        digits += 1
+    return digits
+
+
 def _completion(measured: Measurement) -> tuple[float, str]:
     """Return the factor; the first waypoint is where the robot starts and earns nothing."""
     reached, total = measured.waypoints_reached, measured.waypoints_total
@@ -128,7 +143,8 @@ def _time(measured: Measurement, route_par_sec: float, lead_in_sec: float) -> tu
         return 1.0, 'it did not drive along the path'
     allowed = TIME_ALLOWANCE * (lead_in_sec + par_sec)
     factor = min(1.0, max(allowed / needed_sec, MIN_TIME_FACTOR))
-    why = f'{needed_sec:.1f} s, full marks up to {allowed:.1f} s'
+    digits = digits_apart(needed_sec, allowed, least=1) if factor < 1.0 else 1
+    why = f'{needed_sec:.{digits}f} s, full marks up to {allowed:.{digits}f} s'
     if measured.too_fast > 0.005:
         factor *= 1.0 - (1.0 - TOO_FAST_FACTOR) * measured.too_fast
         why += f'; {measured.too_fast:.0%} of the path faster than asked'
@@ -137,7 +153,8 @@ def _time(measured: Measurement, route_par_sec: float, lead_in_sec: float) -> tu
 
 def _tracking(rms_m: float, wrong_way: float) -> tuple[float, str]:
     share = (NO_TRACKING_M - rms_m) / (NO_TRACKING_M - FULL_TRACKING_M)
-    why = f'{rms_m:.3f} m RMS off the path, full marks up to {FULL_TRACKING_M:.2f} m'
+    digits = digits_apart(rms_m, FULL_TRACKING_M, least=3) if share < 1.0 else 3
+    why = f'{rms_m:.{digits}f} m RMS off the path, full marks up to {FULL_TRACKING_M:.2f} m'
     factor = min(max(share, 0.0), 1.0)
     if wrong_way > 0.0:
         factor *= 1.0 - (1.0 - WRONG_WAY_FACTOR) * wrong_way
