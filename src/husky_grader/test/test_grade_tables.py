@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from husky_grader.graded import StepGrade
+from husky_grader.lab.lab import table
 from husky_grader.outputs import OUTPUT_FILES, write_outputs
 from husky_grader.submission import find_submissions
 import jsonschema
@@ -72,3 +74,12 @@ def test_no_submission_takes_the_place_of_what_is_written(tmp_path: Path) -> Non
     ids = [one.id.casefold() for one in found]
     assert 'ann' in ids
     assert set(ids) & set(OUTPUT_FILES) == set()
+
+
+def test_the_table_of_one_tells_halves_of_points() -> None:
+    steps = [StepGrade('build', 2.5, 2.5, 'built'), StepGrade('drive', 10.0, 5.0, 'half')]
+    assert table(steps).splitlines() == [
+        'build   2.5 of  2.5  built',
+        'drive   5.0 of   10  half',
+        'total   7.5 of 12.5',
+    ]

@@ -215,9 +215,9 @@ def table(grades: Sequence[StepGrade]) -> str:
     """Return one line a step, and the sum."""
     width = max(len(grade.name) for grade in grades)
     lines = [
-        f'{grade.name:<{width}} {grade.points:5.1f} of {grade.most:4.0f}  {grade.why}'
+        f'{grade.name:<{width}} {grade.points:5.1f} of {grade.most:4g}  {grade.why}'
         for grade in grades
     ]
     total, most = sum(grade.points for grade in grades), sum(grade.most for grade in grades)
-    lines.append(f'{"total":<{width}} {total:5.1f} of {most:4.0f}')
+    lines.append(f'{"total":<{width}} {total:5.1f} of {most:4g}')
     return '\n'.join(map(printable, lines))
