@@ -103,6 +103,27 @@ def test_one_that_dwells_where_it_is_asked_to_may_go_on() -> None:
     assert ending(Referee(plan_route(course)), elsewhere)[0] == 'it stood still for 8 s'
 
 
+def test_a_waypoint_near_the_start_is_not_waited_for_at_the_end() -> None:
+    course = parse_course('waypoints: [[0, 0], [0.5, 0], [4, 0]]')
+    way = [Odometry(k * PERIOD_SEC, 0.01 * k, 0.0, 0.0, 0.5, 0.0) for k in range(401)]
+    over, when = ending(Referee(plan_route(course)), way + standing(8.0, 4.0, 0.0, 5.0))
+    assert over == 'it stands at the end of the course'
+    assert when == pytest.approx(10.0, abs=0.1)
+
+
+def test_one_that_rests_where_the_course_will_end_may_go_on() -> None:
+    course = parse_course('waypoints: [[0, 0], [4, 0], [0, 0], [4, 0], [0, 0]]')
+    places = [*(0.01 * k for k in range(411)), *(0.01 * k for k in range(410, -1, -1))]
+    way = [Odometry(k * PERIOD_SEC, x, 0.0, 0.0, 0.5, 0.0) for k, x in enumerate(places)]
+    begun_sec = len(way) * PERIOD_SEC
+    rest = standing(begun_sec, 0.0, 0.0, 5.0)
+    assert ending(Referee(plan_route(course)), way + rest)[0] == ''
+    again = [now._replace(time_sec=now.time_sec + begun_sec + 5.0) for now in way]
+    after = standing(2 * begun_sec + 5.0, 0.0, 0.0, 5.0)
+    over, _ = ending(Referee(plan_route(course)), [*way, *rest, *again, *after])
+    assert over == 'it stands at the end of the course'
+
+
 def test_one_that_resets_the_simulator_for_ever_is_ended() -> None:
     course = parse_course('waypoints: [[0, 0], [4, 0]]')
     way = [Odometry(k * PERIOD_SEC, 0.01 * k, 0.0, 0.0, 0.5, 0.0) for k in range(201)]

@@ -101,7 +101,9 @@ class Referee:
 
     def _at_end(self, place: Point) -> bool:
         away = math.dist(place, (self._goal.x_m, self._goal.y_m))
-        return self._driven_m > self._half_m and away <= self._tolerance_m
+        if self._driven_m <= self._half_m or away > self._tolerance_m:
+            return False
+        return not self._progress.leads_away(place)  # the path may pass its end before
 
 
 class _Progress:
@@ -118,12 +120,18 @@ class _Progress:
         self._left = set(range(len(self._places)))
         self._visited = set[int]()  # those the robot has not been away from since a visit
         self._least_m = [math.inf] * len(self._places)
+        self._furthest = 0
         self._begun = False
 
     @property
     def left(self) -> int:
         """How many waypoints are left, beside the first, where the robot starts."""
         return len(self._left - {0})
+
+    def leads_away(self, place: Point) -> bool:
+        """Tell whether of the waypoints behind all that were visited one is left elsewhere."""
+        later = (self._places[k] for k in self._left if k > self._furthest)
+        return any(math.dist(place, each) > VISIT_M for each in later)
 
     def is_nearer(self, place: Point) -> bool:
         """Take the robot's place; give it every one, in order."""
@@ -135,6 +143,7 @@ class _Progress:
         new = here & self._left - self._visited
         if new:
             self._left.discard(min(new))
+            self._furthest = max(self._furthest, min(new))
             self._visited |= here
             self._least_m = away
             return True
