@@ -84,6 +84,20 @@ def test_a_large_file_that_has_changed_at_its_end_has_another_key(tmp_path: Path
     assert key_of([large], {}) != before
 
 
+def test_another_underlay_gives_another_key(tmp_path: Path) -> None:
+    script = (
+        'import sys; from pathlib import Path; from husky_grader.batch import key; '
+        'key.UNDERLAY = Path(sys.argv[1]); print(key.key_of([], {}))'
+    )
+    keys = []
+    for text in ('delay_sec = 1', 'delay_sec = 2', 'delay_sec = 1'):
+        (tmp_path / 'launch.py').write_text(text)
+        command = [sys.executable, '-c', script, str(tmp_path)]
+        environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+        keys.append(subprocess.run(command, env=environment, capture_output=True).stdout)
+    assert keys[0] == keys[2] != keys[1]
+
+
 def test_a_broken_file_does_not_stop_the_others(
     files: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

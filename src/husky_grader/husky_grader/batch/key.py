@@ -17,11 +17,14 @@ from husky_sim.world import default_worlds, load_world
 import husky_course
 import husky_driver
 import husky_grader
+from husky_grader.jail.folders import CLONE
 import husky_runtime
 import husky_sim
 
-PROGRAM_ENDINGS = ('.py', '.css', '.jinja')
+PROGRAM_ENDINGS = ('.py', '.c', '.css', '.jinja')
 MOST_BYTES = 10_000_000  # of a file that are read; of a larger one count its size and time, too
+UNDERLAY = CLONE / 'underlay'
+"""What the wheels of Jazzy lack, and programs of students run with."""
 _PACKAGES = (husky_course, husky_driver, husky_grader, husky_runtime, husky_sim)
 
 
@@ -67,8 +70,7 @@ def world_digest(world: str) -> str:
 def _programs() -> bytes:
     """Return a hash of the lab's programs and of versions."""
     digest = hashlib.sha256(repr(sorted(versions().items())).encode())
-    for package in _PACKAGES:
-        folder = Path(package.__path__[0])
+    for folder in (*(Path(package.__path__[0]) for package in _PACKAGES), UNDERLAY):
         for path in sorted(path for path in folder.rglob('*') if path.suffix in PROGRAM_ENDINGS):
             digest.update(_digest(path))
     return digest.digest()
