@@ -12,7 +12,7 @@ import signal
 import sys
 from typing import Any
 
-from husky_course.record import read_record, read_run
+from husky_course.record import COURSE_NAME, read_record, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.run.in_process import Conditions, drive_route
@@ -65,7 +65,7 @@ def test_drive_ends_with_a_report_and_success(
     assert (tmp_path / 'report.html').read_text().startswith('<!DOCTYPE html>')
     assert (tmp_path / 'path.png').read_bytes().startswith(b'\x89PNG')
     driven = ROOT / 'config' / 'waypoints' / 'central_barrier.yaml'
-    assert (tmp_path / 'waypoints.yaml').read_bytes() == driven.read_bytes()
+    assert (tmp_path / COURSE_NAME).read_bytes() == driven.read_bytes()
     check_bag(processes, tmp_path)
 
 
@@ -128,10 +128,10 @@ def check_bag(processes: Processes, folder: Path) -> None:
 
 
 def test_drive_fails_when_the_barrier_is_in_the_way(processes: Processes, tmp_path: Path) -> None:
-    course = tmp_path / 'waypoints.yaml'  # which is where the report keeps the one driven
+    course = tmp_path / COURSE_NAME  # which is where the report keeps the one driven
     through = 'speed: 0.6\nwaypoints:\n  - [0.0, 0.0]\n  - [4.5, 0.0]\n'
     course.write_text(through)
-    run = drive(processes, tmp_path, '--fast', 'waypoints.yaml', 'floor:=grass')
+    run = drive(processes, tmp_path, '--fast', COURSE_NAME, 'floor:=grass')
     assert run.wait(timeout_sec=60.0) == 1, run.output
     assert course.read_text() == through
     report = json.loads((tmp_path / 'report.json').read_text())

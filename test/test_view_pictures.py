@@ -11,6 +11,7 @@ from pathlib import Path
 import shutil
 from typing import Protocol
 
+from husky_course.record import COURSE_NAME
 from husky_sim.recording import RunRecorder
 from husky_sim.simulation import Simulation
 from husky_sim.world import default_worlds
@@ -181,7 +182,7 @@ def test_a_replay_shows_the_collision_in_red(
         simulation.advance()
         record.append()
     record.close()
-    shutil.copy(COURSE, tmp_path / 'waypoints.yaml')
+    shutil.copy(COURSE, tmp_path / COURSE_NAME)
     replay = processes.start('ros2', 'run', 'husky_view', 'replay', str(tmp_path))
     replay.wait_for_text('look at http://')
     address = replay.output.split('look at ')[1].split()[0]

@@ -13,7 +13,7 @@ import sys
 import time
 
 from husky_course.printable import printable
-from husky_course.record import FILE_NAME, read_record, read_run
+from husky_course.record import COURSE_NAME, FILE_NAME, read_record, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_runtime.command_line import BAD_INPUT, discard_output, given_name, Parser, run_printing
@@ -27,7 +27,7 @@ from husky_grader import check, grade
 from husky_grader.drive_page import drive_page, DrivePage, is_at_a_terminal
 from husky_grader.grade_class import NOT_PASSED, PASSED
 from husky_grader.playpen import default_course
-from husky_grader.report.files import COURSE_FILE, keep_course
+from husky_grader.report.files import keep_course
 from husky_grader.report.folder import alone_in
 from husky_grader.run.standstill import Watch
 from husky_grader.scoring.report import judge
@@ -147,7 +147,7 @@ def _run(
     wall_time_sec = time.monotonic() - begun
     if not (folder / FILE_NAME).is_file():
         why = 'no simulator has started: what it said stands above'
-        if not (folder / COURSE_FILE).is_file():
+        if not (folder / COURSE_NAME).is_file():
             why = printable(f'{folder} was emptied, renamed or removed meanwhile; drive again')
         print(f'lab drive: {why}', file=sys.stderr)
         return BAD_INPUT

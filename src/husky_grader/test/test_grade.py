@@ -9,7 +9,7 @@ import subprocess
 import sys
 from typing import Any
 
-from husky_course.record import read_record, read_run
+from husky_course.record import COURSE_NAME, read_record, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.check import main as check
@@ -336,13 +336,21 @@ def test_a_report_that_cannot_be_written_is_one_line(
     assert line == f'{tmp_path / "report" / "deep"}: Not a directory'
 
 
+def test_a_course_of_a_person_stays_where_the_report_lies(courses: Path, tmp_path: Path) -> None:
+    own = tmp_path / 'waypoints.yaml'
+    own.write_text('waypoints: [[0, 0], [9, 9]]')
+    assert graded(courses / 'straight.yaml', tmp_path)[0] == 0
+    assert own.read_text() == 'waypoints: [[0, 0], [9, 9]]'
+
+
 def test_a_graded_run_can_be_replayed(courses: Path, tmp_path: Path) -> None:
     course = courses / 'straight.yaml'
     code, first = graded(course, tmp_path)
     assert code == 0
     assert read_record(tmp_path).complete
-    assert (tmp_path / 'waypoints.yaml').read_bytes() == course.read_bytes()
-    kept = tmp_path / 'waypoints.yaml'  # and what was kept can be graded into its own folder
+    kept = tmp_path / COURSE_NAME
+    assert kept.read_bytes() == course.read_bytes()
+    # And what was kept can be graded into its own folder.
     code, second = graded(kept, tmp_path)
     assert code == 0
     assert kept.read_bytes() == course.read_bytes()

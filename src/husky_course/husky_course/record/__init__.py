@@ -12,10 +12,11 @@ from husky_course.record.contents import (
 )
 from husky_course.record.record import read_record, Record, RecordRefused
 from husky_course.record.run import read_run, Run
-from husky_course.record.writer import FILE_NAME, RecordWriter
+from husky_course.record.writer import COURSE_NAME, FILE_NAME, RecordWriter
 
 __all__ = [
     'COLUMNS',
+    'COURSE_NAME',
     'FILE_NAME',
     'MAX_RATE',
     'Collision',

@@ -29,6 +29,8 @@ from husky_course.robot import RobotStart
 FORMAT = 'husky_playpen_record'
 VERSION = 3
 FILE_NAME = 'run.record'
+COURSE_NAME = 'run.waypoints.yaml'
+"""The course of the run beside it, named as no file of a person is."""
 BLOCK_PERIODS = 100  # two seconds of simulated time
 
 _values = attrgetter(*COLUMNS)

@@ -9,7 +9,7 @@ from typing import Any
 
 from husky_course.files import replacing
 from husky_course.printable import printable
-from husky_course.record import Run
+from husky_course.record import COURSE_NAME, Run
 from husky_course.route import Route
 from markupsafe import Markup
 
@@ -18,7 +18,6 @@ from husky_grader.report.page import rendered
 from husky_grader.report.plot import MAX_POINTS, Plot
 from husky_grader.scoring.report import FORMULA, FULL_TRACKING_M, Report
 
-COURSE_FILE = 'waypoints.yaml'
 PICTURE = 'path.png'
 BAG = 'run.mcap'
 REPORT_FILES = ('report.json', 'report.html', PICTURE)
@@ -109,7 +108,7 @@ def _write(path: Path, text: str) -> None:
 
 def keep_course(file: Path, folder: Path) -> None:
     """Keep the file beside the record of its run, for `./lab view`."""
-    kept = folder / COURSE_FILE
+    kept = folder / COURSE_NAME
     if not (kept.exists() and kept.samefile(file)):
         with replacing(kept) as part:
             part.write_bytes(file.read_bytes())

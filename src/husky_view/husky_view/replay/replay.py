@@ -10,7 +10,7 @@ import sys
 import time
 from typing import NoReturn
 
-from husky_course.record import Record, RecordRefused
+from husky_course.record import COURSE_NAME, Record, RecordRefused
 from husky_runtime.command_line import BAD_INPUT, Parser
 from husky_runtime.web_address import AddressError
 from husky_sim.errors import SimulatorError
@@ -24,7 +24,6 @@ from husky_view.replay.panel import Playback, ReplayPanel
 from husky_view.replay.run import load_run, RunScenes
 from husky_view.server import ActionQueue, close_server, PageServer
 
-WAYPOINTS_FILE = 'waypoints.yaml'
 FRAME_SEC = 1.0 / 30.0
 PANEL_HZ = 10.0
 
@@ -122,7 +121,7 @@ def main(args: Sequence[str] | None = None) -> int:
         '--names', nargs='+', default=(), help='more names under which the page may be asked for'
     )
     parser.add_argument(
-        '--waypoints', help=f"the course that was to be driven (the report's {WAYPOINTS_FILE})"
+        '--waypoints', help=f"the course that was to be driven (the report's {COURSE_NAME})"
     )
     options = parser.parse_args(None if args is None else list(args)[1:])
     _end_on_signal()
@@ -134,7 +133,7 @@ def main(args: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     try:
         replay = Replay(server, run)
-        beside = Path(run.file).with_name(WAYPOINTS_FILE)
+        beside = Path(run.file).with_name(COURSE_NAME)
         if options.waypoints or beside.is_file():
             replay.show_course(Path(options.waypoints or beside))
         print(f'replay of {run.file}: look at {server.address} (Ctrl-C ends)', flush=True)
