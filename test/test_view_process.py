@@ -163,7 +163,8 @@ def test_a_view_that_builds_its_page_ends_within_the_time_of_a_drive(
     ('given', 'why'),
     [
         ('viewer_host:=192.0.2.1', "host '192.0.2.1'"),
-        ('viewer_host:=5', "'5' of type 'INTEGER', expecting type 'STRING'"),
+        ('viewer_host:=5', 'viewer_host=5: a text is allowed'),
+        ('viewerport:=3', 'parameter viewerport does not exist; did you mean viewer_port? '),
         ('simulator:=a b', 'Invalid service name'),
     ],
 )

@@ -11,6 +11,10 @@ SimulatorError
 Each message is one line for the person who started the simulator.
 """
 
+from typing import Any
+
+from husky_runtime.settings import Setting
+
 
 class SimulatorError(Exception):
     """The simulator cannot run with what it was given."""
@@ -26,3 +30,8 @@ class StartPoseError(SimulatorError):
 
 class SettingError(SimulatorError):
     """A parameter has a value that is not allowed."""
+
+
+def refused(setting: Setting, given: Any) -> SettingError:
+    """Return the error that says which values of a parameter are allowed."""
+    return SettingError(f'{setting.name}={given!r}: {setting.allowed} is allowed')

@@ -9,7 +9,7 @@ from typing import Any
 
 from husky_course.robot import RobotStart
 from husky_runtime.parameters import declare_settings
-from husky_runtime.settings import names_of, refuse_unknown, Setting, settings_of
+from husky_runtime.settings import names_of, refuse_unknown, settings_of
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType, ParameterValue
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -24,7 +24,7 @@ from husky_sim.config import (
     SimulationConfig,
     StartConfig,
 )
-from husky_sim.errors import SettingError
+from husky_sim.errors import refused, SettingError
 from husky_sim.world.world import default_worlds
 
 FACTOR = next(each for each in settings_of(RunConfig) if each.changeable)
@@ -68,7 +68,7 @@ def read_run(node: Node) -> RunConfig:
         refuse_unknown(node.get_parameters_by_prefix(''), _NAMES)
     except ValueError as error:
         raise SettingError(str(error)) from None
-    config = declare_settings(node, RunConfig, _refuse, files=('world', 'record'))
+    config = declare_settings(node, RunConfig, refused, files=('world', 'record'))
     if config.world:
         return config
     return replace(config, world=str(default_worlds() / 'playpen.xml'))
@@ -80,12 +80,12 @@ def read_simulation(node: Node, run: RunConfig) -> SimulationConfig:
 
     :raises SettingError: if a value is not allowed.
     """
-    start = declare_settings(node, StartConfig, _refuse)
-    drive = declare_settings(node, DriveConfig, _refuse)
-    sensors = declare_settings(node, SensorConfig, _refuse)
-    ground = declare_settings(node, GroundConfig, _refuse)
-    body = declare_settings(node, BodyConfig, _refuse)
-    power = declare_settings(node, PowerConfig, _refuse)
+    start = declare_settings(node, StartConfig, refused)
+    drive = declare_settings(node, DriveConfig, refused)
+    sensors = declare_settings(node, SensorConfig, refused)
+    ground = declare_settings(node, GroundConfig, refused)
+    body = declare_settings(node, BodyConfig, refused)
+    power = declare_settings(node, PowerConfig, refused)
     if run.lockstep and not sensors.localization:
         raise SettingError('lockstep=True needs odometry/filtered; set localization to true')
     robots = _read_robots(node)
@@ -125,7 +125,7 @@ def read_factor(given: Any) -> float:
 
     :raises SettingError: if the value is not allowed.
     """
-    return float(FACTOR.checked(given, _refuse))
+    return float(FACTOR.checked(given, refused))
 
 
 def _read_robots(node: Node) -> tuple[RobotStart, ...]:
@@ -150,7 +150,3 @@ def _read_robots(node: Node) -> tuple[RobotStart, ...]:
         ParameterValue(type=kind, string_array_value=['']),
     )
     return robots
-
-
-def _refuse(setting: Setting, given: Any) -> SettingError:
-    return SettingError(f'{setting.name}={given!r}: {setting.allowed} is allowed')

@@ -8,6 +8,7 @@ It asks the simulator for its world, so it can be started at any time, before or
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 import os
 from pathlib import Path
 import sys
@@ -15,15 +16,15 @@ from threading import Timer
 import time
 from typing import Any
 
-from husky_runtime.command_line import absolute_path
 from husky_runtime.executor import future_of_signal, spin
+from husky_runtime.parameters import declare_settings
+from husky_runtime.settings import names_of, refuse_unknown, setting
 from husky_runtime.web_address import AddressError
-from husky_sim.errors import SimulatorError
+from husky_sim.errors import refused, SettingError, SimulatorError
 from husky_sim.world import load_world, World
-from rcl_interfaces.msg import ParameterDescriptor
 import rclpy
 from rclpy.clock import Clock, ClockType
-from rclpy.exceptions import NameValidationException, ParameterException
+from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
@@ -43,13 +44,22 @@ _HINT_AFTER_SEC = 3.0
 _EXIT_SEC = 0.7
 """Less than the second that a drive gives all that it has started."""
 
-_PARAMETERS = {
-    'simulator': ('husky_sim', 'Name of the simulator node to show.'),
-    'viewer_host': ('127.0.0.1', 'Address to serve the page at; 0.0.0.0 lets others look.'),
-    'viewer_port': (8080, 'Port of the page; the next free one if it is taken.'),
-    'viewer_names': ('', 'More names under which the page may be asked for, as of a proxy.'),
-    'waypoints_folder': ('', "Where the editor saves; empty: the workspace's config/waypoints."),
-}
+
+@dataclass(frozen=True, kw_only=True)
+class ViewSettings:
+    """What the view is told."""
+
+    simulator: str = setting('husky_sim', 'Name of the simulator node to show.')
+    viewer_host: str = setting(
+        '127.0.0.1', 'Address to serve the page at; 0.0.0.0 lets others look.'
+    )
+    viewer_port: int = setting(8080, 'Port of the page; the next free one if it is taken.')
+    viewer_names: str = setting(
+        '', 'More names under which the page may be asked for, as of a proxy.'
+    )
+    waypoints_folder: str = setting(
+        '', "Where the editor saves; empty: the workspace's config/waypoints."
+    )
 
 
 class ViewNode(Node):
@@ -60,22 +70,22 @@ class ViewNode(Node):
         Open the page.
 
         :raises AddressError: if the page cannot be served there.
+        :raises SettingError: for a parameter that does not exist or a value that is not allowed.
         """
-        super().__init__('husky_view')
-        settings: dict[str, Any] = {
-            name: self.declare_parameter(
-                name, default, ParameterDescriptor(description=text, read_only=True)
-            ).value
-            for name, (default, text) in _PARAMETERS.items()
-        }
+        super().__init__('husky_view', automatically_declare_parameters_from_overrides=True)
+        try:
+            refuse_unknown(self.get_parameters_by_prefix(''), names_of(ViewSettings))
+        except ValueError as error:
+            raise SettingError(str(error)) from None
+        settings = declare_settings(self, ViewSettings, refused, files=('waypoints_folder',))
         self._looked_at = False
-        self._query = SimulatorQuery(self, settings['simulator'])
-        self._folder = Path(absolute_path(settings['waypoints_folder']) or waypoint_folder())
+        self._query = SimulatorQuery(self, settings.simulator)
+        self._folder = Path(settings.waypoints_folder or waypoint_folder())
         self._server = PageServer(
-            settings['viewer_host'],
-            settings['viewer_port'],
+            settings.viewer_host,
+            settings.viewer_port,
             title=TITLE,
-            names=settings['viewer_names'].split(),
+            names=settings.viewer_names.split(),
         )
         self._server.on_client_connect(self._on_tab)
 
@@ -163,7 +173,7 @@ def main(args: list[str] | None = None) -> int:
         finally:
             node.destroy_node()
         return 0
-    except (AddressError, SimulatorError, ParameterException, NameValidationException) as error:
+    except (AddressError, SimulatorError, NameValidationException) as error:
         print(f'view: {" ".join(str(error).split())}', file=sys.stderr)
         return 2
     finally:
