@@ -13,10 +13,15 @@ import subprocess
 import sys
 import threading
 import time
+from types import SimpleNamespace
 from typing import Any
 
 from geometry_msgs.msg import Twist
+from husky_course.route import plan_route
+from husky_course.waypoints import load_course
+from husky_driver.drive.drive import Drive
 from husky_driver.motion import Command
+from husky_driver.ros.node import FollowPath
 from husky_runtime.executor import make_executor
 from nav_msgs.msg import Odometry
 import pytest
@@ -275,6 +280,26 @@ def test_a_signal_stops_the_robot_and_then_the_node(
     assert process.returncode == code, output
     assert 'Traceback' not in output
     assert plant_node.plant.now.is_standing
+
+
+# Ctrl-C sends one to all in a terminal, and a launch of Jazzy's another one to its nodes.
+def test_a_signal_that_comes_while_one_is_told_is_not_told(
+    domain: int, course: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain)
+    node = FollowPath(lambda *_: Drive(plan_route(load_course(course))), context=context)
+    told = list[str]()
+
+    def error(text: str) -> None:
+        told.append(text)
+        node.stop(130, 'stopped by SIGINT again')
+
+    monkeypatch.setattr(node, 'get_logger', lambda: SimpleNamespace(error=error))
+    node.stop(130, 'stopped by SIGINT')
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+    assert told == ['stopped by SIGINT']
 
 
 def call(node: PlantNode, kind: Any, name: str, request: Any) -> Any:

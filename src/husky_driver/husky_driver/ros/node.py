@@ -119,9 +119,9 @@ class FollowPath(Node):
         """Break the drive off: stop the robot, then finish with this exit code."""
         if self._exit_code is not None or self.finished.done():
             return
-        self._say(why, failed=True)
-        self._exit_code = exit_code
+        self._exit_code = exit_code  # first: another signal may come while this is said
         self._stop_deadline_sec = time.monotonic() + STOP_WITHIN_SEC
+        self._say(why, failed=True)
         self._drive.give_up(why)
         self._publish(0.0, 0.0)
 
