@@ -139,7 +139,7 @@ def test_what_is_for_another_python_is_not_for_a_set_up(tmp_path: Path) -> None:
     program(tmp_path / 'bin', 'python', 'true')
     script = f'venv={tmp_path} root={tmp_path} setup_log={tmp_path}/log; {no_steps}; {seen}'
     script += '; with_progress() { with_me; }'
-    done = sourced(f'{script}; exec 3>&1; set +e; set_up pip python key', **OF_ANOTHER_PYTHON)
+    done = sourced(f'{script}; exec 3>&1; set +e; set_up pip python3 key', **OF_ANOTHER_PYTHON)
     assert set(done.stdout.splitlines()) == {'step'}, done
 
 
