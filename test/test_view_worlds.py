@@ -109,9 +109,11 @@ def test_a_stop_that_is_clicked_while_another_world_is_loaded_holds_it(
     monkeypatch.setattr('husky_view.live.node.LiveView', SeenView)
     monkeypatch.setattr(node, '_wait_for_world', lambda _: world)
     monkeypatch.setattr(node, '_result_of', load)
-    node.show_all(Future())
-    node.destroy_node()
-    rclpy.shutdown()
+    try:
+        node.show_all(Future())
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
     assert [each.is_stopped for each in views] == [True, True]
 
 

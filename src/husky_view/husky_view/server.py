@@ -8,6 +8,7 @@ import io
 from queue import SimpleQueue
 from threading import Thread
 import time
+import warnings
 
 from husky_runtime.web_address import AddressError, free_port, new_token
 import viser
@@ -38,6 +39,8 @@ class PageServer(viser.ViserServer):
         gate = Gate(self._admission, title=title)
         port = free_port(host, port)
         use_thread_safe_buffers()
+        # A tab may be closed at any moment, also while it is told something.
+        warnings.filterwarnings('ignore', 'Queued a .* on a closed connection', UserWarning)
         with gate.in_front(), redirect_stdout(io.StringIO()):  # viser prints a banner
             super().__init__(host=host, port=port, label=title, verbose=False)
         gate.control_of = self.gui._gui_input_handle_from_uuid.get

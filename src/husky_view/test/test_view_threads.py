@@ -41,6 +41,17 @@ def test_what_is_drawn_wakes_the_tabs_in_the_servers_thread_alone(
     assert threading.get_ident() not in threads, 'an event of asyncio is not thread-safe'
 
 
+def test_a_tab_that_is_closed_while_the_page_is_emptied_is_not_warned_of(
+    server: PageServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with PageClient(server.address):
+        wait_until(server.get_clients, timeout_sec=10.0, what='a tab')
+        tabs = server.get_clients()
+    wait_until(lambda: not server.get_clients(), timeout_sec=10.0, what='its end')
+    monkeypatch.setattr(server, 'get_clients', lambda: tabs)
+    server.clear()
+
+
 def test_clicks_that_come_at_once_are_heard_as_they_were_made(server: PageServer) -> None:
     heard: list[str] = []
 
