@@ -92,13 +92,19 @@ def test_an_arrow_is_one_key() -> None:
 
 
 @pytest.fixture
-def received(domain: int, monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Collect the commands on the graph."""
+def domain_of_programs(domain: int, monkeypatch: pytest.MonkeyPatch) -> int:
+    """Give the domain of the test to the programs that it starts, too."""
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
     monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
+    return domain
+
+
+@pytest.fixture
+def received(domain_of_programs: int) -> Any:
+    """Collect the commands on the graph."""
     context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain)
+    rclpy.init(context=context, domain_id=domain_of_programs)
     node = rclpy.create_node('robot', context=context)
     commands: list[Command] = []
     topic = 'husky_velocity_controller/cmd_vel'
@@ -162,12 +168,8 @@ def test_a_released_key_or_a_closed_terminal_stops_the_robot(
         process.wait()
 
 
-def test_keys_get_through_again_after_ctrl_z_and_fg(
-    domain: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-    monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
+@pytest.mark.usefixtures('domain_of_programs')
+def test_keys_get_through_again_after_ctrl_z_and_fg() -> None:
     terminal = Terminal(sys.executable, '-m', 'husky_driver.teleop')
     try:
         terminal.wait_for_text('forward, with a turn')
@@ -186,11 +188,8 @@ def test_keys_get_through_again_after_ctrl_z_and_fg(
 
 
 def test_without_a_simulator_or_with_a_wrong_parameter_it_says_so(
-    domain: int, monkeypatch: pytest.MonkeyPatch
+    domain_of_programs: int,
 ) -> None:
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-    monkeypatch.setenv('PYTHONPATH', ':'.join(sys.path))
     ours, theirs = pty.openpty()
     command = [sys.executable, '-m', 'husky_driver.teleop', '--ros-args', '-p']
     streams: dict[str, Any] = {
@@ -205,7 +204,7 @@ def test_without_a_simulator_or_with_a_wrong_parameter_it_says_so(
         process.terminate()
         assert process.wait(timeout=10.0) == 0
     assert 'nobody takes /husky_velocity_controller/cmd_vel yet' in hint
-    assert f'ROS_DOMAIN_ID={domain}' in hint
+    assert f'ROS_DOMAIN_ID={domain_of_programs}' in hint
     for wrong, message in (('sped:=0.3', 'did you mean speed'), ('speed:=3.0', '0.01 to 1')):
         refused = subprocess.run([*command, wrong], text=True, timeout=20.0, **streams)
         assert refused.returncode == 2
