@@ -12,7 +12,6 @@ import signal
 import subprocess
 import threading
 import time
-from types import TracebackType
 from typing import Any, IO
 
 from husky_runtime.parent_death import die_with_parent
@@ -202,12 +201,7 @@ class Processes:
     def __enter__(self) -> 'Processes':
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         for process in reversed(self._started):
             how = process.close()
             print(f'{" ".join(process.command)} {how}; it printed:\n{process.output}')

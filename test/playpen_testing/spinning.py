@@ -5,7 +5,6 @@
 from collections.abc import Callable
 from contextlib import suppress
 import threading
-from types import TracebackType
 from typing import TypeVar
 
 import rclpy
@@ -101,11 +100,6 @@ class SpunNodes:
     def __enter__(self) -> 'SpunNodes':
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         for spun in reversed(self._spun):
             spun.close()

@@ -5,7 +5,6 @@
 from collections.abc import Callable
 import contextlib
 import time
-from types import TracebackType
 from typing import Any
 
 from geometry_msgs.msg import Twist
@@ -36,12 +35,7 @@ class TurtleClient:
     def __enter__(self) -> 'TurtleClient':
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._executor.shutdown()
         self.node.destroy_node()
         self._context.try_shutdown()

@@ -11,7 +11,6 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
-import threading
 import time
 from types import SimpleNamespace
 from typing import Any
@@ -22,8 +21,8 @@ from husky_course.waypoints import load_course
 from husky_driver.drive.drive import Drive
 from husky_driver.motion import Command
 from husky_driver.ros.node import FollowPath
-from husky_runtime.executor import make_executor
 from nav_msgs.msg import Odometry
+from playpen_testing.spinning import SpunNodes
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -43,8 +42,8 @@ COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 class PlantNode(Node):
     """Publishes odometry in lockstep: the next one after each command."""
 
-    def __init__(self, plant: Any, context: rclpy.Context) -> None:
-        super().__init__('plant', context=context)
+    def __init__(self, plant: Any, **ros: Any) -> None:
+        super().__init__('plant', **ros)
         self.plant = plant
         self.received: list[Command] = []
         self.answered = math.inf  # after so many commands it falls silent
@@ -89,25 +88,8 @@ def plant_node(
     domain: int, make_plant: Any, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[PlantNode]:
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain)
-    node = PlantNode(make_plant(), context)
-    executor = make_executor(context)
-    executor.add_node(node)
-    done = threading.Event()
-
-    def spin() -> None:
-        while not done.is_set():
-            executor.spin_once(timeout_sec=0.1)
-
-    thread = threading.Thread(target=spin)
-    thread.start()
-    yield node
-    done.set()
-    thread.join(timeout=5.0)
-    executor.remove_node(node)
-    node.destroy_node()
-    rclpy.shutdown(context=context)
+    with SpunNodes(domain) as nodes:
+        yield nodes.start(PlantNode, make_plant())
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import fcntl
 import os
 import pty
@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import termios
-import threading
 import time
 from typing import Any
 
@@ -16,11 +15,11 @@ from geometry_msgs.msg import Twist
 from husky_driver.keys import HELP, Keyboard, MOVES, split_keys
 from husky_driver.motion import Command, STOP
 from husky_driver.teleop import main
-from husky_runtime.executor import make_executor
 from playpen_testing.keyboard import CTRL_C
 from playpen_testing.keyboard import Keyboard as Terminal
+from playpen_testing.spinning import SpunNodes
 import pytest
-import rclpy
+from rclpy.node import Node
 
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -101,32 +100,19 @@ def domain_of_programs(domain: int, monkeypatch: pytest.MonkeyPatch) -> int:
 
 
 @pytest.fixture
-def received(domain_of_programs: int) -> Any:
+def received(domain_of_programs: int) -> Iterator[list[Command]]:
     """Collect the commands on the graph."""
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain_of_programs)
-    node = rclpy.create_node('robot', context=context)
     commands: list[Command] = []
-    topic = 'husky_velocity_controller/cmd_vel'
-    node.create_subscription(
-        Twist, topic, lambda m: commands.append(Command(m.linear.x, m.angular.z)), 10
-    )
-    executor = make_executor(context)
-    executor.add_node(node)
-    done = threading.Event()
 
-    def spin() -> None:
-        while not done.is_set():
-            executor.spin_once(timeout_sec=0.1)
+    def listen(robot: Node) -> None:
+        topic = 'husky_velocity_controller/cmd_vel'
+        robot.create_subscription(
+            Twist, topic, lambda m: commands.append(Command(m.linear.x, m.angular.z)), 10
+        )
 
-    thread = threading.Thread(target=spin)
-    thread.start()
-    yield commands
-    done.set()
-    thread.join(timeout=5.0)
-    executor.remove_node(node)
-    node.destroy_node()
-    rclpy.shutdown(context=context)
+    with SpunNodes(domain_of_programs) as nodes:
+        nodes.start(Node, 'robot', before_spin=listen)
+        yield commands
 
 
 def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> None:
