@@ -9,7 +9,7 @@ POLL_SEC = 0.01
 
 
 def wait_until(
-    fact: Callable[[], bool], *, timeout_sec: float, what: str | Callable[[], str]
+    fact: Callable[[], object], *, what: str | Callable[[], str], timeout_sec: float = 10.0
 ) -> None:
     """
     Return as soon as the fact holds.

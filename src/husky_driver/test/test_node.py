@@ -23,6 +23,7 @@ from husky_driver.motion import Command
 from husky_driver.ros.node import FollowPath
 from nav_msgs.msg import Odometry
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -124,13 +125,6 @@ def course(tmp_path: Path) -> Path:
     path = tmp_path / 'course.yaml'
     path.write_text(COURSE)
     return path
-
-
-def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> None:
-    deadline = time.monotonic() + timeout_sec
-    while not fact():
-        assert time.monotonic() < deadline, f'after {timeout_sec} s still no {what}'
-        time.sleep(0.01)
 
 
 def test_each_odometry_of_a_whole_course_gets_one_command(

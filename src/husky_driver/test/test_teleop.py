@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 import fcntl
 import os
 import pty
@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import termios
-import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
@@ -18,6 +17,7 @@ from husky_driver.teleop import main
 from playpen_testing.keyboard import CTRL_C
 from playpen_testing.keyboard import Keyboard as Terminal
 from playpen_testing.spinning import SpunNodes
+from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
 
@@ -113,13 +113,6 @@ def received(domain_of_programs: int) -> Iterator[list[Command]]:
     with SpunNodes(domain_of_programs) as nodes:
         nodes.start(Node, 'robot', before_spin=listen)
         yield commands
-
-
-def wait_until(fact: Callable[[], bool], *, timeout_sec: float, what: str) -> None:
-    deadline = time.monotonic() + timeout_sec
-    while not fact():
-        assert time.monotonic() < deadline, f'after {timeout_sec} s still no {what}'
-        time.sleep(0.01)
 
 
 def test_a_released_key_or_a_closed_terminal_stops_the_robot(

@@ -25,6 +25,7 @@ from husky_grader.batch.workers import workers
 from husky_grader.file_grading import Grade
 from husky_grader.file_job import FileJob
 from husky_grader.grade import main as grade
+from playpen_testing.waiting import wait_until
 import pytest
 
 HOURS = ''.join(f'  - {{x: -{k}.0, y: 0, dwell: 600}}\n' for k in (1, 2, 1, 2, 1, 2))
@@ -194,7 +195,7 @@ def test_a_class_that_is_killed_hard_leaves_no_worker(tmp_path: Path) -> None:
     with subprocess.Popen(command, env=environment, start_new_session=True) as running:
         records = (tmp_path / 'report' / f'student_{number}' / 'run.record' for number in (0, 1))
         for record in records:
-            wait_until(record.exists, what=f'{record}')
+            wait_until(record.exists, what=f'{record}', timeout_sec=20.0)
         running.kill()
         running.wait()
         wait_until(lambda: not living(running.pid), what='their end', timeout_sec=3.0)
@@ -209,13 +210,6 @@ def living(session: int) -> list[str]:
             if int(its_session) == session and state != 'Z':
                 found.append(folder.name)
     return found
-
-
-def wait_until(holds: Callable[[], bool], *, what: str, timeout_sec: float = 20.0) -> None:
-    deadline = time.monotonic() + timeout_sec
-    while not holds():
-        assert time.monotonic() < deadline, f'waited {timeout_sec} s for {what}'
-        time.sleep(0.02)
 
 
 def test_names_that_lead_elsewhere_or_are_ours_break_nothing(
@@ -352,7 +346,7 @@ def test_a_worker_that_dies_between_two_jobs_costs_none(tmp_path: Path) -> None:
         processes = [process_of(start(OwnEnd('', 'job'), tmp_path))]
         os.kill(processes[0], signal.SIGKILL)
         stat = Path(f'/proc/{processes[0]}/stat')
-        wait_until(lambda: ') Z ' in stat.read_text(), what='its end')
+        wait_until(lambda: ') Z ' in stat.read_text(), what='its end', timeout_sec=20.0)
         processes += [process_of(start(OwnEnd('', 'job'), tmp_path))]
     assert processes[0] != processes[1]
 
@@ -381,7 +375,9 @@ def test_a_second_ctrl_c_leaves_no_worker_and_no_file(
             for file in files:
                 start(Long('', file.stem), tmp_path)
             wait_until(
-                lambda: all(file.is_file() and file.stat().st_size for file in files), what='two'
+                lambda: all(file.is_file() and file.stat().st_size for file in files),
+                timeout_sec=20.0,
+                what='two',
             )
             monkeypatch.setattr('multiprocessing.context.SpawnProcess.kill', kill_amid)
             os.kill(os.getpid(), signal.SIGINT)

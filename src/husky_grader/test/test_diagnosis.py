@@ -8,7 +8,6 @@ import os
 from pathlib import Path
 import signal
 import sys
-import time
 
 from geometry_msgs.msg import Twist, TwistStamped
 from husky_grader.lab.live_steps import how_it_ended
@@ -18,6 +17,7 @@ from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
 from husky_grader.run.watcher import GraphWatcher
 from husky_runtime.children import ChildProcess
 from nav_msgs.msg import Odometry
+from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
 from rclpy.duration import Duration
@@ -45,17 +45,10 @@ def printed_by(program: str, folder: Path, *, until: str = '') -> str:
     with log.open('w') as stream:
         process = ChildProcess([sys.executable, str(file)], os.environ, stream)
         if until:
-            wait_for(lambda: until in read_printed(log), f'{until}, printed by the program')
+            wait_until(lambda: until in read_printed(log), what=f'{until}, printed by the program')
             process.send(signal.SIGINT)
         assert process.wait(20.0)
     return read_printed(log)
-
-
-def wait_for(fact: Callable[[], object], what: str) -> None:
-    deadline = time.monotonic() + 10.0
-    while not fact():
-        assert time.monotonic() < deadline, f'not within 10 s: {what}'
-        time.sleep(0.01)
 
 
 @pytest.mark.parametrize(
@@ -188,7 +181,7 @@ def test_a_velocity_that_is_no_number_is_told(
     environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain)}
     simulator = [sys.executable, '-m', 'husky_sim.ros.node']
     with log.open('w') as stream, ChildProcess(simulator, environment, stream):
-        wait_for(told, 'what the simulator says of nan')
+        wait_until(told, what='what the simulator says of nan')
     assert told() == (
         'it commanded linear.x = nan, angular.z = 0.0: a velocity must be a finite number',
     )
@@ -233,7 +226,9 @@ def student(nodes: list[Node]) -> tuple[Node, Callable[[], Graph]]:
         return read_graph(nodes[2], ('husky_sim', 'grader'))
 
     offered = {'/front/scan', ODOMETRY}
-    wait_for(lambda: {e.topic for e in graph().other_publishers} >= offered, 'the simulator')
+    wait_until(
+        lambda: {e.topic for e in graph().other_publishers} >= offered, what='the simulator'
+    )
     return nodes[0], graph
 
 
@@ -308,7 +303,7 @@ def test_a_mistake_on_the_graph_is_told_for_what_it_is(
     node, graph = student
     make, reason = MISTAKES[name]
     kept = make(node)
-    wait_for(lambda: tuple(reasons_of_graph(graph())), reason)
+    wait_until(lambda: tuple(reasons_of_graph(graph())), what=reason)
     assert tuple(reasons_of_graph(graph())) == (reason,)
     del kept
 
@@ -321,7 +316,9 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
         node.create_subscription(Odometry, 'odometry/filtered', take, 10),
         node.create_publisher(Twist, COMMAND_TOPIC, 10),
     ]
-    wait_for(lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, 'the graph')
+    wait_until(
+        lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, what='the graph'
+    )
     assert tuple(reasons_of_graph(graph())) == ()
     del kept
 
@@ -332,30 +329,34 @@ def test_fields_are_compared_with_what_the_node_itself_listens_to(nodes: list[No
         program.create_publisher(Twist, COMMAND_TOPIC, 10),
         simulator.create_subscription(Odometry, COMMAND_TOPIC, take, 10),
     ]
-    wait_for(lambda: grader.count_publishers(COMMAND_TOPIC), 'the publisher')
-    wait_for(lambda: grader.count_subscribers(COMMAND_TOPIC), 'a subscription of another')
+    wait_until(lambda: grader.count_publishers(COMMAND_TOPIC), what='the publisher')
+    wait_until(lambda: grader.count_subscribers(COMMAND_TOPIC), what='a subscription of another')
     twist = 'geometry_msgs/msg/Twist'
     assert not has_other_fields(grader, COMMAND_TOPIC, twist), 'it listens to nothing yet'
     kept.append(grader.create_subscription(Odometry, COMMAND_TOPIC, take, 10))
-    wait_for(lambda: has_other_fields(grader, COMMAND_TOPIC, twist), 'the fields of Odometry')
+    wait_until(
+        lambda: has_other_fields(grader, COMMAND_TOPIC, twist), what='the fields of Odometry'
+    )
     grader.destroy_subscription(kept.pop())
     kept.append(grader.create_subscription(Twist, COMMAND_TOPIC, take, 10))
-    wait_for(lambda: not has_other_fields(grader, COMMAND_TOPIC, twist), 'the same fields')
+    wait_until(lambda: not has_other_fields(grader, COMMAND_TOPIC, twist), what='the same fields')
 
 
 def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
     program, simulator, _ = nodes
     subscription = program.create_subscription(Odometry, 'odometry/filterd', take, 10)
-    wait_for(lambda: simulator.count_publishers('/parameter_events') == len(nodes), 'all nodes')
+    wait_until(
+        lambda: simulator.count_publishers('/parameter_events') == len(nodes), what='all nodes'
+    )
     watcher = GraphWatcher(simulator, 'lab')
 
     def told() -> bool:
         watcher.look()
         return any('/odometry/filterd' in reason for reason in watcher.reasons)
 
-    wait_for(told, 'the mistake')
+    wait_until(told, what='the mistake')
     program.destroy_subscription(subscription)
-    wait_for(lambda: not simulator.count_subscribers('odometry/filterd'), 'the end of it')
+    wait_until(lambda: not simulator.count_subscribers('odometry/filterd'), what='the end of it')
     assert told(), 'the rest of the program may be about to go'
     assert not told(), 'it goes on'
 

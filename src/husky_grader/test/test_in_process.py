@@ -7,13 +7,13 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
-import time
 
 from husky_course.record import read_record, read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.run.in_process import drive_route
 from husky_grader.scoring.report import judge
+from playpen_testing.waiting import wait_until
 import pytest
 
 
@@ -47,10 +47,7 @@ def test_one_process_drives_the_trajectory_of_two_nodes(
     finally:
         simulator.kill()
         simulator.wait()
-    deadline = time.monotonic() + 5.0
-    while not record.exists():
-        assert time.monotonic() < deadline, 'the simulator left no record'
-        time.sleep(0.01)
+    wait_until(record.exists, timeout_sec=5.0, what='a record of the simulator')
     over_dds = judge(read_run(read_record(record)), route)
     in_process = judge(read_run(drive_route(route)[0]), route)
     assert over_dds.trajectory_sha256 == in_process.trajectory_sha256

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grade whole workspaces: the lab's own packages as a student would hand them in, and broken."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 import contextlib
 from dataclasses import replace
 import io
@@ -12,7 +12,6 @@ from pathlib import Path
 import shutil
 import subprocess
 import sys
-import time
 
 from husky_grader.grade import main as grade
 from husky_grader.jail import find_sandbox, Jail
@@ -35,6 +34,7 @@ from husky_grader.rubric.steps import (
     WorkspaceStep,
 )
 from husky_grader.run.live import drive_live
+from playpen_testing.waiting import wait_until
 import psutil
 import pytest
 
@@ -408,13 +408,6 @@ def running(pids: list[int]) -> list[int]:
     return alive
 
 
-def wait_for(fact: Callable[[], object], what: str) -> None:
-    deadline = time.monotonic() + 10.0
-    while not fact():
-        assert time.monotonic() < deadline, f'not within 10 s: {what}'
-        time.sleep(0.01)
-
-
 def daemon(pids: Path) -> str:
     """Return a program that starts a daemon and waits until it has told its number."""
     ready = f'import os, time\nwhile not os.path.exists({str(pids)!r}): time.sleep(0.01)\n'
@@ -449,12 +442,14 @@ def test_a_build_ends_with_the_killed_grader(workspace: Path, tmp_path: Path) ->
     environment = {**os.environ, 'PATH': f'{tmp_path}{os.pathsep}{os.environ["PATH"]}'}
     command = [sys.executable, '-c', BUILD, str(workspace), str(tmp_path)]
     grader = subprocess.Popen(command, env=environment)
-    wait_for(lambda: log.is_file() and log.read_text().endswith('\n'), 'the start of the build')
+    wait_until(
+        lambda: log.is_file() and log.read_text().endswith('\n'), what='the start of the build'
+    )
     pid = int(log.read_text().split()[1])
     assert running([pid])
     grader.kill()
     grader.wait()
-    wait_for(lambda: not running([pid]), 'the end of the build')
+    wait_until(lambda: not running([pid]), what='the end of the build')
 
 
 @pytest.mark.parametrize(

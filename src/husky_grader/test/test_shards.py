@@ -25,6 +25,7 @@ from husky_grader.batch.shards import parse_shard, Shard
 from husky_grader.grade import main as grade
 from husky_grader.playpen import config_folder
 from playpen_testing.processes import Child
+from playpen_testing.waiting import wait_until
 import pytest
 
 BUILD = 'title: T\nsteps:\n  - {kind: build, points: 10}\n'
@@ -277,10 +278,11 @@ def dask() -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
         workers = [
             start('dask_worker', *plain, '--no-nanny', '--nthreads', '1', *where) for _ in range(2)
         ]
-        deadline = time.monotonic() + 30.0
-        while not (file.is_file() and file.read_text().rstrip().endswith('}')):
-            assert time.monotonic() < deadline, 'waited 30 s for the scheduler'
-            time.sleep(0.05)
+        wait_until(
+            lambda: file.is_file() and file.read_text().rstrip().endswith('}'),
+            timeout_sec=30.0,
+            what='the scheduler',
+        )
         yield json.loads(file.read_text())['address'], workers
 
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Children are ended with everything that they have started."""
 
-from collections.abc import Callable
 import os
 from pathlib import Path
 import signal
@@ -12,6 +11,7 @@ import time
 
 from husky_runtime.children import ChildProcess
 from husky_runtime.descendants import adopt_orphans, descendants_ended
+from playpen_testing.waiting import wait_until
 import psutil
 
 # A daemon: neither in the session of its child, nor below it.
@@ -84,17 +84,10 @@ run_to_end([sys.executable, '-c', {FAMILY!r}], os.environ)
 """
 
 
-def wait_for(fact: Callable[[], object], what: str) -> None:
-    deadline = time.monotonic() + 10.0
-    while not fact():
-        assert time.monotonic() < deadline, f'not within 10 s: {what}'
-        time.sleep(0.01)
-
-
 def start(text: str, log: Path) -> ChildProcess:
     with log.open('w') as stream:
         process = ChildProcess([sys.executable, '-c', text], os.environ, stream)
-    wait_for(lambda: log.read_text().endswith('\n'), 'the first line of the child')
+    wait_until(lambda: log.read_text().endswith('\n'), what='the first line of the child')
     return process
 
 
@@ -141,7 +134,7 @@ def test_a_child_ends_with_its_killed_parent() -> None:
     assert is_running(child)
     parent.kill()
     parent.communicate()
-    wait_for(lambda: not is_running(child), 'the end of the child')
+    wait_until(lambda: not is_running(child), what='the end of the child')
 
 
 def test_a_child_that_ignores_signals_ends_with_its_parent() -> None:
@@ -157,7 +150,7 @@ def test_a_child_that_ignores_signals_ends_with_its_parent() -> None:
     assert is_running(child)
     parent.kill()
     parent.communicate()
-    wait_for(lambda: not is_running(child), 'the end of the child')
+    wait_until(lambda: not is_running(child), what='the end of the child')
 
 
 def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
@@ -166,7 +159,7 @@ def test_a_daemon_that_lost_its_mark_ends_too(tmp_path: Path) -> None:
         with log.open('w') as stream:
             command = ['env', '-i', sys.executable, '-c', DAEMON]
             child = ChildProcess(command, os.environ, stream)
-        wait_for(lambda: log.read_text().endswith('\n'), 'the daemon')
+        wait_until(lambda: log.read_text().endswith('\n'), what='the daemon')
         daemon = int(log.read_text())
         child.end()
         assert is_running(daemon), 'it has no mark'
@@ -198,11 +191,15 @@ def test_ctrl_z_stops_a_run_and_fg_goes_on() -> None:
     pids = [run.pid, int(run.stdout.readline()), int(run.stdout.readline())]
     for _ in range(20):  # one in 400 was lost that came as soon as the run went on
         os.killpg(run.pid, signal.SIGTSTP)
-        wait_for(lambda: states(pids) == {psutil.STATUS_STOPPED}, f'all of {pids} stopped')
+        wait_until(lambda: states(pids) == {psutil.STATUS_STOPPED}, what=f'all of {pids} stopped')
         os.killpg(run.pid, signal.SIGCONT)
-        wait_for(lambda: psutil.STATUS_STOPPED not in states(pids), f'none of {pids} stopped')
+        wait_until(
+            lambda: psutil.STATUS_STOPPED not in states(pids), what=f'none of {pids} stopped'
+        )
     os.killpg(run.pid, signal.SIGTSTP)
-    wait_for(lambda: states(pids) == {psutil.STATUS_STOPPED}, f'all of {pids} stopped again')
+    wait_until(
+        lambda: states(pids) == {psutil.STATUS_STOPPED}, what=f'all of {pids} stopped again'
+    )
     run.terminate()  # as a shell does that is told to end a stopped job
     os.killpg(run.pid, signal.SIGCONT)
     run.communicate(timeout=10.0)
