@@ -85,6 +85,16 @@ def test_a_long_way_back_to_where_it_was_is_progress(
     assert when >= end.time_sec
 
 
+def test_laps_near_the_start_are_progress() -> None:
+    corners = ''.join(f', [{x}, {y}]' for x, y in [(0.4, 0.4), (0, 0.8), (-0.4, 0.4), (0, 0)] * 12)
+    course = parse_course(f'speed: 0.5\nwaypoints: [[0, 0]{corners}]')
+    track = circles(0.4, 12 * 2 * math.pi * 0.4 / 0.5)
+    after = standing(track[-1].time_sec, 0.0, 0.0, 5.0)
+    over, when = ending(Referee(plan_route(course)), track + after)
+    assert over == 'it stands at the end of the course'
+    assert when >= track[-1].time_sec
+
+
 def test_one_that_drives_round_and_round_is_ended() -> None:
     course = parse_course('waypoints: [[0, 0], [200, 0]]')
     over, when = ending(Referee(plan_route(course)), circles(0.5, 100.0))

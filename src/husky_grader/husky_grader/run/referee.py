@@ -112,7 +112,8 @@ class _Progress:
 
     Waypoints may be missed and taken in any order: whether that was right is for the score to say.
     Of several at one place a visit counts for the first, so that a way there and back, or round
-    and round, has something to come nearer to until its end.
+    and round, has something to come nearer to until its end. Laps so small that the robot is
+    never away from a waypoint count by those that it reaches in their order.
     """
 
     def __init__(self, course: Course) -> None:
@@ -120,6 +121,8 @@ class _Progress:
         self._left = set(range(len(self._places)))
         self._visited = set[int]()  # those the robot has not been away from since a visit
         self._least_m = [math.inf] * len(self._places)
+        self._tolerance_m = course.tolerance_m
+        self._reached = 0  # how many in their order, each as near as the course asks for
         self._furthest = 0
         self._begun = False
 
@@ -142,12 +145,20 @@ class _Progress:
         self._visited &= here
         new = here & self._left - self._visited
         if new:
-            self._left.discard(min(new))
-            self._furthest = max(self._furthest, min(new))
+            self._pass(min(new))
             self._visited |= here
+        is_next = self._reached < len(away) and away[self._reached] <= self._tolerance_m
+        if is_next:
+            self._pass(self._reached)
+            self._reached += 1
+        if new or is_next:
             self._least_m = away
             return True
         nearer = [k for k in self._left if away[k] < self._least_m[k] - NEARER_M]
         for k in nearer:
             self._least_m[k] = away[k]
         return bool(nearer)
+
+    def _pass(self, waypoint: int) -> None:
+        self._left.discard(waypoint)
+        self._furthest = max(self._furthest, waypoint)
