@@ -10,8 +10,10 @@ from types import FrameType
 
 from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
-from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.command_line import BAD_INPUT
 from husky_runtime.executor import spin
+from husky_runtime.node_parser import NodeParser
+from husky_runtime.settings import settings_of
 from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.signals import SignalHandlerOptions
@@ -29,7 +31,7 @@ class _Refused(Exception):
 
 def main(args: Sequence[str] | None = None) -> int:
     argv = list(sys.argv if args is None else args)
-    parser = Parser(prog='follow_path', allow_abbrev=False, description=__doc__)
+    parser = NodeParser('follow_path', __doc__, settings_of(Settings))
     parser.add_argument('--waypoints', metavar='FILE', help='waypoint file (YAML) to follow')
     try:
         options = parser.parse_args(remove_ros_args(argv)[1:])

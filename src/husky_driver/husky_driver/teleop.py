@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drive the Husky by the keys of a terminal."""
 
-import argparse
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -15,10 +14,11 @@ import time
 import tty
 from typing import Any
 
-from husky_runtime.command_line import BAD_INPUT, Parser
+from husky_runtime.command_line import BAD_INPUT
 from husky_runtime.executor import spin
+from husky_runtime.node_parser import NodeParser
 from husky_runtime.parameters import declare_settings
-from husky_runtime.settings import names_of, refuse_unknown, setting
+from husky_runtime.settings import names_of, refuse_unknown, setting, settings_of
 from husky_runtime.start import SignalsHeldBack
 import rclpy
 from rclpy.clock import Clock, ClockType
@@ -142,13 +142,7 @@ def raw_terminal(terminal: int) -> Iterator[None]:
 
 def main(args: Sequence[str] | None = None) -> int:
     argv = list(sys.argv if args is None else args)
-    parser = Parser(
-        prog='teleop',
-        description=__doc__,
-        epilog=HELP,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    parser = NodeParser('teleop', __doc__, settings_of(TeleopSettings), more=HELP)
     parser.parse_args(remove_ros_args(argv)[1:])
     if not sys.stdin.isatty():
         print('teleop: needs a terminal to read keys from; run it in one', file=sys.stderr)

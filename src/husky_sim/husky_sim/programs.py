@@ -16,7 +16,7 @@ def main() -> int:
 
         return main
 
-    return run_node(load, takes_words=False)
+    return run_node(load)
 
 
 def moved() -> None:

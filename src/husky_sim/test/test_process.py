@@ -4,6 +4,7 @@
 
 import os
 from pathlib import Path
+import re
 from shutil import copy
 import signal
 import subprocess
@@ -11,6 +12,7 @@ import sys
 import time
 
 from husky_course.record import read_record
+from husky_runtime.settings import NODE_PARAMETERS
 from playpen_testing.processes import Child, find_line
 import pytest
 from rcl_interfaces.msg import SetParametersResult
@@ -43,6 +45,31 @@ def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     assert process.returncode == 2
     assert said.count('\n') == 1
     assert said.startswith(f"husky_sim: world='{Path.cwd()}/nowhere.xml': no such file")
+
+
+def test_help_tells_of_every_parameter_that_a_simulator_has(domain_id: int) -> None:
+    command = [sys.executable, '-m', 'husky_sim.ros.node', '--help']
+    helped = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
+    assert (helped.returncode, helped.stderr) == (0, '')
+    told = set(re.findall(r'^  (\w+)', helped.stdout.partition('parameters')[2], re.MULTILINE))
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = Node('operator', context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    process = run_process()
+    try:
+        client = AsyncParameterClient(node, '/husky_sim')
+        assert client.wait_for_services(timeout_sec=20.0), 'no simulator'
+        future = client.list_parameters()
+        executor.spin_until_future_complete(future, timeout_sec=10.0)
+        names = {name for name in future.result().result.names if '.' not in name}
+        assert told == names - set(NODE_PARAMETERS)
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20.0)
+        node.destroy_node()
+        context.try_shutdown()
 
 
 def test_physics_that_breaks_down_are_told_of_once(domain_id: int, tmp_path: Path) -> None:

@@ -26,4 +26,4 @@ def view() -> int:
 
         return main
 
-    return run_node(load, takes_words=False)
+    return run_node(load)

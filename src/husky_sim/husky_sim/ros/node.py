@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator as a ROS 2 node."""
+"""Simulate Huskies in a playpen, as a ROS 2 node."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from husky_course.printable import printable
 from husky_runtime.domains import DomainError, lock_simulator
 from husky_runtime.executor import future_of_signal, spin
+from husky_runtime.node_parser import NodeParser
 from husky_runtime.shared_memory import (
     check_shared_memory,
     OF_A_SIMULATOR_MB,
@@ -25,6 +26,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.timer import Timer
+from rclpy.utilities import remove_ros_args
 
 from husky_sim.errors import SettingError, SimulatorError
 from husky_sim.messages.messages import time_message
@@ -39,6 +41,7 @@ from husky_sim.ros.parameters import (
     read_factor,
     read_run,
     read_simulation,
+    SETTINGS,
     SettingsNode,
 )
 from husky_sim.ros.simulation_services import add_simulation_services, ControlServices
@@ -271,6 +274,8 @@ class SimulatorNode(SettingsNode):
 
 def main(args: list[str] | None = None) -> int:
     """Run the simulator until it is interrupted."""
+    words = remove_ros_args(sys.argv if args is None else args)[1:]
+    NodeParser('husky_sim', __doc__, SETTINGS).parse_args(words)
     try:
         if sends_by_shared_memory():
             check_shared_memory(OF_A_SIMULATOR_MB)

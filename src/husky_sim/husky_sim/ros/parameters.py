@@ -9,7 +9,7 @@ from typing import Any
 
 from husky_course.robot import RobotStart
 from husky_runtime.parameters import declare_settings
-from husky_runtime.settings import names_of, refuse_unknown, settings_of
+from husky_runtime.settings import names_of, refuse_unknown, Setting, settings_of
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType, ParameterValue
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -30,16 +30,25 @@ from husky_sim.world.world import default_worlds
 FACTOR = next(each for each in settings_of(RunConfig) if each.changeable)
 """real_time_factor, the one setting that may change while the simulation runs."""
 
-_ROBOTS = (
-    "Many robots, each as 'NAME X Y YAW' (m, m, rad); of several, each gets NAME as its "
-    'namespace. Empty: one robot named husky, at x, y, yaw, in the namespace of the node.'
+_ROBOTS = Setting(
+    name='robots',
+    default=(),
+    description="Many robots, each as 'NAME X Y YAW' (m, m, rad); of several, each gets NAME as "
+    'its namespace. Empty: one robot named husky, at x, y, yaw, in the namespace of the node.',
+    low=0.0,
+    high=0.0,
+    choices=(),
+    changeable=False,
+    or_zero=False,
 )
 
-_NAMES = (
-    'robots',
-    *names_of(RunConfig, StartConfig, DriveConfig, SensorConfig),
-    *names_of(GroundConfig, BodyConfig, PowerConfig),
+_KINDS = (
+    *(RunConfig, StartConfig, GroundConfig, BodyConfig),
+    *(PowerConfig, SensorConfig, DriveConfig),
 )
+
+SETTINGS = (*(each for kind in _KINDS for each in settings_of(kind)), _ROBOTS)
+"""Every parameter of the simulator."""
 
 
 class SettingsNode(Node):
@@ -65,7 +74,7 @@ def read_run(node: Node) -> RunConfig:
     :raises SettingError: if a value is not allowed, or a parameter of the node does not exist.
     """
     try:
-        refuse_unknown(node.get_parameters_by_prefix(''), _NAMES)
+        refuse_unknown(node.get_parameters_by_prefix(''), [each.name for each in SETTINGS])
     except ValueError as error:
         raise SettingError(str(error)) from None
     config = declare_settings(node, RunConfig, refused, files=('world', 'record'))
@@ -146,7 +155,7 @@ def _read_robots(node: Node) -> tuple[RobotStart, ...]:
     kind = ParameterType.PARAMETER_STRING_ARRAY
     node.set_descriptor(
         'robots',
-        ParameterDescriptor(description=_ROBOTS, read_only=True, type=kind),
+        ParameterDescriptor(description=_ROBOTS.description, read_only=True, type=kind),
         ParameterValue(type=kind, string_array_value=['']),
     )
     return robots

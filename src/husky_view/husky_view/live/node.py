@@ -1,7 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The live view as a ROS 2 node: shows a running simulator in the browser, and those after it.
+Show a running simulator in the browser, and those after it, as a ROS 2 node.
 
 It asks the simulator for its world, so it can be started at any time, before or after it.
 """
@@ -17,8 +17,9 @@ import time
 from typing import Any
 
 from husky_runtime.executor import future_of_signal, spin
+from husky_runtime.node_parser import NodeParser
 from husky_runtime.parameters import declare_settings
-from husky_runtime.settings import names_of, refuse_unknown, setting
+from husky_runtime.settings import names_of, refuse_unknown, setting, settings_of
 from husky_runtime.web_address import AddressError
 from husky_sim.errors import refused, SettingError, SimulatorError
 from husky_sim.world import load_world, World
@@ -28,6 +29,7 @@ from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
+from rclpy.utilities import remove_ros_args
 
 from husky_view.editor.course import waypoint_folder
 from husky_view.live.panel import warning_html
@@ -163,6 +165,8 @@ class ViewNode(Node):
 
 def main(args: list[str] | None = None) -> int:
     """Show the simulation until interrupted."""
+    words = remove_ros_args(sys.argv if args is None else args)[1:]
+    NodeParser('view', __doc__, settings_of(ViewSettings)).parse_args(words)
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     interrupted = future_of_signal()
     interrupted.add_done_callback(lambda _: _exit_soon())
