@@ -105,7 +105,7 @@ def test_the_matrix_of_github_grades_a_class(folder: Path) -> None:
 
 
 def test_no_name_that_a_student_gave_keeps_a_share_from_github(folder: Path) -> None:
-    for report in ('shards/1/Ann', 'class/Ann'):
+    for report in ('shards/1/Ann', 'class/Ann', 'report'):
         (folder / report).mkdir(parents=True)
         (folder / report / 'lab.json').touch()
         (folder / report / '.graded').touch()
@@ -113,5 +113,6 @@ def test_no_name_that_a_student_gave_keeps_a_share_from_github(folder: Path) -> 
             (folder / report / place / 'src').mkdir(parents=True)
             (folder / report / place / 'src' / 'a:b').touch()
     jobs = read('github_matrix.yml')['jobs']
-    for job in (jobs['grade'], jobs['collect']):
+    of_one = read('../workflows/grade.yml')['jobs']['grade']
+    for job in (jobs['grade'], jobs['collect'], of_one):
         assert sorted(path.name for path in uploaded(job, folder)) == ['.graded', 'lab.json']
