@@ -19,7 +19,7 @@ from geometry_msgs.msg import Twist
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_driver.drive.drive import Drive
-from husky_driver.motion import Command
+from husky_driver.motion import Command, STOP
 from husky_driver.ros.node import FollowPath
 from nav_msgs.msg import Odometry
 from playpen_testing.spinning import SpunNodes
@@ -417,6 +417,32 @@ def test_implausible_odometry_is_named_and_stops_the_robot(
     stops = plant_node.received[told:]
     assert set(stops) == {Command(0.0, 0.0)}, 'only stops, from the next command on'
     assert plant_node.plant.now.is_standing
+
+
+@pytest.mark.parametrize(
+    ('names', 'said'),
+    [
+        ((), 'its emergency stop (e_stop) pressed?\n'),
+        (
+            ('joystick', 'teleop'),
+            'pressed?; /joystick and /teleop also publish /husky_velocity_controller/cmd_vel, so',
+        ),
+    ],
+)
+def test_who_else_commands_a_robot_that_does_not_obey_is_named(
+    plant_node: PlantNode, domain: int, follow_path: Any, course: Path, names: Any, said: str
+) -> None:
+    advance = plant_node.plant.advance
+    plant_node.plant.advance = lambda _: advance(STOP)
+
+    def command(node: Node) -> None:
+        node.create_publisher(Twist, 'husky_velocity_controller/cmd_vel', 10)
+
+    with SpunNodes(domain) as nodes:
+        for name in names:
+            nodes.start(Node, name, before_spin=command)
+        output, _ = follow_path('--waypoints', course).communicate(timeout=60)
+    assert said in output
 
 
 def test_an_implausible_imu_message_ends_the_drive(

@@ -31,6 +31,7 @@ from husky_driver.ros.commands import Commands, NO_STAMP
 from husky_driver.ros.display import DriveDisplay
 from husky_driver.ros.imu_wait import ImuWait
 from husky_driver.ros.missing import what_is_missing
+from husky_driver.ros.mixture import others_that_command
 from husky_driver.ros.progress import make_progress
 from husky_driver.ros.readings import (
     has_orientation,
@@ -251,16 +252,16 @@ class FollowPath(Node):
     def _conclude(self) -> None:
         drive = self._drive
         summary = drive.summary()
-        if drive.failure:
-            self._say(f'gave up: {drive.failure}', failed=True)
-            self._finish(GAVE_UP)
-        elif drive.reached == drive.total:
+        if not drive.failure and drive.reached == drive.total:
             self._say(f'done: {summary}')
             self._finish(DONE)
-        else:
-            tolerance = drive.course.tolerance_m
-            self._say(f'missed waypoints by more than {tolerance:g} m: {summary}', failed=True)
-            self._finish(GAVE_UP)
+            return
+        tolerance = drive.course.tolerance_m
+        missed = f'missed waypoints by more than {tolerance:g} m: {summary}'
+        why = f'gave up: {drive.failure}' if drive.failure else missed
+        others = others_that_command(self, self._commands.publisher)
+        self._say('; '.join(filter(None, (why, others))), failed=True)
+        self._finish(GAVE_UP)
 
     def _finish(self, exit_code: int) -> None:
         self._progress.close()
