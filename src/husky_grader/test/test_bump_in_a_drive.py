@@ -6,9 +6,11 @@ from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_driver.checks import Bump
 from husky_driver.motion import read_imu
-from husky_grader.run.in_process import drive_route
+from husky_grader.run.in_process import Conditions, drive_route
+from husky_sim.world import default_worlds
 import pytest
 
+EMPTY = str(default_worlds() / 'empty.xml')
 NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it
 
 
@@ -58,6 +60,29 @@ def test_a_robot_that_turns_about_a_point_beside_its_middle_is_left_alone() -> N
     assert held_sec(wheels, body) is not None
     assert held_sec(wheels, body, yaw_rate_rad_s=1.4) is None
     assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.0), yaw_rate_rad_s=1.0) is not None
+
+
+@pytest.mark.parametrize(
+    ('floor', 'speed_m_s', 'goal'),
+    [('asphalt', 0.1, (-1.5, 0.5)), ('ideal', 0.2, (-1.0, 1.0)), ('wet', 0.2, (0.0, -1.5))],
+)
+def test_a_robot_that_has_just_turned_is_left_alone(
+    floor: str, speed_m_s: float, goal: tuple[float, float]
+) -> None:
+    # What the IMU has felt in the turn is in the window until two seconds after it.
+    course = parse_course(f'speed: {speed_m_s}\nwaypoints: [[0, 0], {list(goal)}]')
+    conditions = Conditions(floor=floor, realistic=True)
+    _, drive = drive_route(plan_route(course), world=EMPTY, conditions=conditions)
+    assert drive.failure == ''
+    assert drive.reached == drive.total
+
+
+@pytest.mark.parametrize(('speed_m_s', 'y_m'), [(0.2, 9.1), (0.8, 8.9)])
+def test_a_wall_soon_after_a_turn_is_noticed(speed_m_s: float, y_m: float) -> None:
+    course = parse_course(f'speed: {speed_m_s}\ncorners: sharp\nwaypoints: [[0, 0], [0, 6]]')
+    record, drive = drive_route(plan_route(course), start=(-2.0, y_m, 0.0))
+    assert 'the IMU has felt the robot stop' in drive.failure
+    assert drive.elapsed_sec - record.collisions[0].time_sec < 3.0, 'it went on pushing'
 
 
 def test_a_robot_that_gets_its_speed_back_at_once_is_left_alone() -> None:

@@ -61,9 +61,12 @@ class Bump:
         if not self._window:
             return False
         now = self._window[-1]
-        speed = abs(now.speed_m_s)
-        unsure_m_s = LOST_M_S + PIVOT_M * abs(now.yaw_rate_rad_s)
-        if speed < SLOWEST_M_S or self._lost_m_s() < max(LOST_SHARE * speed, unsure_m_s):
+        speed, lost_m_s = abs(now.speed_m_s), self._lost_m_s()
+        if (
+            speed < SLOWEST_M_S
+            or lost_m_s < max(LOST_SHARE * speed, LOST_M_S)
+            or lost_m_s < LOST_M_S + PIVOT_M * self._fastest_turn_rad_s()
+        ):
             self._free_sec = now.time_sec
         return now.time_sec - self._free_sec > HELD_SEC
 
@@ -89,6 +92,10 @@ class Bump:
         window.append(_Sample(time_sec, *wheels[0][1:], gained))
         while window[0].time_sec < time_sec - WINDOW_SEC:
             window.popleft()
+
+    def _fastest_turn_rad_s(self) -> float:
+        """Return the yaw rate by which the loss is unsure: a turn counts to both its ends."""
+        return max(abs(each.yaw_rate_rad_s) for each in self._window)
 
     def _lost_m_s(self) -> float:
         """Return how much speed the robot has lost that its wheels have not."""
