@@ -27,6 +27,12 @@ import pytest
 
 # Each program is followed by its mark, by which it is found from outside.
 SLEEPING = 'import time; print("here", flush=True); time.sleep(600)'
+TERMINAL = """
+import os
+asked, given = os.openpty()
+os.write(given, os.isatty(given) * b'is a terminal')
+print(os.read(asked, 100).decode(), flush=True)
+"""
 DEAF = f'import signal; [signal.signal(n, signal.SIG_IGN) for n in (1, 2, 15)]; {SLEEPING}'
 CLOSING = f"""
 try:
@@ -173,6 +179,14 @@ def test_a_grader_may_keep_its_files_to_itself(sandbox: Sandbox, tmp_path: Path)
     finally:
         os.umask(before)
     assert (exit_code, log.read_text()) == (0, '0077\n')
+
+
+@in_each_way
+def test_a_program_may_open_a_terminal_of_its_own(sandbox: Sandbox, tmp_path: Path) -> None:
+    log = tmp_path / 'log'
+    with jail_in(sandbox, tmp_path) as jail:
+        exit_code = jail.run(python(TERMINAL), log=log, within_sec=10.0)
+    assert (exit_code, log.read_text()) == (0, 'is a terminal\n')
 
 
 @in_each_way

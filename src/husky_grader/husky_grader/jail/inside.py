@@ -36,12 +36,16 @@ _MOUNT_ATTR_RDONLY, _MOUNT_ATTR_NOSUID, _MOUNT_ATTR_NODEV = 1, 2, 4
 _AT_FDCWD, _AT_RECURSIVE = -100, 0x8000
 _NR_MOUNT_SETATTR = 442  # of every architecture; glibc has it since 2.36
 _DEVICES = ('null', 'zero', 'full', 'random', 'urandom')
+# Who opens /dev/ptmx owns the terminal; the computer has 4096 of them for all.
+_TERMINALS = 'newinstance,ptmxmode=0666,mode=620,max=64'
 _PLACE = '/tmp'  # any folder that is there; others do not see what is mounted on it here
 
 # <linux/landlock.h>; the numbers of the calls are those of every architecture
 _NR_CREATE_RULESET, _NR_ADD_RULE, _NR_RESTRICT_SELF = 444, 445, 446
 _CREATE_RULESET_VERSION, _RULE_PATH_BENEATH = 1, 1
-_EXECUTE, _WRITE_FILE, _READ_FILE, _READ_DIR, _TRUNCATE = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14
+_EXECUTE, _WRITE_FILE, _READ_FILE, _READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
+_TRUNCATE, _IOCTL_DEV = 1 << 14, 1 << 15
+_OF_FILES = _EXECUTE | _WRITE_FILE | _READ_FILE | _TRUNCATE | _IOCTL_DEV
 # How many rights to files the versions 1, 2, ... know.
 _FILE_RIGHTS = (13, 14, 15, 15, 16)
 _SCOPE_ALL = 0b11  # abstract sockets and signals; from version 6 on
@@ -86,6 +90,11 @@ def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
         _bind(f'/host/dev/{device}', f'/new/dev/{device}')
     for name, place in (('fd', ''), ('stdin', '/0'), ('stdout', '/1'), ('stderr', '/2')):
         os.symlink(f'/proc/self/fd{place}', f'/new/dev/{name}')
+    # `emulate_tty` of a launch file asks for a terminal; this jail has its own ones.
+    os.mkdir('/new/dev/pts')
+    terminals_only = _MS_NOSUID | _MS_NOEXEC
+    _mount('devpts', '/new/dev/pts', kind='devpts', flags=terminals_only, data=_TERMINALS)
+    os.symlink('pts/ptmx', '/new/dev/ptmx')
     os.mkdir('/new/proc')
     _mount('proc', '/new/proc', kind='proc', flags=_MS_NOSUID | _MS_NODEV | _MS_NOEXEC)
     for kind, source, target in mounts:
@@ -203,7 +212,10 @@ def _restrict_files(readable: list[str], writable: list[str], *, needed: bool) -
     ruleset = _checked(_LIBC.syscall(_NR_CREATE_RULESET, attributes, size, 0), 'Landlock')
     for place in readable:
         _allow(ruleset, place, _EXECUTE | _READ_FILE | _READ_DIR)
-    _allow(ruleset, '/dev', every & (_READ_FILE | _READ_DIR | _WRITE_FILE | _TRUNCATE))
+    device = every & (_READ_FILE | _READ_DIR | _WRITE_FILE | _TRUNCATE)
+    _allow(ruleset, '/dev', device)
+    for terminals in filter(os.path.exists, ('/dev/pts', '/dev/ptmx')):
+        _allow(ruleset, terminals, device | every & _IOCTL_DEV)  # to open one is not enough
     for folder in writable:
         _allow(ruleset, folder, every)
     _checked(_LIBC.syscall(_NR_RESTRICT_SELF, ruleset, 0), 'Landlock')
@@ -217,7 +229,7 @@ def _allow(ruleset: int, place: str, rights: int) -> None:
         _fields_ = [('rights', ctypes.c_uint64), ('place', ctypes.c_int32)]
 
     if not os.path.isdir(place):
-        rights &= _EXECUTE | _READ_FILE
+        rights &= _OF_FILES
     opened = os.open(place, os.O_PATH | os.O_CLOEXEC)
     rule = ctypes.byref(Beneath(rights, opened))
     done = _LIBC.syscall(_NR_ADD_RULE, ruleset, _RULE_PATH_BENEATH, rule, 0)
