@@ -10,8 +10,14 @@ import signal
 import sys
 
 from geometry_msgs.msg import Twist, TwistStamped
-from husky_grader.lab.live_steps import how_it_ended
-from husky_grader.run.diagnosis import COMMAND_TOPIC, Graph, reasons, reasons_of_graph
+from husky_grader.run.diagnosis import (
+    COMMAND_TOPIC,
+    Graph,
+    how_it_ended,
+    reasons,
+    reasons_of_graph,
+    silence,
+)
 from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import MAX_SHOWN, read_printed, shown
 from husky_grader.run.watcher import GraphWatcher
@@ -29,6 +35,7 @@ from rclpy.qos import (
     QoSProfile,
 )
 from rclpy.signals import SignalHandlerOptions
+from rosgraph_msgs.msg import Clock
 
 ODOMETRY = '/odometry/filtered'
 LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
@@ -320,6 +327,41 @@ def test_nothing_is_told_of_a_node_that_does_it_right(
         lambda: {each.topic for each in graph().publishers} >= {COMMAND_TOPIC}, what='the graph'
     )
     assert tuple(reasons_of_graph(graph())) == ()
+    del kept
+
+
+SILENT: dict[str, tuple[Callable[[Node], object], str]] = {
+    'publishes nothing': (
+        lambda node: node.create_subscription(Odometry, 'odom', take, 10),
+        'it has no publisher: is one made, and does nothing before it wait?',
+    ),
+    'has a publisher': (
+        lambda node: node.create_publisher(Twist, 'topic_test', 10),
+        'it has a publisher there: does it publish again and again, does it spin, and does no '
+        'callback wait for an answer (client.call) or for time (Rate.sleep)?',
+    ),
+    'publishes something else': (
+        lambda node: [node.create_publisher(Twist, name, 10) for name in ('turn', 'drive')],
+        'it has publishers on /drive and /turn alone',
+    ),
+    'waits for a clock': (
+        lambda node: [
+            node.create_publisher(Twist, 'topic_test', 10),
+            node.create_subscription(Clock, '/clock', take, 10),
+        ],
+        'its clock is that of /clock (use_sim_time), which nobody publishes here',
+    ),
+}
+
+
+@pytest.mark.parametrize('name', SILENT)
+def test_why_nothing_comes_on_a_topic_is_told(
+    name: str, student: tuple[Node, Callable[[], Graph]]
+) -> None:
+    node, graph = student
+    make, reason = SILENT[name]
+    kept = make(node)
+    wait_for(lambda: list(silence(graph(), '/topic_test')) == [reason], reason)
     del kept
 
 

@@ -233,7 +233,28 @@ LIVE = {
         'time.sleep(30)',
         'it has a publisher on /husky_velocity_controller/cmd_vel, and never sent a command',
     ),
-    'prints only': ("print('driving')", 'it never moved: no command but zero arrived'),
+    'has no publisher': (
+        'from std_srvs.srv import Empty\n'
+        "node.create_client(Empty, 'no_such_service').wait_for_service(30.0)",
+        'it has no publisher on /husky_velocity_controller/cmd_vel: is it made at all, and does '
+        'nothing before it wait, such as wait_for_service?',
+    ),
+    'ends at once': (
+        f"node.create_publisher(Twist, {TOPIC}, 10)\nprint('Error: no path')",
+        'it ended by itself (exit code 0): Error: no path',
+    ),
+    'commands once': (
+        f'{FORWARD}publisher = node.create_publisher(Twist, {TOPIC}, 10)\n'
+        'while not publisher.get_subscription_count():\n    time.sleep(0.01)\n'
+        'publisher.publish(message)\n'
+        'rclpy.spin(node)',
+        'it left the Husky without a command while that drove, which stops after 0.25 s: send '
+        'commands again and again, also the same',
+    ),
+    'prints only': (
+        "print('driving')\ntime.sleep(30)",
+        'it has no publisher on /husky_velocity_controller/cmd_vel',
+    ),
 }
 
 

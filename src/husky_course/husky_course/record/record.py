@@ -93,10 +93,20 @@ class Record:
             )
         return 0 if robot is None else names.index(robot)
 
+    @property
+    def has_commands(self) -> bool:
+        """Whether any robot was told to move."""
+        return bool(self._commands.any())
+
+    @property
+    def _commands(self) -> Array:
+        """Speed and yaw rate that each robot was asked for, in each row."""
+        column = COLUMNS.index('command_speed_m_s')
+        return self.rows[:, :, column : column + 2]
+
     def begin(self, robot: int) -> int:
         """Return the entry at which a robot got its first command, or was touched before."""
-        command = COLUMNS.index('command_speed_m_s')
-        commanded = self.rows[:, robot, command : command + 2].any(axis=1)
+        commanded = self._commands[:, robot].any(axis=1)
         begin = max(int(commanded.argmax()) - 1, 0)  # an entry holds the command of what it ends
         name = self.robots[robot].name
         first_sec = min((t.time_sec for t in self.collisions if t.robot == name), default=math.inf)

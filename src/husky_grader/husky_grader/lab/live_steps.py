@@ -22,7 +22,7 @@ from husky_grader.lab.patience import Patience
 from husky_grader.lab.programs import given_words, Programs, wrong_first_line
 from husky_grader.rubric.own_types import with_types
 from husky_grader.rubric.steps import ProgramStep
-from husky_grader.run.diagnosis import crash, how_ended, last_line, shortened
+from husky_grader.run.diagnosis import crash, how_it_ended
 from husky_grader.run.live import CHECK_FIELDS
 from husky_grader.run.printed import read_printed
 from husky_grader.run.trusted import trusted
@@ -115,12 +115,3 @@ def _observe(
             why = tail_of(observer_log, 1) or 'it hangs'
             raise ObserverFailed(f'the node of the grader failed: {why}')
         return Finding(**json.loads((place / FINDING_FILE).read_text(encoding='utf-8')))
-
-
-def how_it_ended(exit_code: int, printed: str) -> str:
-    """Return why a program has ended, by its own error if it tells of one."""
-    if error := crash(printed):
-        return error
-    last = last_line(printed)
-    how = f'it ended by itself ({how_ended(exit_code, last)})'
-    return shortened(how + (f': {last}' if last else ''))

@@ -44,7 +44,7 @@ from husky_grader.rubric.steps import (
     ServiceStep,
     SubscriberStep,
 )
-from husky_grader.run.diagnosis import Graph, nearest, unheard_topics
+from husky_grader.run.diagnosis import Graph, nearest, silence, unheard_topics
 from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import printed_lines
 from husky_grader.run.trusted import limit_memory
@@ -253,7 +253,7 @@ def _why_silent(step: PublisherStep, graph: Graph) -> str:
         return f'it publishes on {topic}; {asked(step.topic)}'
     waited_sec = _lengthened(step.within_sec, step)
     nothing_came = f'nothing came on {step.topic} within {waited_sec:g} s'
-    return '; '.join([nothing_came, *unheard_topics(graph)])
+    return '; '.join([nothing_came, *silence(graph, step.topic), *unheard_topics(graph)])
 
 
 def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding:
@@ -291,8 +291,14 @@ def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
     if not graph.subscriptions:
         return f'it listens to nothing; {asked(step.topic)}'
     wrong = unheard_topics(replace(graph, subscriptions=listening or graph.subscriptions))
-    hint = '; a launch file shows what a node prints by output="screen"' if step.launch else ''
-    return next(wrong, f'it did not print what came on {step.topic}{hint}')
+    if not listening:
+        topics = ' and '.join(sorted({each.topic for each in graph.subscriptions}))
+        return next(wrong, f'it listens to {topics}; {asked(step.topic)}')
+    if step.launch:
+        hint = 'a launch file shows what a node prints by output="screen"'
+    else:
+        hint = 'does it spin, and does its callback print what is in the message?'
+    return next(wrong, f'it did not print what came on {step.topic}; {hint}')
 
 
 def _service(step: ServiceStep, observer: _Observer) -> Finding:

@@ -28,7 +28,8 @@ TAKEN = {
     'clearpath': {COMMAND_TOPIC: COMMAND_TYPE, '/cmd_vel': 'geometry_msgs/msg/TwistStamped'},
 }
 """Types of commands by their topics, by interface; the one to name is last."""
-EVERYWHERE = ('/clock', '/parameter_events', '/rosout')  # topics of which each node may have one
+CLOCK = '/clock'
+EVERYWHERE = (CLOCK, '/parameter_events', '/rosout')  # topics of which each node may have one
 # Which file an error stands in tells most; one of these is not what a student has written.
 LIBRARIES = tuple(
     {sysconfig.get_path(name) for name in ('stdlib', 'platstdlib', 'purelib', 'platlib')}
@@ -43,6 +44,10 @@ _NOTE = '[ended by the grader: '
 _TRIED = ' - '  # before what each parser of upstream's launch says of a file that none can read
 _FRAME = re.compile(r'\s+File "(?P<file>[^"]+)", line (?P<line>\d+)')
 _ERROR = re.compile(r'(?P<name>[A-Za-z_][\w.]*)(: .*)?')
+_TIMED_OUT = re.compile(r'no command for (\S+) s \(command_timeout_sec\)')
+_SPINS = (
+    'does it spin, and does no callback wait for an answer (client.call) or for time (Rate.sleep)?'
+)
 _ENDED = ('KeyboardInterrupt', 'ExternalShutdownException')  # whoever asked it to end
 _NOT_FINITE = re.compile(r'linear\.x=(\S+), angular\.z=(\S+): a velocity must be a finite number')
 
@@ -96,6 +101,11 @@ def reasons(
         )
     found += graph_reasons
     found = found or list(unsent)
+    if exit_code is None and (timed_out := _TIMED_OUT.search(simulator_log)):
+        found.append(
+            f'it left the Husky without a command while that drove, which stops after '
+            f'{timed_out[1]} s: send commands again and again, also the same'
+        )
     return tuple(dict.fromkeys(map(printable, found)))
 
 
@@ -129,6 +139,15 @@ def how_ended(exit_code: int, last: str = '') -> str:
     if exit_code == -Signals.SIGKILL and not last.startswith(_NOTE):
         return 'SIGKILL, as by the kernel where memory runs out'
     return {each.value: each.name for each in Signals}.get(-exit_code, f'signal {-exit_code}')
+
+
+def how_it_ended(exit_code: int, printed: str) -> str:
+    """Return why a program has ended, by its own error if it tells of one."""
+    if error := crash(printed):
+        return error
+    last = last_line(printed)
+    how = f'it ended by itself ({how_ended(exit_code, last)})'
+    return shortened(how + (f': {last}' if last else ''))
 
 
 def reasons_of_graph(graph: Graph, interface: str = 'lab') -> list[str]:
@@ -257,12 +276,29 @@ def unheard_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
 
 def unsent_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
     """Yield what stops a program that could be heard, and has never sent a command."""
+    taken = TAKEN[interface]
     for each in graph.publishers:
-        if TAKEN[interface].get(each.topic) == each.type and each.reliable:
-            yield (
-                f'it has a publisher on {each.topic}, and never sent a command: does it spin, and '
-                'does no callback wait for an answer (client.call) or for time (Rate.sleep)?'
-            )
+        if taken.get(each.topic) == each.type and each.reliable:
+            yield f'it has a publisher on {each.topic}, and never sent a command: {_SPINS}'
+    if not any(each.topic in taken or each.type in VELOCITY_TYPES for each in graph.publishers):
+        yield (
+            f'it has no publisher on {next(reversed(taken))}: is it made at all, and does nothing '
+            'before it wait, such as wait_for_service?'
+        )
+
+
+def silence(graph: Graph, topic: str) -> Iterator[str]:
+    """Yield why nothing comes on a topic that a program is to publish."""
+    own = sorted({each.topic for each in graph.publishers}.difference(EVERYWHERE))
+    clocks = {each.topic for each in (*graph.publishers, *graph.other_publishers)} & {CLOCK}
+    if not clocks and any(each.topic == CLOCK for each in graph.subscriptions):
+        yield 'its clock is that of /clock (use_sim_time), which nobody publishes here'
+    elif topic in own:
+        yield f'it has a publisher there: does it publish again and again, {_SPINS}'
+    elif own:
+        yield f'it has publishers on {" and ".join(own)} alone'
+    else:
+        yield 'it has no publisher: is one made, and does nothing before it wait?'
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -20,7 +20,7 @@ from husky_runtime.children import ChildProcess, tail_of
 from husky_runtime.shared_memory import clean_shared_memory
 
 from husky_grader.jail import Jail, JailedProcess
-from husky_grader.run.diagnosis import reasons
+from husky_grader.run.diagnosis import how_it_ended, reasons
 from husky_grader.run.printed import read_printed, shown, without_machine
 from husky_grader.run.rest import tell_first
 from husky_grader.run.told import listen, Told
@@ -123,11 +123,14 @@ def drive_live(
     if not record.is_file():
         raise LiveRunFailed(f'the simulator left no record; see {folder.name}/simulator.log')
     printed = read_printed(printed_in, without=without)
-    notes = reasons(
-        printed, read_printed(folder / 'simulator.log'), last.notes, exit_code, last.unsent
-    )
+    whole = read_record(record)
+    unsent = last.unsent
+    if exit_code == 0 and not whole.has_commands:
+        unsent = [how_it_ended(exit_code, printed)]
+    simulator_log = read_printed(folder / 'simulator.log')
+    notes = reasons(printed, simulator_log, last.notes, exit_code, unsent)
     notes = tuple(map(without_machine, notes))
-    return LiveRun(read_record(record), last.ending, last.pace, notes, shown(printed))
+    return LiveRun(whole, last.ending, last.pace, notes, shown(printed))
 
 
 def _await_simulator(simulator: ChildProcess, told: Path, folder: Path) -> None:
