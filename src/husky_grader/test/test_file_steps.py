@@ -276,6 +276,11 @@ def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:
     assert found.why == f'colcon build failed: {twice}'
 
 
+SETUP = """from setuptools import setup
+setup(name='my_driver', entry_points={'console_scripts': [%s]})
+"""
+
+
 @pytest.mark.parametrize(
     ('text', 'told'),
     [
@@ -287,8 +292,17 @@ def test_a_package_that_is_there_twice_is_named(tmp_path: Path) -> None:
             'from setuptools import setup\nprint("hello")\nsetup(name="my_driver")',
             'setup.py of my_driver prints to its standard output, which colcon reads; let it not',
         ),
+        (
+            SETUP % "'a = my_driver.a:main' 'b = my_driver.b:main'",
+            "setup.py lacks a comma after 'a = my_driver.a:main'",
+        ),
+        (
+            SETUP % "'a = my_driver/a:main'",
+            "setup.py: Problems to parse EntryPoint(name='a', value=",
+        ),
+        ('import setuptools\n', 'setup.py of my_driver never calls setup()'),
     ],
-    ids=['an error', 'a print'],
+    ids=['an error', 'a print', 'no comma', 'no entry point', 'no setup'],
 )
 def test_a_setup_py_that_fails_is_told_why(tmp_path: Path, text: str, told: str) -> None:
     export = '<export><build_type>ament_python</build_type></export>'
@@ -297,7 +311,25 @@ def test_a_setup_py_that_fails_is_told_why(tmp_path: Path, text: str, told: str)
     (tmp_path / 'built').mkdir()
     with Jail(find_sandbox('none'), tmp_path / 'built') as jail:
         found = build_step(tmp_path / 'ws', jail, tmp_path / 'log')
-    assert found.why == f'colcon build failed: {told}'
+    assert found.why.startswith(f'colcon build failed: {told}')
+
+
+def test_a_program_of_a_package_that_failed_is_not_told_of_its_entry_point(tmp_path: Path) -> None:
+    workspace = tmp_path / 'workspace'
+    package = write_package(workspace / 'src' / 'my_driver')
+    (package / 'setup.py').touch()
+    install(workspace, 'my_driver', 'share/my_driver')
+    with pytest.raises(ProgramMissing, match=r'add .* to console_scripts in its setup'):
+        programs_of(workspace).command_of(DRIVE)
+    left = tmp_path / 'built' / 'build' / 'my_driver' / 'colcon_build.rc'
+    left.parent.mkdir(parents=True)
+    left.write_text('1\n')
+    with pytest.raises(
+        ProgramMissing, match='my_driver has: no executables; its build has failed'
+    ):
+        programs_of(workspace).command_of(DRIVE)
+    with pytest.raises(ProgramMissing, match='no launch files; its build has failed'):
+        programs_of(workspace).command_of(replace(DRIVE, executable='', launch='go.launch.py'))
 
 
 def test_what_a_killed_grading_has_left_is_removed(tmp_path: Path) -> None:

@@ -219,7 +219,7 @@ def test_a_slow_publisher_is_heard_until_its_rate_is_known(
             'nothing came on /topic_test within 3 s; its clock is that of /clock (use_sim_time)',
         ),
     ],
-    ids=['another topic', 'a syntax error', 'an exit', 'no interpreter', 'silence', 'use_sim_time'],
+    ids=['another topic', 'a syntax error', 'an exit', 'no interpreter', 'silence', 'sim time'],
 )
 def test_a_publisher_that_is_not_heard_is_told_why(tmp_path: Path, program: str, why: str) -> None:
     found = found_of(replace(PUBLISHES, within_sec=3.0), tmp_path, program)

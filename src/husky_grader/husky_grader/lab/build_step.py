@@ -15,7 +15,9 @@ from husky_grader.lab.programs import is_there
 from husky_grader.rubric.colcon_errors import (
     first_error,
     missing_setup,
+    packages_without_setup,
     printing_setup,
+    setuptools_error,
     without_own_errors,
 )
 from husky_grader.run.diagnosis import crash, how_ended
@@ -67,9 +69,28 @@ def build_step(
         how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
         told = without_own_errors(text).replace(f'{log.parent}/', '')  # before it is shortened
         spoilt = printing_setup(told) or missing_setup(told)
+        spoilt = spoilt or _refused_by_setuptools(told, workspace, jail)
         why = spoilt or crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
+
+
+def _refused_by_setuptools(told: str, workspace: Path, jail: Jail) -> str:
+    """Return what setuptools minds in a setup.py, which colcon does not tell; empty if nothing."""
+    failed = packages_without_setup(told)
+    for manifest in find_manifests(workspace):
+        if manifest.name not in failed:
+            continue
+        command = ['bash', '-c', 'cd "$0" && python3 setup.py --version', str(manifest.folder)]
+        with TemporaryDirectory() as place:
+            log = Path(place) / 'said'
+            jail.run(command, log=log, within_sec=SOURCE_WITHIN_SEC)
+            said = log.read_text(encoding='utf-8', errors='replace')
+        if not said.strip():  # it is asked for its version
+            return f'setup.py of {manifest.name} never calls setup()'
+        if refused := setuptools_error(said):
+            return refused
+    return ''
 
 
 def _has_ended(build: JailedProcess, alive: Callable[[], object]) -> bool:

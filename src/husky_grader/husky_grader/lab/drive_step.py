@@ -14,6 +14,7 @@ from husky_course.waypoints import load_course
 
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.hiding import hiding
+from husky_grader.lab.misplaced import misplaced
 from husky_grader.lab.programs import Programs, wrong_first_line
 from husky_grader.report.files import write_report
 from husky_grader.rubric.steps import COURSE, CourseToDrive, DriveLimits, DriveStep
@@ -58,8 +59,11 @@ class DriveRunner:
             )
         if step.executable and (wrong := wrong_first_line(Path(command[0]))):
             live = replace(live, notes=(f'{step.executable} cannot be started: {wrong}',))
-        elif hidden := hiding(crash(live.printed), self.programs.built, self.programs.environment):
-            live = replace(live, notes=(*live.notes, hidden))
+        else:
+            error = crash(live.printed)
+            hint = hiding(error, self.programs.built, self.programs.environment)
+            hint = hint or misplaced(error, self.programs.workspace)
+            live = replace(live, notes=(*live.notes, *filter(None, [hint])))
         run = read_run(live.record)
         report = live.with_notes(judge(run, route))
         if course.title:

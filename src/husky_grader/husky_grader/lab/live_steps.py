@@ -17,6 +17,7 @@ from husky_grader.jail import JailedProcess
 from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.hiding import hiding
+from husky_grader.lab.misplaced import misplaced
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.lab.patience import Patience
 from husky_grader.lab.programs import given_words, Programs, wrong_first_line
@@ -66,8 +67,10 @@ def live_step(
         found = nothing(how_it_ended(exit_code, printed))
     elif found.score == 0.0 and error:  # of one of several, which ran on
         found = nothing(f'{error}; {found.why}')
-    if found.score == 0.0 and (hidden := hiding(error, programs.built, programs.environment)):
-        found = nothing(f'{found.why}; {hidden}')
+    hint = hiding(error, programs.built, programs.environment)
+    hint = hint or misplaced(error, programs.workspace)
+    if found.score == 0.0 and hint:
+        found = nothing(f'{found.why}; {hint}')
     return _with_words(found, given_words(step))
 
 

@@ -19,6 +19,7 @@ from husky_grader.rubric.steps import ProgramStep
 MAX_DEPTH = 32  # folders in each other below share/PACKAGE, in which a launch file is looked for
 MAX_FIRST_LINE = 256  # bytes; Linux reads no more of one
 _ELF = b'\x7fELF'  # elf(5): a program that was compiled
+_BUILD_FAILED = 'its build has failed'
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
 
 
@@ -141,9 +142,11 @@ def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
     if found:
         return found[0]
     have = ', '.join(path.name for path in files if '.launch' in path.name) or 'no launch files'
+    put = f'put it into share/{manifest.name}/launch, by data_files in its setup.py or install in '
+    put += 'CMakeLists.txt'
+    what_to_do = _BUILD_FAILED if _has_failed(folder, manifest.name) else put
     raise ProgramMissing(
-        f'{command} finds nothing; {manifest.name} has installed: {have}; put it into '
-        f'share/{manifest.name}/launch, by data_files in its setup.py or install in CMakeLists.txt'
+        f'{command} finds nothing; {manifest.name} has installed: {have}; {what_to_do}'
     )
 
 
@@ -185,11 +188,20 @@ def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
     have = ', '.join(sorted(p.name for p in programs.glob('*'))) if is_there(programs) else ''
     raise ProgramMissing(
         f'ros2 run {package} {name} finds nothing; {package} has: {have or "no executables"}; '
-        f'{_what_to_do(programs, manifest, name)}'
+        f'{_what_to_do(folder, programs, manifest, name)}'
     )
 
 
-def _what_to_do(programs: Path, manifest: Manifest, name: str) -> str:
+def _has_failed(folder: Path, package: str) -> bool:
+    """Tell whether the build of a package has failed, by what colcon has left of it."""
+    left = folder / 'build' / package / 'colcon_build.rc'
+    if not (is_there(left) and left.is_file()):
+        return False
+    with left.open('rb') as stream:
+        return stream.read(4).strip() != b'0'
+
+
+def _what_to_do(folder: Path, programs: Path, manifest: Manifest, name: str) -> str:
     """Return in words what puts a program where `ros2 run` looks for it."""
     package = manifest.name
     for there in (programs / name, programs / f'{name}.py'):
@@ -200,6 +212,8 @@ def _what_to_do(programs: Path, manifest: Manifest, name: str) -> str:
             f'it was put into install/{package}/bin; its setup.cfg lacks: [install] '
             f'install_scripts=$base/lib/{package}'
         )
+    if (manifest.folder / 'setup.py').is_file() and _has_failed(folder, package):
+        return _BUILD_FAILED
     if (manifest.folder / 'setup.py').is_file():
         return f"add '{name} = {package}.{name}:main' to console_scripts in its setup.py"
     if 'ament_python' in map(text_of, manifest.root.findall('export/build_type')):

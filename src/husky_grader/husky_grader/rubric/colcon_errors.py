@@ -4,6 +4,7 @@
 
 import re
 
+MAX_ERROR = 1000  # characters that are looked at of one
 _BEGIN, _END, _FAILED = '--- stderr: ', '---', 'Failed '
 _CMAKE = 'CMake Error at '
 _TWICE = re.compile(r'Duplicate package names not supported:\n- (.*):\n  - ')
@@ -20,6 +21,14 @@ _READS_SETUP = re.compile(
 )
 # What Python says where colcon has it run one that is not there.
 _NO_SETUP = re.compile(r"can't open file '(?:[^'\n]*/)?([^'/\n]+)/setup\.py': \[Errno 2\]")
+# What Python says where setup() has ended the setup.py, or was not called.
+_NO_DISTRIBUTION = "RuntimeError: 'distutils.core.setup()' was never called"
+_FAILED_PACKAGE = re.compile(r'^Failed +<<< ([\w-]+)', re.MULTILINE)
+_OF_SETUPTOOLS = re.compile(r'^error in .*? setup command: (.*)', re.MULTILINE)
+# A comma lacks between two entry points: Python makes one text of both.
+_ENTRY_POINTS = re.compile(
+    r"EntryPoint\(name='(.*?)', value='([\w.]+:\w+) *[\w-]+ *= *[\w.]+:\w+'"
+)
 _BEGINS_SETUP = re.compile(
     r'^(Traceback .*\n)  File "<string>", line 1, in <module>\n', re.MULTILINE
 )
@@ -47,6 +56,20 @@ def missing_setup(printed: str) -> str:
         f'{missing[1]} has no setup.py, which the build type ament_python needs; ros2 pkg create '
         '--build-type ament_python makes one'
     )
+
+
+def packages_without_setup(printed: str) -> list[str]:
+    """Return the packages that failed, if one of them did so without the error of its setup.py."""
+    return _FAILED_PACKAGE.findall(printed) if _NO_DISTRIBUTION in printed else []
+
+
+def setuptools_error(printed: str) -> str:
+    """Return why setuptools refuses a setup.py, by what that has printed; empty if nothing."""
+    if not (error := _OF_SETUPTOOLS.search(printed)):
+        return ''
+    if entries := _ENTRY_POINTS.search(error[1][:MAX_ERROR]):
+        return f"setup.py lacks a comma after '{entries[1]} = {entries[2]}'"
+    return f'setup.py: {error[1]}'
 
 
 def first_error(printed: str) -> str:
