@@ -403,6 +403,24 @@ def test_a_mistake_outlives_the_end_of_its_program(nodes: list[Node]) -> None:
     assert not told(), 'it goes on'
 
 
+def test_of_a_launch_file_its_end_is_told_and_not_where_it_lies() -> None:
+    """Of 200 characters its path would leave nothing for what is wrong."""
+    share = 'built/install/bring_up/share/'
+    launch = f'{share}bring_up/launch/talk.launch.py'
+    of_launch = 'Caught exception when trying to load file of format [py]: '
+    why = 'does not contain the required function'
+    printed = (
+        f"{LAUNCH_FAILED}{of_launch}InvalidPythonLaunchFileError: launch file at '{launch}' {why}"
+    )
+    short = launch.removeprefix(share)
+    told = f"InvalidPythonLaunchFileError: launch file at '{short}' {why}"
+    assert how_it_ended(1, printed) == f'it ended by itself (exit code 1): {told}'
+    given = "RCLError: Couldn't parse params file: '--params-file {}a/b.yaml'. Error: Cannot have"
+    error = f'Traceback:\n  File "/src/talk.py", line 8\n{given}\n'
+    (told,) = reasons(error.format('/home/a/CSE461_07_03/install/a/share/'), '', [], 1)
+    assert told == f'it crashed (exit code 1): talk.py line 8: {given.format("")}'
+
+
 def test_what_the_grader_has_killed_is_not_told_of_the_kernel() -> None:
     killed = 'it ended by itself (SIGKILL, as by the kernel where memory runs out): here'
     assert how_it_ended(-9, 'here\n') == killed

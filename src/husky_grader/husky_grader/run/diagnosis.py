@@ -39,6 +39,9 @@ LIBRARIES = tuple(
 _LAUNCHED = re.compile(r'\[[\w.-]+-\d+\] ')  # what `ros2 launch` puts before each line
 _LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
 _OF_LAUNCH = '[INFO] [launch]: '  # where its logs are, and how much it tells
+_LOADING = re.compile(r'^Caught exception when trying to load file of format \[\w+\]: ')
+# Of a file in share/PACKAGE of a workspace: its package and what follows say which one it is.
+_SHARED = re.compile(r'[^\s\'"(\[]*\binstall/[\w-]+/share/')
 _FATAL = 'Fatal Python error: '  # Python lists frames and modules below it
 _NOTE = '[ended by the grader: '
 _TRIED = ' - '  # before what each parser of upstream's launch says of a file that none can read
@@ -121,7 +124,7 @@ def last_line(printed: str) -> str:
         if tried := [line.removeprefix(_TRIED) for line in told if line.startswith(_TRIED)]:
             # Each parser says what it minds, that of the file's own kind first; some in several.
             return next((line for line in tried if not line.endswith(':')), tried[0])
-        return ' '.join(map(str.strip, told))
+        return _SHARED.sub('', _LOADING.sub('', ' '.join(map(str.strip, told))))
     told = [line for line in lines if not line.startswith(_OF_LAUNCH)]
     if not told[-1:] or not told[-1].startswith(_NOTE):
         told = [line for line in told if line.startswith(_FATAL)] or told
@@ -167,7 +170,9 @@ def crash(printed: str) -> str:
     :param printed: what it has printed; nothing is said of an end that it was asked for.
     """
     errors = list(takewhile(lambda error: not error.was_asked_for, _errors(printed)))
-    return shortened(f'{errors[-1].place}: {errors[-1].text}') if errors else ''
+    if not errors:
+        return ''
+    return shortened(_SHARED.sub('', f'{errors[-1].place}: {errors[-1].text}'))
 
 
 @dataclass(frozen=True)
