@@ -76,8 +76,8 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         'rubric.yaml: line 4, column 12: steps[1].kind: publsher is not allowed; did you mean '
         'publisher? allowed: workspace, package, build, publisher, subscriber, service, '
         'drive, path',
-        'rubric.yaml: line 5, column 77: steps[2].type: std_msgs/msg/Sring is no type that is '
-        'installed here; did you mean std_msgs/msg/String?',
+        'rubric.yaml: line 5, column 77: steps[2].type: std_msgs/msg/Sring is no type of '
+        'messages that is installed here; did you mean std_msgs/msg/String?',
         'rubric.yaml: line 5, column 97: steps[2]: rate is no field; did you mean rate_hz? '
         'allowed: kind, name, points, needs, needs_one_of, package, package_with, executable, '
         'launch, arguments, parameters, topic, type, rate_hz, rate_tolerance, content, '
@@ -112,7 +112,7 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
         ),
         (
             f'kind: publisher, {TOPIC}, {STRING}, call: {{service: s, type: std_srvs/srv/Trig}}',
-            'steps[1].call.type: std_srvs/srv/Trig is no type that is installed here; did',
+            'steps[1].call.type: std_srvs/srv/Trig is no type of services that is installed',
         ),
         (
             f'kind: subscriber, {TOPIC}, {STRING}, sent: {{data: a}}, printed: a',
@@ -122,6 +122,11 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
             f'kind: service, {PROGRAM}, service: s, type: std_srvs/srv/SetBool, '
             'request: {data: maybe}',
             "steps[1].request: data: 'maybe' is refused",
+        ),
+        (
+            f"kind: subscriber, {TOPIC}, type: std_msgs/msg/Bool, sent: {{data: '{{token}}'}}, "
+            "printed: '{token}'",
+            "steps[1].sent: data: '{token}' is refused",
         ),
         ('kind: package, points: 1', 'steps[1].package: give package or package_with'),
         (
@@ -133,8 +138,8 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
             'give executable or launch, ',
         ),
         (
-            f'kind: publisher, {LAUNCH}, launch: a.launch',
-            'a.launch is no launch file, as patrol.launch.py, .xml or .yaml',
+            f'kind: publisher, {LAUNCH}, launch: patrol',
+            'patrol is no launch file, as patrol.launch.py, .xml or .yaml',
         ),
         (
             f'kind: publisher, {LAUNCH}, launch: a.launch.py, parameters: {{a: 1}}',
@@ -278,6 +283,12 @@ def test_any_change_of_a_rubric_is_read_or_refused_with_a_line() -> None:
                 parse_rubric(text, str(RUBRICS[0]))
             except FileRefused as refused:
                 assert all(problem.line >= 1 for problem in refused.problems), text
+
+
+def test_a_launch_file_may_end_as_those_of_ros_1_do() -> None:
+    # `ros2 launch` tries each of its parsers where an ending tells none.
+    step = f'kind: publisher, {LAUNCH}, launch: patrol.launch'
+    assert parse_rubric(f'title: T\nsteps:\n  - {{kind: build, points: 1}}\n  - {{{step}}}\n')
 
 
 @pytest.mark.parametrize('hidden', ['hidden: true, title: A', 'title: A}, {file: square.yaml'])

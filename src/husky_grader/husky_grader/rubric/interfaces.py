@@ -22,7 +22,7 @@ def message_type(name: str) -> str:
 
     :raises ValueError: when no installed package has it.
     """
-    return _known(name, get_message, get_message_interfaces, 'std_msgs/msg/String')
+    return _known(name, 'messages', get_message, get_message_interfaces, 'std_msgs/msg/String')
 
 
 def service_type(name: str) -> str:
@@ -31,10 +31,16 @@ def service_type(name: str) -> str:
 
     :raises ValueError: when no installed package has it.
     """
-    return _known(name, get_service, get_service_interfaces, 'std_srvs/srv/Trigger')
+    return _known(name, 'services', get_service, get_service_interfaces, 'std_srvs/srv/Trigger')
 
 
-def _known(name: str, find: Callable[[str], object], interfaces: _Interfaces, example: str) -> str:
+def _known(
+    name: str,
+    what: str,
+    find: Callable[[str], object],
+    interfaces: _Interfaces,
+    example: str,
+) -> str:
     try:
         if name.count('/') == 2 and find(name):
             return name
@@ -43,7 +49,7 @@ def _known(name: str, find: Callable[[str], object], interfaces: _Interfaces, ex
     names = [f'{package}/{each}' for package, kinds in interfaces().items() for each in kinds]
     near = get_close_matches(name, names, n=1)
     hint = f'did you mean {near[0]}?' if near else f'write it as {example}, or install its package'
-    raise ValueError(f'{name} is no type that is installed here; {hint}')
+    raise ValueError(f'{name} is no type of {what} that is installed here; {hint}')
 
 
 def type_of_field(message: Any, path: str) -> str:

@@ -22,7 +22,7 @@ from husky_grader.rubric.steps import (
     SubscriberStep,
 )
 
-LAUNCH_ENDINGS = ('.py', '.xml', '.yaml', '.yml')
+LAUNCH_ENDINGS = ('.py', '.xml', '.yaml', '.yml', '.launch')
 A_TOKEN = '12345678'
 _ENTRY = re.compile(r'(sequence<)?([\w/]+).*')  # the type of what is in sequence<string<9>, 3>
 _PARAMETER = re.compile(r'[A-Za-z_]\w*([./][A-Za-z_]\w*)*', re.ASCII)
@@ -115,7 +115,7 @@ def _content(field: str, message: Any, values: Mapping[str, Any]) -> _Mistakes:
     try:
         filled(message, values)
     except ValueError as error:
-        yield field, str(error)
+        yield field, str(error).replace(A_TOKEN, TOKEN)  # as it stands in the file
 
 
 def _checks(field: str, message: Any, checks: Sequence[FieldCheck]) -> _Mistakes:
