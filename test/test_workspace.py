@@ -54,6 +54,37 @@ def test_a_build_puts_every_package_on_the_ament_path(built_packages: Path, inst
     assert course.read_text() == (ROOT / 'config/waypoints/central_barrier.yaml').read_text()
 
 
+SETUP_WITH_SCRIPT = """from setuptools import setup
+setup(
+    name='bare',
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/bare']),
+        ('share/bare', ['package.xml']),
+    ],
+    scripts=['scripts/greet'],
+)
+"""
+
+
+@pytest.mark.timeout(180)
+def test_a_script_of_a_setup_py_runs(tmp_path: Path) -> None:
+    """Newer setuptools leave `#!python` in it, which installers replace and colcon does not."""
+    files = {
+        'package.xml': '<package format="3"><name>bare</name><version>0.0.0</version>'
+        '<description>A script</description><maintainer email="a@b.org">A</maintainer>'
+        '<license>Apache-2.0</license><export><build_type>ament_python</build_type></export></package>',
+        'setup.py': SETUP_WITH_SCRIPT,
+        'setup.cfg': '[install]\ninstall_scripts=$base/lib/bare\n',
+        'resource/bare': '',
+        'scripts/greet': '#!/usr/bin/env python3\nprint("hello")\n',
+    }
+    for name, text in files.items():
+        (path := tmp_path / 'src' / 'bare' / name).parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    run('colcon', 'build', cwd=tmp_path)
+    assert run(str(tmp_path / 'install/bare/lib/bare/greet'), cwd=tmp_path) == 'hello\n'
+
+
 def test_tab_completes_ros2_once_a_workspace_is_sourced(tmp_path: Path) -> None:
     controller, terminal = pty.openpty()
     # A terminal that knows nothing yet; the answer differs from what is typed.
