@@ -13,9 +13,10 @@ from husky_grader.lab.file_steps import find_manifests, no_packages
 from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.programs import is_there
 from husky_grader.rubric.colcon_errors import (
+    failed_packages,
     first_error,
+    is_without_setup,
     missing_setup,
-    packages_without_setup,
     printing_setup,
     setuptools_error,
     without_own_errors,
@@ -29,6 +30,16 @@ NO_PROGRAM = 127  # as a shell says it
 MAX_VARIABLES = 30_000  # bytes, of all of them together; Linux starts no program with too many
 # The wheels' colcon refuses packages that another one builds: points are the same with both.
 _AS_ANYWHERE = {'COLCON_EXTENSION_BLOCKLIST': 'colcon_core.package_identification.refused'}
+# The wheels bring ros2_diagnosis, a sourced ROS does not.
+_SAYS_WHY = """
+from importlib.util import find_spec
+from pathlib import Path
+import sys
+if find_spec('ros2_diagnosis'):
+    from ros2_diagnosis.package_files import why_refused
+    print(*why_refused(Path(sys.argv[1])), sep='\\n')
+"""
+NEVER_CALLED = 'setup.py does not call setup()'
 _BEGUN = 'Starting >>>'  # is printed before anything of a student's runs
 _OF_THE_SHELL = ('HOME', 'PWD', 'OLDPWD', 'SHLVL', '_')  # each program has its own
 
@@ -69,28 +80,37 @@ def build_step(
         how = how_ended(exit_code) if exit_code < 0 else f'see {log.name}'
         told = without_own_errors(text).replace(f'{log.parent}/', '')  # before it is shortened
         spoilt = printing_setup(told) or missing_setup(told)
-        spoilt = spoilt or _refused_by_setuptools(told, workspace, jail)
+        spoilt = spoilt or _why_refused(told, workspace, jail)
         why = spoilt or crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
     return Finding('colcon build succeeded')
 
 
-def _refused_by_setuptools(told: str, workspace: Path, jail: Jail) -> str:
-    """Return what setuptools minds in a setup.py, which colcon does not tell; empty if nothing."""
-    failed = packages_without_setup(told)
+def _why_refused(printed: str, workspace: Path, jail: Jail) -> str:
+    """
+    Return what is wrong in the files of a package that failed; empty if that is not known.
+
+    The wheels' colcon would have said it; setuptools does, when colcon does not come between.
+    """
+    failed = failed_packages(printed)
     for manifest in find_manifests(workspace):
         if manifest.name not in failed:
             continue
-        command = ['bash', '-c', 'cd "$0" && python3 setup.py --version', str(manifest.folder)]
-        with TemporaryDirectory() as place:
-            log = Path(place) / 'said'
-            jail.run(command, log=log, within_sec=SOURCE_WITHIN_SEC)
-            said = log.read_text(encoding='utf-8', errors='replace')
-        if not said.strip():  # it is asked for its version
-            return f'setup.py of {manifest.name} never calls setup()'
-        if refused := setuptools_error(said):
-            return refused
+        if known := _said(jail, ['python3', '-c', _SAYS_WHY, str(manifest.folder)]).strip():
+            return f'{manifest.name}: {known.splitlines()[0]}'
+        if is_without_setup(printed):
+            command = ['bash', '-c', 'cd "$0" && python3 setup.py --version', str(manifest.folder)]
+            said = _said(jail, command)
+            if why := setuptools_error(said) or ('' if said.strip() else NEVER_CALLED):
+                return f'{manifest.name}: {why}'
     return ''
+
+
+def _said(jail: Jail, command: list[str]) -> str:
+    with TemporaryDirectory() as place:
+        log = Path(place) / 'said'
+        jail.run(command, log=log, within_sec=SOURCE_WITHIN_SEC)
+        return log.read_text(encoding='utf-8', errors='replace')
 
 
 def _has_ended(build: JailedProcess, alive: Callable[[], object]) -> bool:

@@ -4,7 +4,6 @@
 
 import re
 
-MAX_ERROR = 1000  # characters that are looked at of one
 _BEGIN, _END, _FAILED = '--- stderr: ', '---', 'Failed '
 _CMAKE = 'CMake Error at '
 _TWICE = re.compile(r'Duplicate package names not supported:\n- (.*):\n  - ')
@@ -25,10 +24,6 @@ _NO_SETUP = re.compile(r"can't open file '(?:[^'\n]*/)?([^'/\n]+)/setup\.py': \[
 _NO_DISTRIBUTION = "RuntimeError: 'distutils.core.setup()' was never called"
 _FAILED_PACKAGE = re.compile(r'^Failed +<<< ([\w-]+)', re.MULTILINE)
 _OF_SETUPTOOLS = re.compile(r'^error in .*? setup command: (.*)', re.MULTILINE)
-# A comma lacks between two entry points: Python makes one text of both.
-_ENTRY_POINTS = re.compile(
-    r"EntryPoint\(name='(.*?)', value='([\w.]+:\w+) *[\w-]+ *= *[\w.]+:\w+'"
-)
 _BEGINS_SETUP = re.compile(
     r'^(Traceback .*\n)  File "<string>", line 1, in <module>\n', re.MULTILINE
 )
@@ -58,18 +53,20 @@ def missing_setup(printed: str) -> str:
     )
 
 
-def packages_without_setup(printed: str) -> list[str]:
-    """Return the packages that failed, if one of them did so without the error of its setup.py."""
-    return _FAILED_PACKAGE.findall(printed) if _NO_DISTRIBUTION in printed else []
+def failed_packages(printed: str) -> list[str]:
+    """Return the packages that could not be built."""
+    return _FAILED_PACKAGE.findall(printed)
+
+
+def is_without_setup(printed: str) -> bool:
+    """Tell whether a setup.py has come to its end, and colcon knows nothing of what it says."""
+    return _NO_DISTRIBUTION in printed
 
 
 def setuptools_error(printed: str) -> str:
     """Return why setuptools refuses a setup.py, by what that has printed; empty if nothing."""
-    if not (error := _OF_SETUPTOOLS.search(printed)):
-        return ''
-    if entries := _ENTRY_POINTS.search(error[1][:MAX_ERROR]):
-        return f"setup.py lacks a comma after '{entries[1]} = {entries[2]}'"
-    return f'setup.py: {error[1]}'
+    error = _OF_SETUPTOOLS.search(printed)
+    return f'setup.py: {error[1]}' if error else ''
 
 
 def first_error(printed: str) -> str:
