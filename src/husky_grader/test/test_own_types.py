@@ -178,7 +178,7 @@ def test_another_definition_of_the_message_is_told_by_its_fields(
     assert grade.points == 0
     assert grade.why == (
         'its odometer_interfaces/msg/Distance has other fields; the lab asks for stamp '
-        '(builtin_interfaces/Time), distance_m (double), resets (uint32)'
+        '(builtin_interfaces/Time), distance_m (float64), resets (uint32)'
     )
 
 

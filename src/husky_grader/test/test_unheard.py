@@ -13,9 +13,19 @@ from husky_grader.lab.live_steps import live_step
 from husky_grader.lab.programs import Programs
 from husky_grader.playpen import default_rubric
 from husky_grader.rubric.rubric_file import load_rubric
-from husky_grader.rubric.steps import PublisherStep, SubscriberStep
+from husky_grader.rubric.steps import ProgramStep, PublisherStep, ServiceStep, SubscriberStep
 import pytest
 
+WAITS = """#!%s
+import rclpy
+from std_srvs.srv import Empty, Trigger
+rclpy.init()
+node = rclpy.create_node('sensor')
+other = node.create_client(Empty, 'zero')
+node.create_service(Empty, 'zero', lambda request, response: response)
+node.create_service(Trigger, 'tare', lambda request, _: other.call(Empty.Request()))
+rclpy.spin(node)
+"""
 STEPS = load_rubric(default_rubric()).steps
 (PUBLISHES,) = (replace(s, within_sec=3.0) for s in STEPS if isinstance(s, PublisherStep))
 (LISTENS,) = (replace(s, within_sec=3.0) for s in STEPS if isinstance(s, SubscriberStep))
@@ -55,7 +65,7 @@ def graph(courses: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(courses.parent / 'fastdds.xml'))
 
 
-def found_of(step: PublisherStep | SubscriberStep, folder: Path, program: str) -> Finding:
+def found_of(step: ProgramStep, folder: Path, program: str) -> Finding:
     """Run a program as that of a step, and return what is found out about it."""
     package = folder / 'workspace' / 'src' / step.package
     package.mkdir(parents=True)
@@ -119,3 +129,20 @@ def test_a_subscriber_that_does_not_hear_is_told_why(
     found = found_of(LISTENS, tmp_path, program)
     assert found.score == 0.0
     assert found.why.startswith(why), found.why
+
+
+def test_a_service_that_does_not_answer_is_told_what_may_keep_it(tmp_path: Path) -> None:
+    step = ServiceStep(
+        points=10.0,
+        package='sensor',
+        executable='sensor',
+        service='/tare',
+        type='std_srvs/srv/Trigger',
+        within_sec=3.0,
+    )
+    found = found_of(step, tmp_path, WAITS % sys.executable)
+    assert found.score == 0.0
+    assert found.why == (
+        '/tare did not answer within 3 s: does its callback return a response, and wait for no '
+        'other answer (client.call) in the same group?'
+    )

@@ -67,6 +67,9 @@ HEARD_BY_ALL = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 
+# Types as Python's messages name them, and as students write them in a .msg.
+_IN_MSG = {'boolean': 'bool', 'octet': 'byte', 'float': 'float32', 'double': 'float64'}
+_OF_PYTHON = re.compile(rf'\b({"|".join(_IN_MSG)})\b')
 _LOGGED_AT = re.compile(r'\[\d+\.\d+\] ')  # the time of a logger's line
 
 Over = Callable[[], bool]
@@ -239,7 +242,9 @@ def _other_fields(step: PublisherStep, node: Node) -> str:
     if not has_other_fields(node, step.topic, step.type):
         return ''
     fields = get_message(step.type).get_fields_and_field_types().items()
-    asked_for = ', '.join(f'{name} ({kind})' for name, kind in fields)
+    asked_for = ', '.join(
+        f'{name} ({_OF_PYTHON.sub(lambda kind: _IN_MSG[kind[0]], kind)})' for name, kind in fields
+    )
     return f'its {step.type} has other fields; {asked(asked_for)}'
 
 
@@ -321,7 +326,10 @@ def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Obs
     future = client.call_async(filled(kind.Request(), call.request))
     observer.spin_until(future.done, step.within_sec)
     if not future.done():
-        return nothing(f'{call.service} did not answer within {step.within_sec:g} s')
+        return nothing(
+            f'{call.service} did not answer within {step.within_sec:g} s: does its callback '
+            'return a response, and wait for no other answer (client.call) in the same group?'
+        )
     return future.result()
 
 
