@@ -3,6 +3,7 @@
 """A clone that its users may only read, as one that is there for all of a computer."""
 
 from pathlib import Path
+import re
 import shutil
 
 from playpen_testing.processes import Process, Processes
@@ -57,6 +58,21 @@ def test_what_it_lacks_is_left_to_its_owner(processes: Processes, clone: Path) -
     (line,) = refused.lines
     assert line.startswith(f'lab: cannot write in {clone}, and it is not set up for this (ROS: ')
     assert f"let its owner call '{clone}/lab exec true', or clone the lab" in line
+
+
+def test_the_owner_is_told_of_a_python_that_others_can_run(
+    processes: Processes, clone: Path
+) -> None:
+    """Without it the owner's call would find all set up, by a Python of his own."""
+    (clone / '.venv').mkdir()
+    of_its_owner = f'{clone}/.venv /home/owner/python3'
+    made_for = ''.join(f'{ros} {of_its_owner}\n' for ros in ('pip', 'sourced'))
+    (clone / '.venv' / '.made-for').write_text(made_for)
+    refused = start_reading(processes, clone, 'exec', 'true')
+    assert refused.wait() == 2, refused.output
+    (line,) = refused.lines
+    found = re.search(r"Python 3[.]\d+[.]\d+: (.*)\): let its owner call '(.*)', or", line)
+    assert found and found[2] == f'PYTHON={found[1]} {clone}/lab exec true', line
 
 
 def test_the_owner_is_told_of_what_sudo_has_made(processes: Processes, clone: Path) -> None:
