@@ -239,6 +239,22 @@ def test_a_message_published_once_arrives(processes: Any, ros2: Callable[..., An
     find_line(listener.stdout, '^heard good day$')
 
 
+def test_a_subscriber_that_pub_waited_for_hears_it(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    words = ('pub', '--once', '/late', 'std_msgs/msg/String', 'data: good day')
+    processes.ros2('topic', *words, ready='Waiting for at least 1')
+    answer = ros2('topic', 'echo', '--once', '/late', 'std_msgs/msg/String')
+    assert answer.lines == ['data: good day', '---']
+
+
+def test_pub_ends_although_a_subscriber_has_stopped(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('listener_that_stops', 'listener')
+    assert ros2('topic', 'pub', '-t', '2', '/chatter', 'std_msgs/msg/String').status == 0
+
+
 def test_a_topic_without_subscribers_is_given_up(processes: Any, ros2: Callable[..., Any]) -> None:
     processes.node('robot', 'robot')
     words = ('/robot/cmd_vel', 'geometry_msgs/msg/Twist', '--max-wait-time-secs', '0.1')

@@ -9,6 +9,7 @@ import sys
 import time
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.publisher import Publisher
 from rclpy.qos import qos_policy_name_from_kind
@@ -18,6 +19,9 @@ from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 
 from ros2topic import qos, silence, topics
+
+_ONE_WAIT = Duration(seconds=0.05)  # in which an interrupt is not heard
+_ARRIVAL_TIMEOUT_SEC = 2.0  # a subscriber that stands still, or was killed, acknowledges nothing
 
 
 class PubVerb(VerbExtension):
@@ -157,6 +161,8 @@ def _publish(
     publish()
     node.node.create_timer(1.0 / args.rate, publish)
     node.spin_until(lambda: bool(times and count >= times))
+    # One that came after this node may find it a tenth of a second later than it was found.
+    node.spin_until(lambda: publisher.wait_for_all_acked(_ONE_WAIT), _ARRIVAL_TIMEOUT_SEC)
     node.spin_until(lambda: False, args.keep_alive)
 
 
