@@ -15,8 +15,9 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     Give the name of a file to write; it takes the place of `path`, unless something fails.
 
-    :raises OSError: with the name of a file, which Python leaves out where a write fails; also
-        where a device is: root would put the file in the place of /dev/null.
+    :raises OSError: with the name of a file, which Python leaves out where a write fails, and of
+        `path` for the file to write; also where a device is: root would put the file in the place
+        of /dev/null.
     """
     if _is_device(path):
         raise OSError(errno.EEXIST, 'a device, no file', str(path))
@@ -25,7 +26,12 @@ def replacing(path: Path) -> Iterator[Path]:
         yield part
         part.replace(path)
     except OSError as error:
-        error.filename = error.filename or str(path)
+        if error.filename in (None, str(part)):
+            error.filename = str(path)
+            if error.filename2:
+                del error.filename2  # None would be shown
+        elif error.filename2 == str(part):  # of a copy
+            error.filename2 = str(path)
         raise
     finally:
         part.unlink(missing_ok=True)

@@ -37,3 +37,11 @@ def test_a_file_for_which_there_is_no_room_is_named(tmp_path: Path) -> None:
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert caught.value.filename == str(tmp_path / 'file')
+
+
+def test_a_file_that_cannot_be_made_is_named(tmp_path: Path) -> None:
+    for file in (tmp_path / 'missing' / 'file', tmp_path):
+        with pytest.raises(OSError) as caught, replacing(file) as part:
+            part.write_text('whole')
+        assert caught.value.filename == str(file)
+        assert str(caught.value).endswith(f": '{file}'")
