@@ -124,6 +124,16 @@ def test_of_a_launch_file_the_error_of_its_own_parser_is_told(tmp_path: Path) ->
     assert reasons(about, '', (), 1) == ('it crashed (exit code 1)',)
 
 
+def test_under_ros2_run_the_last_word_of_the_program_is_told(tmp_path: Path) -> None:
+    log = tmp_path / 'controller.log'
+    with log.open('w') as stream:
+        words = ['ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', 'missing.yaml']
+        process = ChildProcess(words, os.environ, stream)
+        assert process.wait(20.0)
+    told = 'it crashed (exit code 2): missing.yaml: no such file'
+    assert reasons(read_printed(log), '', (), process.exit_code) == (told,)
+
+
 @pytest.mark.parametrize(
     ('program', 'told'),
     [

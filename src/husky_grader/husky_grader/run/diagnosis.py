@@ -42,6 +42,7 @@ _OF_LAUNCH = '[INFO] [launch]: '  # where its logs are, and how much it tells
 _LOADING = re.compile(r'^Caught exception when trying to load file of format \[\w+\]: ')
 # Of a file in share/PACKAGE of a workspace: its package and what follows say which one it is.
 _SHARED = re.compile(r'[^\s\'"(\[]*\binstall/[\w-]+/share/')
+_OF_RUN = '[ros2run]: Process exited with failure '  # by `ros2 run`, below what the program says
 _FATAL = 'Fatal Python error: '  # Python lists frames and modules below it
 _NOTE = '[ended by the grader: '
 _TRIED = ' - '  # before what each parser of upstream's launch says of a file that none can read
@@ -113,7 +114,7 @@ def reasons(
 
 
 def last_line(printed: str) -> str:
-    """Return the last line that says something; of launch only what has ended it."""
+    """Return the last line of the program that says something; of launch what has ended it."""
     lines = printed.strip().splitlines()
     failed = [n for n, line in enumerate(lines) if line.startswith(_LAUNCH_FAILED)]
     if failed and not lines[-1].startswith(_NOTE):
@@ -125,7 +126,7 @@ def last_line(printed: str) -> str:
             # Each parser says what it minds, that of the file's own kind first; some in several.
             return next((line for line in tried if not line.endswith(':')), tried[0])
         return _SHARED.sub('', _LOADING.sub('', ' '.join(map(str.strip, told))))
-    told = [line for line in lines if not line.startswith(_OF_LAUNCH)]
+    told = [line for line in lines if not line.startswith((_OF_LAUNCH, _OF_RUN))]
     if not told[-1:] or not told[-1].startswith(_NOTE):
         told = [line for line in told if line.startswith(_FATAL)] or told
     return told[-1].strip() if told else ''
