@@ -72,7 +72,8 @@ def test_the_owner_is_told_of_a_python_that_others_can_run(
     assert refused.wait() == 2, refused.output
     (line,) = refused.lines
     found = re.search(r"Python 3[.]\d+[.]\d+: (.*)\): let its owner call '(.*)', or", line)
-    assert found and found[2] == f'PYTHON={found[1]} {clone}/lab exec true', line
+    assert found, line
+    assert found[2] == f'PYTHON={found[1]} {clone}/lab exec true', line
 
 
 def test_the_owner_is_told_of_what_sudo_has_made(processes: Processes, clone: Path) -> None:
