@@ -192,7 +192,8 @@ def test_a_node_that_is_no_simulator_is_refused_in_one_line(processes: Processes
 @pytest.mark.timeout(60)
 def test_a_view_without_a_simulator_says_what_it_waits_for(processes: Processes) -> None:
     view = processes.start(*VIEW, 'viewer_port:=18480')
-    view.wait_for_text('husky_sim does not answer yet: is the simulator running, with RMW_')
+    view.wait_for_text('husky_sim does not answer yet: is the simulator running, with ROS_DOMAIN_')
+    view.wait_for_text(' and RMW_IMPLEMENTATION=')
     processes.start('ros2', 'run', 'husky_sim', 'husky_sim')
     view.wait_for_text('look at http://localhost:')
 

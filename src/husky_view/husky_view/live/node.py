@@ -140,6 +140,7 @@ class ViewNode(Node):
                 hint_due_sec = float('inf')
                 self.get_logger().warning(
                     f'{name} does not answer yet: is the simulator running, with '
+                    f'ROS_DOMAIN_ID={self.context.get_domain_id()} and '
                     f'RMW_IMPLEMENTATION={rclpy.get_rmw_implementation_identifier()} as here?'
                 )
 
