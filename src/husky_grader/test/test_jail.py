@@ -371,6 +371,14 @@ def test_an_unknown_sandbox_is_refused(tmp_path: Path) -> None:
         Limits(tasks=0)
 
 
+def test_where_the_wanted_sandbox_fails_others_are_not_said_to(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv('PATH', '')
+    with pytest.raises(NoSandbox, match=r'^sandbox podman: podman .*; without --sandbox '):
+        find_sandbox('podman')
+
+
 @pytest.mark.parametrize(
     ('restricted', 'advice'),
     [

@@ -40,6 +40,10 @@ def find_sandbox(wanted: str = 'auto') -> Sandbox:
             failures.append(f'{sandbox.name}: {failure}')
         else:
             return sandbox
+    if wanted != 'auto':  # another may
+        raise NoSandbox(
+            f'sandbox {"; ".join(failures)}; without --sandbox the first that works here is taken'
+        )
     raise NoSandbox(f'no sandbox works here ({"; ".join(failures)}); {_advice()}')
 
 
