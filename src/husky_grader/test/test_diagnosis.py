@@ -371,7 +371,7 @@ def test_why_nothing_comes_on_a_topic_is_told(
     node, graph = student
     make, reason = SILENT[name]
     kept = make(node)
-    wait_for(lambda: list(silence(graph(), '/topic_test')) == [reason], reason)
+    wait_until(lambda: list(silence(graph(), '/topic_test')) == [reason], what=reason)
     del kept
 
 
