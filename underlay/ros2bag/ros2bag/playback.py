@@ -85,37 +85,48 @@ class Playback:
         self._clock_publisher = clock_publisher
         self._clock_topics = _clock_topics(args, publishers)
         self._first_ns = bag.starting_time.nanoseconds + int(args.start_offset * 1e9)
+        self._end_ns = _end_ns(args, self._first_ns)
         self._clock = PlaybackClock(args.rate, is_paused=args.start_paused)
         self._messages: Iterator[tuple[str, bytes, int]] = iter(())
         self._next: tuple[str, bytes, int] | None = None
+        self._is_playing = False
+        self._is_stopped = False
+        self._sought_ns: int | None = None
         self._serve_at_sec = -math.inf
         self._tick_at_sec = math.inf
 
-    def play(self, serve: Callable[[], None]) -> bool:
+    def play(self, serve: Callable[[], None], burst: int | None = None) -> bool:
         """Play the bag once; return at its end, but not while it is paused.
 
         :param serve: called every 10 ms.
-        :return: whether there was anything to play.
+        :param burst: how many messages are played at once at the beginning, 0 for all.
+        :return: whether it may be played again: there was something to play, and nobody has
+            stopped it.
         """
-        self._messages = _messages(self._args, list(self._publishers), self._first_ns)
-        self._next = next(self._messages, None)
+        self._go_to(self._first_ns)
         is_empty = self._next is None
-        self._clock.jump(self._first_ns)
+        if self._sought_ns is not None:
+            self._go_to(self._sought_ns)
+            self._sought_ns = None
+        self._is_playing = True
         self._tick_at_sec = time.monotonic() if self._args.clock else math.inf
-        while self._next is not None or self.is_paused:
+        if burst is not None:
+            self.burst(burst)
+        while not self._is_stopped and (self._next is not None or self.is_paused):
             self._do_besides(serve)
             left_sec = self._clock.seconds_until(self._next[2]) if self._next else math.inf
             if left_sec <= 0.0:
                 self._publish_next()
             else:
                 self._sleep(left_sec)
-        return not is_empty
+        self._is_playing = False
+        return not (is_empty or self._is_stopped)
 
     def wait(self, duration_sec: float, serve: Callable[[], None]) -> None:
         """Wait before the bag is played, with the same `serve`."""
         self._tick_at_sec = math.inf
         end_sec = time.monotonic() + duration_sec
-        while (left_sec := end_sec - time.monotonic()) > 0.0:
+        while not self._is_stopped and (left_sec := end_sec - time.monotonic()) > 0.0:
             self._do_besides(serve)
             self._sleep(left_sec)
 
@@ -148,6 +159,44 @@ class Playback:
                 return True
         return False
 
+    def burst(self, count: int) -> int:
+        """
+        Publish the next messages at once, 0 for all that are left, where the bag is paused.
+
+        :return: how many there were.
+        """
+        if not self.is_paused:
+            self._log.warning('Nothing is played at once, the bag is not paused')
+            return 0
+        played = 0
+        while not (count and played == count) and self.play_next():
+            played += 1
+        self._log.info(f'Played {played} messages at once')
+        return played
+
+    def seek(self, time_ns: int) -> bool:
+        """
+        Go on at the first message of a time or after; before the bag is played, begin there.
+
+        A time before the start is taken for the start. After the last message nothing is left.
+        """
+        time_ns = max(time_ns, self._first_ns)
+        if self._is_playing:
+            self._go_to(time_ns)
+        else:
+            self._sought_ns = time_ns
+        return True
+
+    def stop(self) -> None:
+        """Play nothing more, also where the bag is paused or to be played again."""
+        self._is_stopped = True
+        self._log.info('Stopped')
+
+    def play_again(self) -> bool:
+        """Return False, as upstream's does until the bag has ended, and the command with it."""
+        self._log.warning('The bag is not played again, it is being played')
+        return False
+
     @property
     def rate(self) -> float:
         return self._clock.rate
@@ -168,6 +217,11 @@ class Playback:
     @property
     def _log(self) -> Any:
         return self._node.node.get_logger()
+
+    def _go_to(self, time_ns: int) -> None:
+        self._messages = _messages(self._args, list(self._publishers), time_ns, self._end_ns)
+        self._next = next(self._messages, None)
+        self._clock.jump(time_ns)
 
     def _do_besides(self, serve: Callable[[], None]) -> None:
         """Do what is due besides messages."""
@@ -208,13 +262,13 @@ def _clock_topics(args: argparse.Namespace, played: Collection[str]) -> set[str]
 
 
 def _messages(
-    args: argparse.Namespace, topics: list[str], first_ns: int
+    args: argparse.Namespace, topics: list[str], first_ns: int, end_ns: int | None
 ) -> Iterator[tuple[str, bytes, int]]:
     reader = rosbag2_py.SequentialReader()
     options = rosbag2_py.StorageOptions(str(args.bag_path), args.storage)
     reader.open(options, rosbag2_py.ConverterOptions())
     reader.set_filter(rosbag2_py.StorageFilter(topics=topics, services_events=topics))
-    end_ns = _end_ns(args, first_ns)
+    reader.seek(first_ns)
     while reader.has_next():
         message = reader.read_next()
         if end_ns is not None and message[2] > end_ns:

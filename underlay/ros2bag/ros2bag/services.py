@@ -9,13 +9,17 @@ from typing import Any
 
 from ros2cli.node.direct import CommandNode
 from rosbag2_interfaces.srv import (
+    Burst,
     GetRate,
     IsPaused,
     Pause,
+    Play,
     PlayNext,
     Resume,
+    Seek,
     SetRate,
     SplitBagfile,
+    Stop,
     TogglePaused,
 )
 
@@ -31,6 +35,12 @@ def control_player(node: CommandNode, playback: Playback) -> None:
     _create(node, GetRate, 'get_rate', lambda _: playback.rate, 'rate')
     _create(node, SetRate, 'set_rate', lambda asked: playback.set_rate(asked.rate), 'success')
     _create(node, PlayNext, 'play_next', lambda _: playback.play_next(), 'success')
+    _create(node, Play, 'play', lambda _: playback.play_again(), 'success')
+    _create(node, Stop, 'stop', lambda _: playback.stop())
+    _create(node, Seek, 'seek', lambda asked: playback.seek(_ns(asked.time)), 'success')
+    _create(
+        node, Burst, 'burst', lambda asked: playback.burst(asked.num_messages), 'actually_burst'
+    )
 
 
 def control_recorder(node: CommandNode, recorder: Recorder) -> None:
@@ -38,6 +48,10 @@ def control_recorder(node: CommandNode, recorder: Recorder) -> None:
     _create(node, Resume, 'resume', lambda _: recorder.resume())
     _create(node, IsPaused, 'is_paused', lambda _: recorder.is_paused, 'paused')
     _create(node, SplitBagfile, 'split_bagfile', lambda _: recorder.split())
+
+
+def _ns(time: Any) -> int:
+    return int(time.sec) * 10**9 + int(time.nanosec)
 
 
 def _create(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from ros2cli import arguments
 
@@ -16,5 +17,19 @@ def add_numbers(parser: argparse.ArgumentParser, *options: str) -> None:
         parser.add_argument(option, type=int, metavar='N', help=_HELP)
 
 
+def add_files(parser: argparse.ArgumentParser, *options: str) -> None:
+    for option in options:
+        parser.add_argument(option, type=_readable, metavar='FILE', help=_HELP)
+
+
 def add_flags(parser: argparse.ArgumentParser, *options: str) -> None:
     arguments.add_flags(parser, dict.fromkeys(options, _HELP))
+
+
+def _readable(text: str) -> Path:
+    path = Path(text)
+    try:
+        path.open('rb').close()
+    except OSError as error:
+        raise argparse.ArgumentTypeError(f"cannot open '{text}': {error.strerror}") from None
+    return path

@@ -216,7 +216,7 @@ def test_custom_data_is_kept(graph: Any, tmp_path: Path) -> None:
 
 
 def test_what_has_no_effect_is_said(ros2: Callable[..., Any]) -> None:
-    for verb, count in (('record', 4), ('play', 2)):
+    for verb, count in (('record', 4), ('play', 3), ('burst', 2)):
         text = ' '.join(ros2('bag', verb, '--help').out.split())
         assert text.count('Accepted, and without effect here.') == count
 

@@ -17,7 +17,6 @@ from ros2cli.verb import VerbExtension
 # What a full ROS 2 has besides; each is refused with a line that says so.
 _LEFT_OUT = {
     'ros2cli.command': ('control', 'plugin', 'security', 'test', 'trace'),
-    'ros2bag.verb': ('burst',),
 }  # fmt: skip
 # What pages on newer releases show, and what does it in Jazzy.
 _AFTER_JAZZY = {
