@@ -16,7 +16,9 @@ import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from ros2param import api
+import yaml
 
 
 @pytest.fixture(scope='module')
@@ -106,6 +108,22 @@ def test_parameters_are_listed_with_types(ros2: Callable[..., Any]) -> None:
 @pytest.mark.usefixtures('world')
 def test_a_parameter_is_shown(ros2: Callable[..., Any], name: str, shown: str) -> None:
     assert ros2('param', 'get', '/owner', name).out == f'{shown}\n'
+
+
+def test_bytes_are_shown_and_what_is_not_set_is_left_out(
+    domain: int, ros2: Callable[..., Any]
+) -> None:
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'odd')
+        node.declare_parameter('raw', [b'A', b'\xff'])
+        node.declare_parameter('unset', Parameter.Type.STRING)
+        shown = ros2('param', 'get', '/odd', 'raw').out
+        dump = ros2('param', 'dump', '/odd').out
+    assert shown == "Byte values are: [b'A', b'\\xff']\n"
+    dumped = yaml.safe_load(dump)['/odd']['ros__parameters']
+    assert dumped['raw'] == [b'A', b'\xff']
+    assert 'use_sim_time' in dumped
+    assert 'unset' not in dumped
 
 
 def test_a_busy_node_is_waited_for(processes: Any, domain: int) -> None:

@@ -46,8 +46,6 @@ def get_value(*, parameter_value: ParameterValue) -> Any:
     except RuntimeError as error:
         print(error, file=sys.stderr)
         return None
-    if parameter_value.type == ParameterType.PARAMETER_BYTE_ARRAY:
-        return [item[0] for item in plain]
     return list(plain) if hasattr(plain, 'typecode') or isinstance(plain, tuple) else plain
 
 
