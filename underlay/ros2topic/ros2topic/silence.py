@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future
+import math
 import sys
 import threading
+import time
 
 from ros2_diagnosis import connections, nodes, partners
 from ros2_diagnosis.finding import Finding
@@ -29,17 +31,51 @@ def hint_when_silent(
 
     :param dropped: tells how many messages a filter has kept from arriving.
     """
-    if node.spin_until(arrived, _SILENCE_SEC):
+    watched = _Publishers(node, topic)
+
+    def has_arrived() -> bool:
+        watched.look()
+        return arrived()
+
+    if node.spin_until(has_arrived, _SILENCE_SEC):
         return
-    if count := dropped():
-        print(f'hint: {topic}: the filter let none of {count} messages pass', file=sys.stderr)
-        return
-    graph = _graph_read_meanwhile(node)
-    for finding in () if arrived() else why_silent(graph, topic):
-        print(f'hint: {finding}', file=sys.stderr)
+    while True:
+        if count := dropped():
+            print(f'hint: {topic}: the filter let none of {count} messages pass', file=sys.stderr)
+            return
+        graph = _graph_read_meanwhile(node, watched.look)
+        findings = why_silent(graph, topic, watched.silent_sec)
+        if has_arrived():
+            return
+        for finding in findings:
+            print(f'hint: {finding}', file=sys.stderr)
+        # Otherwise a publisher has just begun, of which only time tells.
+        if findings or node.spin_until(has_arrived, _SILENCE_SEC):
+            return
 
 
-def _graph_read_meanwhile(node: CommandNode) -> Graph:
+class _Publishers:
+    """For how long the publishers of a topic have been known to the node that listens."""
+
+    def __init__(self, node: CommandNode, topic: str) -> None:
+        self._node = node.node
+        self._topic = topic
+        self._since_sec: dict[bytes, float] = {}
+
+    def look(self) -> None:
+        """Look who is there; to be called again and again."""
+        now_sec = time.monotonic()
+        found = self._node.get_publishers_info_by_topic(self._topic)
+        gids = [bytes(publisher.endpoint_gid) for publisher in found]
+        self._since_sec = {gid: self._since_sec.get(gid, now_sec) for gid in gids}
+
+    @property
+    def silent_sec(self) -> float:
+        """For how long nothing has come from the one that was found last."""
+        return time.monotonic() - max(self._since_sec.values(), default=math.inf)
+
+
+def _graph_read_meanwhile(node: CommandNode, look: Callable[[], None]) -> Graph:
     """Read the graph, while the node takes what comes: a rate of another topic would be wrong."""
     reading: Future[Graph] = Future()
 
@@ -49,10 +85,14 @@ def _graph_read_meanwhile(node: CommandNode) -> Graph:
         except Exception as error:
             reading.set_exception(error)
 
+    def is_read() -> bool:
+        look()
+        return reading.done()
+
     thread = threading.Thread(target=read, daemon=True)
     thread.start()
     try:
-        node.spin_until(reading.done)
+        node.spin_until(is_read)
     finally:
         thread.join(_FAREWELL_SEC)
     return reading.result()
@@ -69,8 +109,12 @@ def hint_when_not_received(topic: str) -> None:
         discovery.hint_near(f"nobody subscribes to '{topic}'", topic, heard)
 
 
-def why_silent(graph: Graph, topic: str) -> list[Finding]:
-    """Explain why a subscription of the topic gets nothing."""
+def why_silent(graph: Graph, topic: str, silent_sec: float) -> list[Finding]:
+    """
+    Explain why a subscription of the topic gets nothing; [] where it may only be too early.
+
+    :param silent_sec: how long its publishers are known to be silent.
+    """
     publishers = graph.with_role(Role.PUBLISHER, topic)
     if not publishers:
         nobody = Finding(
@@ -86,6 +130,8 @@ def why_silent(graph: Graph, topic: str) -> list[Finding]:
         *nodes.check_clock(graph),
     ]:
         return found
+    if silent_sec < _SILENCE_SEC:
+        return []
     names = sorted({graph.node_of(endpoint).full_name for endpoint in publishers})
     return [
         Finding(

@@ -7,10 +7,12 @@ from __future__ import annotations
 import argparse
 from array import array
 from collections.abc import Callable
+import math
 import re
 import signal
 import threading
 import time
+from types import SimpleNamespace
 from typing import Any
 
 from playpen_testing.forks import run_forked
@@ -22,7 +24,7 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from ros2cli import discovery
 from ros2cli.node.direct import command_node
 from ros2topic import printing, qos, silence
-from rtps_graph.graph import Endpoint, Graph, Qos, Role
+from rtps_graph.graph import Endpoint, Graph, Node as GraphNode, Qos, Role
 from std_msgs.msg import String
 
 
@@ -188,6 +190,8 @@ def test_a_topic_is_listened_to_while_the_hint_is_looked_for(
     listening = threading.Event()
 
     class Silent:
+        node = SimpleNamespace(get_publishers_info_by_topic=lambda _: [])
+
         def spin_until(self, done: Callable[[], bool], timeout_sec: float | None = None) -> bool:
             if timeout_sec is None:
                 listening.set()
@@ -204,6 +208,43 @@ def test_a_topic_is_listened_to_while_the_hint_is_looked_for(
     assert capsys.readouterr().err == ''  # something has come after all
     silence.hint_when_silent(node, '/silence', lambda: False)
     assert capsys.readouterr().err.startswith('hint: /silence: nobody publishes it; ')
+
+
+@pytest.mark.parametrize(('sent_at_sec', 'told_at_sec'), [(3.0, math.inf), (9.0, 3.5)])
+def test_a_publisher_that_has_just_begun_is_not_called_silent(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    sent_at_sec: float,
+    told_at_sec: float,
+) -> None:
+    now_sec = 0.0
+    offered = Qos(True, False, None, None, False, None)
+    late = Endpoint(b'1', Role.PUBLISHER, '/silence', 'std_msgs/msg/String', '', offered)
+
+    def publishers(_: str) -> list[Any]:
+        return [SimpleNamespace(endpoint_gid=[1])] if now_sec >= 1.5 else []
+
+    class Listener:
+        node = SimpleNamespace(get_publishers_info_by_topic=publishers)
+
+        def spin_until(self, done: Callable[[], bool], timeout_sec: float = math.inf) -> bool:
+            nonlocal now_sec
+            end_sec = now_sec + timeout_sec
+            while not (is_done := done()) and now_sec < end_sec:
+                time.sleep(0.0)  # the thread that reads the graph comes to its turn
+                now_sec += 0.125 if timeout_sec < math.inf else 0.0
+            return is_done
+
+    def read_graph(*, quiet: bool) -> Graph:
+        return Graph([GraphNode('late', '/', [late])], [late])
+
+    monkeypatch.setattr(discovery, 'read_graph', read_graph)
+    monkeypatch.setattr(silence, 'time', SimpleNamespace(monotonic=lambda: now_sec))
+    listener: Any = Listener()
+    silence.hint_when_silent(listener, '/silence', lambda: now_sec >= sent_at_sec)
+    told = capsys.readouterr().err
+    assert ('/late has sent nothing for 2 s' in told) == (told_at_sec < math.inf)
+    assert now_sec >= min(sent_at_sec, told_at_sec)
 
 
 def test_bw_and_delay_measure_too(world: Any) -> None:
