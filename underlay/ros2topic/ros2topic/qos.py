@@ -126,18 +126,32 @@ def profile_for(args: argparse.Namespace, publishers: Sequence[Endpoint]) -> QoS
     Where publishers differ a hint on stderr says what is chosen.
     """
     chosen = profile(args)
-    if not publishers or any(value is not None for value in _overrides(args).values()):
+    if not publishers:
         return chosen
     reliable = [endpoint.qos.reliable for endpoint in publishers]
     latched = [endpoint.qos.transient_local for endpoint in publishers]
-    chosen.reliability = (
-        ReliabilityPolicy.RELIABLE if all(reliable) else ReliabilityPolicy.BEST_EFFORT
-    )
-    chosen.durability = (
-        DurabilityPolicy.TRANSIENT_LOCAL if all(latched) else DurabilityPolicy.VOLATILE
-    )
-    _hint_where_mixed(reliable, 'RELIABLE', 'BEST_EFFORT, which fits all')
-    _hint_where_mixed(latched, 'TRANSIENT_LOCAL', f'VOLATILE, which fits all {_NOT_BEFORE}')
+    manual = [endpoint.qos.manual_liveliness for endpoint in publishers]
+    fitting = {
+        'reliability': (
+            ReliabilityPolicy.RELIABLE if all(reliable) else ReliabilityPolicy.BEST_EFFORT
+        ),
+        'durability': (
+            DurabilityPolicy.TRANSIENT_LOCAL if all(latched) else DurabilityPolicy.VOLATILE
+        ),
+        'liveliness': (
+            LivelinessPolicy.MANUAL_BY_TOPIC if all(manual) else LivelinessPolicy.AUTOMATIC
+        ),
+    }
+    is_asked_for = any(value is not None for value in _overrides(args).values())
+    for option, policy in fitting.items():
+        # What the graph tells the node of the command has not heard yet: for BEST_AVAILABLE the
+        # middleware would ask for the most that there is.
+        is_best_available = getattr(chosen, option) == type(policy).BEST_AVAILABLE
+        if is_best_available or (option != 'liveliness' and not is_asked_for):
+            setattr(chosen, option, policy)
+    if not is_asked_for:
+        _hint_where_mixed(reliable, 'RELIABLE', 'BEST_EFFORT, which fits all')
+        _hint_where_mixed(latched, 'TRANSIENT_LOCAL', f'VOLATILE, which fits all {_NOT_BEFORE}')
     return chosen
 
 

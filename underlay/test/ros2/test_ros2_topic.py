@@ -20,7 +20,7 @@ from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
-from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 from ros2cli import discovery
 from ros2cli.node.direct import command_node
 from ros2topic import printing, qos, silence
@@ -106,6 +106,29 @@ def test_echo_says_where_publishers_offer_different_things(
         'all but brings nothing that was published before; --qos-reliability reliable '
         '--qos-durability transient_local does',
     ]
+
+
+def test_the_best_available_is_what_all_publishers_offer() -> None:
+    parser = argparse.ArgumentParser()
+    qos.add_qos_arguments(parser, 'subscribe', 'sensor_data')
+
+    def offers(most: bool) -> Endpoint:
+        offered = Qos(most, most, None, None, most, None)
+        return Endpoint(b'1', Role.PUBLISHER, '/chatter', 'std_msgs/msg/String', '', offered)
+
+    least = (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE, LivelinessPolicy.AUTOMATIC)
+    most = (
+        ReliabilityPolicy.RELIABLE,
+        DurabilityPolicy.TRANSIENT_LOCAL,
+        LivelinessPolicy.MANUAL_BY_TOPIC,
+    )
+    preset = ['--qos-profile', 'best_available']
+    each = [f'--qos-{name}=best_available' for name in ('reliability', 'durability', 'liveliness')]
+    for words in (preset, [*preset, '--qos-depth', '9'], each):
+        for other, expected in ((True, most), (False, least)):
+            publishers = [offers(True), offers(other)]
+            chosen = qos.profile_for(parser.parse_args(words), publishers)
+            assert (chosen.reliability, chosen.durability, chosen.liveliness) == expected
 
 
 @pytest.mark.usefixtures('world')
