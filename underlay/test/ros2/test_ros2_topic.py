@@ -17,14 +17,18 @@ from typing import Any
 
 from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
+from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
 import rclpy
+from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 from ros2cli import discovery
 from ros2cli.node.direct import command_node
 from ros2topic import printing, qos, silence
-from rtps_graph.graph import Endpoint, Graph, Node as GraphNode, Qos, Role
+from rosgraph_msgs.msg import Clock
+from rtps_graph.graph import Endpoint, Graph, Qos, Role
+from rtps_graph.graph import Node as GraphNode
 from std_msgs.msg import String
 
 
@@ -332,6 +336,23 @@ def test_a_topic_without_subscribers_is_given_up(processes: Any, ros2: Callable[
     answer = ros2('topic', 'pub', *words)
     assert answer.status == 1
     assert answer.err.startswith('--max-wait-time-secs option is only effective with')
+
+
+@pytest.mark.parametrize('ticks', [True, False])
+def test_now_is_the_simulated_time(domain: int, ros2: Callable[..., Any], ticks: bool) -> None:
+    words = ('topic', 'pub', '-s', '--once', '-w', '0', '/x', 'std_msgs/msg/Header')
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'simulator')
+        clock = node.create_publisher(Clock, '/clock', 10)
+        now = Clock()
+        now.clock.sec = 42
+        if ticks:
+            node.create_timer(0.1, lambda: clock.publish(now))
+        answer = ros2(*words, '{stamp: now}')
+    assert answer.status == 0
+    assert f'Time(sec={42 if ticks else 0}, nanosec=0)' in answer.out
+    told = 'hint: no time has come on /clock, so that `now` and `auto` are 0\n'
+    assert (told in answer.err) == (not ticks)
 
 
 @pytest.mark.usefixtures('processes')

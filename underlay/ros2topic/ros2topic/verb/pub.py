@@ -22,6 +22,7 @@ from ros2topic import qos, silence, topics
 
 _ONE_WAIT = Duration(seconds=0.05)  # in which an interrupt is not heard
 _ARRIVAL_TIMEOUT_SEC = 2.0  # a subscriber that stands still, or was killed, acknowledges nothing
+_CLOCK_SEC = 2.0
 
 
 class PubVerb(VerbExtension):
@@ -117,6 +118,8 @@ class PubVerb(VerbExtension):
             )
             silence.hint_when_not_received(publisher.topic_name)
             _wait_for_subscriptions(node, publisher, wanted, args.max_wait_time_secs)
+            if args.use_sim_time and stamps:
+                _wait_for_simulated_time(node)
             _publish(node, publisher, msg, stamps, times, args)
 
 
@@ -133,6 +136,13 @@ def _wait_for_subscriptions(
             )
         left = min(1.0, end - time.monotonic())
         node.spin_until(lambda: publisher.get_subscription_count() >= wanted, left)
+
+
+def _wait_for_simulated_time(node: CommandNode) -> None:
+    """Wait for /clock, before which the time is 0, for 2 s at most: a simulator may be paused."""
+    clock = node.node.get_clock()
+    if not node.spin_until(lambda: clock.now().nanoseconds > 0, _CLOCK_SEC):
+        print('hint: no time has come on /clock, so that `now` and `auto` are 0', file=sys.stderr)
 
 
 def _publish(
