@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -73,6 +73,7 @@ class BagWriter:
 
     It is not for several threads, and what is interrupted within a call is not whole.
 
+    :ivar on_split: is told of a file that is complete, and of the one that follows it.
     :raises BagError: the folder exists or cannot be made; every method: the disk is full.
     """
 
@@ -92,6 +93,7 @@ class BagWriter:
         except OSError as error:
             raise BagError(f"'{folder}' cannot be made: {error.strerror}") from None
         self.folder = folder
+        self.on_split: Callable[[Path, Path], None] | None = None
         self._storage = storage
         self._preset = preset
         self._limits = limits or Limits()
@@ -108,6 +110,11 @@ class BagWriter:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+    @property
+    def file(self) -> Path:
+        """The file that is being written."""
+        return self.folder / self._files[-1][0]
 
     @property
     def message_count(self) -> int:
@@ -152,9 +159,12 @@ class BagWriter:
 
     def split(self) -> None:
         """Begin a new file."""
+        closed = self.file
         with self._refusals():
             self._file.finish(self._metadata())
             self._begin_file()
+        if self.on_split is not None:
+            self.on_split(closed, self.file)
 
     def close(self) -> None:
         """Finish the files; may be called twice."""

@@ -23,6 +23,7 @@ from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosbag2_interfaces.msg import WriteSplitEvent
 from rosbag2_interfaces.srv import IsPaused, Pause, Resume, SplitBagfile
 from rosbag2_py.selection import EVENTS
 from rosgraph_msgs.msg import Clock
@@ -172,6 +173,27 @@ def test_services_pause_a_recording_and_begin_a_new_file(
         assert call(IsPaused, 'is_paused').paused
     assert recording.end() == {CHATTER}
     assert len(opened_reader(recording.bag).get_metadata().files) == 2
+
+
+def test_files_that_are_complete_are_told(processes: Any, domain: int, tmp_path: Path) -> None:
+    events: list[WriteSplitEvent] = []
+    with SpunNodes(domain) as nodes:
+        node = nodes.start(Node, 'student')
+        node.create_subscription(WriteSplitEvent, '/events/write_split', events.append, 10)
+        recording = Recording(processes, tmp_path, '-a')
+        wait_until(
+            lambda: node.count_publishers('/events/write_split') == 1,
+            timeout_sec=10.0,
+            what='a recorder',
+        )
+        ask(node, SplitBagfile, '/rosbag2_recorder/split_bagfile')
+        wait_until(lambda: len(events) == 1, timeout_sec=10.0, what='an event')
+        assert '/events/write_split' in recording.end()  # as everything
+        wait_until(lambda: len(events) == 2, timeout_sec=10.0, what='an event at the end')
+    first, second = (str(recording.bag / f'bag_{number}.db3') for number in range(2))
+    told = [(event.closed_file, event.opened_file) for event in events]
+    assert told == [(first, second), (second, '')]
+    assert {event.node_name for event in events} == {'/rosbag2_recorder'}
 
 
 def test_space_pauses_a_recording(

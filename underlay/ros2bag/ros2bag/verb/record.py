@@ -17,7 +17,7 @@ from rosbag2_py.storages import DEFAULT_ID, STORAGES
 from rosbag2_py.storages.interface import Storage
 from rtps_graph.graph import Graph
 
-from ros2bag import choice, node_options, qos_overrides, without_effect
+from ros2bag import choice, node_options, qos_overrides, split_events, without_effect
 from ros2bag.keyboard import controls, Keyboard
 from ros2bag.recorder import Recorder
 from ros2bag.refusals import refused_in_one_line
@@ -107,12 +107,14 @@ class RecordVerb(VerbExtension):
                 ignore_leaves=args.ignore_leaf_topics,
             )
             control_recorder(node, recorder)
+            writer.on_split = tell = split_events.teller(node)
             keys = {'SPACE': recorder.toggle_paused}
             with controls(keys, disabled=args.disable_keyboard_controls) as keyboard:
                 try:
                     _record(node, args, recorder, writer, keyboard)
                 except KeyboardInterrupt:
                     writer.close()
+                    tell(writer.file, None)
                     node.node.get_logger().info(
                         f"Recording stopped: {writer.message_count} messages in '{folder}'"
                     )
