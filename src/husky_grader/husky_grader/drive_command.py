@@ -89,7 +89,11 @@ def main(args: Sequence[str] | None = None) -> int:
             _refuse_bytes(name)
     except ValueError as error:
         parser.error(printable(str(error)))
-    return run_printing(parser.prog, lambda: _drive(options, conditions))
+    try:
+        return run_printing(parser.prog, lambda: _drive(options, conditions))
+    except KeyboardInterrupt:
+        print('\ninterrupted', file=sys.stderr)
+        return grade.INTERRUPTED
 
 
 def _drive(options: argparse.Namespace, conditions: Mapping[str, str]) -> int:

@@ -26,7 +26,7 @@ def drive() -> int:
 
         return main
 
-    return run(load, interrupted=INTERRUPTED)
+    return run(load, interrupted=INTERRUPTED, catches=True)
 
 
 def grade() -> int:

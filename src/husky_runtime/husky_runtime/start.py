@@ -67,14 +67,18 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         if _is_importing(frame):
-            leave(number, frame)
-        signal.default_int_handler(number, frame)
+            interrupt_soon(number)  # what main() has open is closed then
+        else:
+            signal.default_int_handler(number, frame)
+
+    def interrupt_soon(number: int) -> None:
+        signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(number))
+        signal.setitimer(signal.ITIMER_REAL, _AGAIN_SEC)
 
     def interrupt_again(lost: sys.UnraisableHookArgs) -> None:
         # Python prints and drops an interrupt in some callbacks, as the garbage collector's.
         if lost.exc_type is KeyboardInterrupt:
-            signal.signal(signal.SIGALRM, interrupt)
-            signal.setitimer(signal.ITIMER_REAL, _AGAIN_SEC)
+            interrupt_soon(signal.SIGINT)
         else:
             sys.__unraisablehook__(lost)
 

@@ -31,6 +31,25 @@ def main():
 """
 
 
+# What main() imports when it needs it, as a user presses Ctrl-C.
+LOADS = """
+import os, signal, time
+os.kill(os.getpid(), signal.SIGINT)
+print('loaded')
+"""
+NEEDS = """
+import time
+
+def main():
+    try:
+        import loads
+        time.sleep(20.0)
+    finally:
+        print('closed')
+    return 0
+"""
+
+
 SAYS = """
 import sys
 
@@ -126,6 +145,17 @@ def test_an_interrupt_in_a_weakref_callback_is_not_lost(tmp_path: Path) -> None:
     )
     ended = started(tmp_path, program)
     assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, '', '')
+
+
+def test_an_interrupt_amid_an_import_of_main_closes_what_is_open(tmp_path: Path) -> None:
+    (tmp_path / 'loads.py').write_text(LOADS)
+    (tmp_path / 'needs.py').write_text(NEEDS)
+    program = (
+        'import sys; from needs import main; from husky_runtime.start import run; '
+        f'sys.exit(run(lambda: main, interrupted={INTERRUPTED}, catches=True))'
+    )
+    ended = started(tmp_path, program)
+    assert (ended.returncode, ended.stdout) == (INTERRUPTED, 'loaded\nclosed\n')
 
 
 def test_ctrl_c_ends_the_loop_of_a_shell(tmp_path: Path) -> None:
