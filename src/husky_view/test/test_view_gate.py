@@ -286,13 +286,13 @@ def test_a_tab_that_asks_and_never_reads_is_left(page: Page) -> None:
 
 
 def test_another_version_of_the_page_is_refused_in_silence(
-    page: Page, capfd: pytest.CaptureFixture[str]
+    page: Page, capfd: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
 ) -> None:
     for spoken in ['viser-v0.1'], None:
         with pytest.raises(InvalidStatus) as refused:
             page.connect(subprotocols=spoken)
         assert refused.value.response.status_code == HTTPStatus.BAD_REQUEST
-    assert capfd.readouterr() == ('', '')
+    assert (capfd.readouterr(), caplog.messages) == (('', ''), [])
 
 
 def test_tabs_beyond_the_last_place_are_refused(page: Page) -> None:
@@ -346,11 +346,17 @@ def test_the_page_has_its_title_and_asks_for_no_other_file(page: Page) -> None:
             assert b'the terminal' in answer.read()
 
 
-def test_no_request_at_all_says_nothing_in_the_terminal(
-    page: Page, capfd: pytest.CaptureFixture[str]
+REQUEST = b'GET / HTTP/1.1\r\nHost: localhost\r\n\r\n'
+
+
+# Pytest takes what is logged before it gets to the terminal.
+@pytest.mark.parametrize('sent', [b'\x16\x03\x01 no request\r\n\r\n', 2 * REQUEST])
+def test_no_request_or_more_than_one_says_nothing_in_the_terminal(
+    page: Page, sent: bytes, capfd: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
 ) -> None:
     with socket.create_connection(('127.0.0.1', page.port)) as stranger:
-        stranger.sendall(b'\x16\x03\x01 no request\r\n\r\n')
+        stranger.sendall(sent)
         while stranger.recv(1000):
             pass
-    assert capfd.readouterr() == ('', '')
+        assert page.heard_after() == []  # before this end is closed
+    assert (capfd.readouterr(), caplog.messages) == (('', ''), [])

@@ -217,7 +217,17 @@ class CheckedConnection(ServerConnection):
 
 
 def _quiet_logger() -> logging.Logger:
-    """Return a logger that leaves out what anybody can cause: garbage instead of a request."""
+    """Return a logger that leaves out what anybody can cause."""
     logger = logging.getLogger(f'{__name__}.server')
-    logger.addFilter(lambda record: record.getMessage() != 'opening handshake failed')
+    logger.addFilter(lambda record: not _is_of_a_stranger(record))
     return logger
+
+
+def _is_of_a_stranger(record: logging.LogRecord) -> bool:
+    """Tell whether a record is of garbage instead of a request, or behind one."""
+    if record.getMessage() == 'opening handshake failed':
+        return True
+    # To what comes behind a request before its answer, websockets ends the connection, and then
+    # wants to end it with the answer, too.
+    error = record.exc_info and record.exc_info[1]
+    return record.getMessage() == 'unexpected internal error' and isinstance(error, AssertionError)
