@@ -371,6 +371,12 @@ def test_one_word_runs_anything_in_the_environment(processes: Processes, tmp_pat
     assert python.lines == ['False'], 'what stands in ~/.local is imported too'
 
 
+def test_what_is_said_where_nobody_listens_ends_no_program(processes: Processes) -> None:
+    says = '"$0" exec sh -c "echo nobody listens >&2 && echo it goes on" 2>&-'
+    run = processes.start('bash', '-c', says, LAB)
+    assert (run.wait(timeout_sec=30.0), run.lines) == (0, ['it goes on'])
+
+
 def test_a_folder_without_locks_is_no_hindrance(
     processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
