@@ -21,6 +21,7 @@ from husky_runtime.command_line import (
     discard_output,
     given_name,
     Parser,
+    tell,
     why,
 )
 
@@ -204,7 +205,7 @@ def main(args: Sequence[str] | None = None) -> int:
         print(printable(str(error), keep='\n'), file=sys.stderr)
         return BAD_INPUT
     except OSError as error:
-        print(printable(why(error)), file=sys.stderr)
+        tell(printable(why(error)))
         _drop_output()
         return BAD_INPUT
     except KeyboardInterrupt:

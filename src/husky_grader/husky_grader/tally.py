@@ -54,12 +54,19 @@ class Tally:
         if self._bar:
             width = max(shutil.get_terminal_size().columns - 1, 10)
             bar = f'[{"#" * done}{"." * (BAR_WIDTH - done)}] {text}'
-            self._stream.write('\r' + bar[:width].ljust(width))
+            self._write('\r' + bar[:width].ljust(width))
         elif self._count * 10 // self._total > (self._count - 1) * 10 // self._total:
-            self._stream.write(text + '\n')
-        self._stream.flush()
+            self._write(text + '\n')
 
     def close(self) -> None:
         if self._bar:
-            self._stream.write('\n')
+            self._write('\n')
+
+    def _write(self, text: str) -> None:
+        try:
+            self._stream.write(text)
             self._stream.flush()
+        except BrokenPipeError:  # who has read it has ended
+            raise
+        except OSError:
+            pass  # the disk is full; the work goes on

@@ -109,6 +109,19 @@ def test_what_cannot_be_printed_is_one_line(courses: Path, tmp_path: Path) -> No
     assert (checked.returncode, checked.stderr) == (2, 'check: No space left on device\n')
 
 
+@pytest.mark.parametrize('program', ['check', 'grade'])
+def test_what_cannot_be_printed_nor_said_is_no_failed_course(
+    courses: Path, tmp_path: Path, program: str
+) -> None:
+    """As of `> log 2>&1` on a full disk."""
+    with Path('/dev/full').open('w') as full:
+        course = str(courses / 'straight.yaml')
+        ended = run_module(
+            f'husky_grader.{program}', course, cwd=tmp_path, stdout=full, stderr=full
+        )
+    assert ended.returncode == 2
+
+
 @pytest.mark.parametrize('given', ['nan', 'inf', '-1'])
 def test_a_time_on_the_clock_is_a_number_of_seconds(
     given: str, capsys: pytest.CaptureFixture[str]
@@ -120,13 +133,17 @@ def test_a_time_on_the_clock_is_a_number_of_seconds(
 
 
 def run_module(
-    module: str, *words: str, cwd: Path, stdout: Any = subprocess.PIPE
+    module: str,
+    *words: str,
+    cwd: Path,
+    stdout: Any = subprocess.PIPE,
+    stderr: Any = subprocess.PIPE,
 ) -> 'subprocess.CompletedProcess[str]':
     return subprocess.run(
         [sys.executable, '-m', module, *words],
         cwd=cwd,
         stdout=stdout,
-        stderr=subprocess.PIPE,
+        stderr=stderr,
         text=True,
         timeout=60.0,
         check=False,

@@ -4,6 +4,7 @@
 
 import argparse
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 import errno
 from itertools import takewhile
 import os
@@ -79,9 +80,15 @@ def run_printing(prog: str, work: Callable[[], int]) -> int:
     except BrokenPipeError:
         return discard_output()
     except OSError as error:
-        print(f'{prog}: {why(error)}', file=sys.stderr)
+        tell(f'{prog}: {why(error)}')
         discard_output()
         return BAD_INPUT
+
+
+def tell(line: str) -> None:
+    """Print a line on standard error; nothing where that cannot be written, either."""
+    with suppress(OSError):
+        print(line, file=sys.stderr, flush=True)
 
 
 def why(error: OSError) -> str:
