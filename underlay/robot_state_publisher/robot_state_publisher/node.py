@@ -135,6 +135,9 @@ class RobotStatePublisher(Node):
                 'positions is ignored'
             )
             return
+        if message.header.stamp.sec < 0:
+            self._tell('a JointState with a negative stamp is ignored')
+            return
         self._tell_of_unknown(message.name)
         if not self._is_due(message):
             return

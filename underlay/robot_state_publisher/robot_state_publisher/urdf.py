@@ -63,8 +63,10 @@ class Joint:
         if self.kind == _SLIDING:
             slide = (x * position, y * position, z * position)
             return compose(self.origin, Motion(NO_ROTATION, slide))
-        sine = math.sin(0.5 * position)
-        turn = (x * sine, y * sine, z * sine, math.cos(0.5 * position))
+        # The sine of infinity is no number, as upstream's; Python raises.
+        half = 0.5 * position if math.isfinite(position) else math.nan
+        sine = math.sin(half)
+        turn = (x * sine, y * sine, z * sine, math.cos(half))
         return compose(self.origin, Motion(turn, (0.0, 0.0, 0.0)))
 
 

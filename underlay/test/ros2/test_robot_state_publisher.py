@@ -63,16 +63,17 @@ class Arm:
     def __init__(self, nodes: SpunNodes, **parameters: Any) -> None:
         self.publisher = nodes.start(RobotStatePublisher, **parameters)
         self.node = nodes.start(Node, 'listener')
-        self._states = self.node.create_publisher(JointState, 'joint_states', 10)
+        states = self.node.create_publisher(JointState, 'joint_states', 10)
+        self.send = states.publish
         self._buffer = Buffer()
         TransformListener(self._buffer, self.node)
-        wait_until(self._states.get_subscription_count, timeout_sec=10.0, what='a listener')
+        wait_until(states.get_subscription_count, timeout_sec=10.0, what='a listener')
 
     def publish(self, *, stamp_sec: float | None = None, **positions: float) -> None:
         message = JointState(name=[*positions], position=[*positions.values()])
         now = self.node.get_clock().now()
         message.header.stamp = (now if stamp_sec is None else Time(seconds=stamp_sec)).to_msg()
-        self._states.publish(message)
+        self.send(message)
 
     def place(self, parent: str, child: str) -> list[float] | None:
         """Return where a frame is in another, rounded: x, y, z, and the quaternion."""
@@ -150,6 +151,21 @@ def test_what_moves_no_link_is_told_once(domain: int) -> None:
             what=lambda: f'the boom; it is at {arm.place("mast", "boom")}',
         )
         assert logged().count('[WARN]') == 2, logged()
+
+
+def test_what_no_joint_can_have_ends_nothing(domain: int) -> None:
+    def told() -> bool:
+        arm.publish(turns=math.inf, slides=math.nan)
+        old = JointState(name=['turns'], position=[0.1])
+        old.header.stamp.sec = -1
+        arm.send(old)
+        return 'with a negative stamp is ignored' in logged()
+
+    with standard_error() as logged, SpunNodes(domain) as nodes:
+        arm = Arm(nodes, robot_description=ARM.replace('HEIGHT', '1'))
+        wait_until(told, timeout_sec=10.0, what=lambda: f'a word about the stamp; {logged()}')
+        at = [1.0, 0.0, 0.0, *turned(2, 0.5 * math.pi + 0.2)]
+        arm.until(at, 'mast', 'boom', turns=0.2)
 
 
 def test_a_rate_is_kept_by_the_stamps_until_time_goes_back(domain: int) -> None:
