@@ -6,6 +6,8 @@ import shutil
 import time
 from typing import TextIO
 
+from husky_runtime.command_line import discard
+
 BAR_WIDTH = 30
 ENOUGH_TO_TELL = 2  # files, from which the time for the rest is told
 SHORT_SEC = 5.0  # less is not worth telling
@@ -68,5 +70,5 @@ class Tally:
             self._stream.flush()
         except BrokenPipeError:  # who has read it has ended
             raise
-        except OSError:
-            pass  # the disk is full; the work goes on
+        except OSError:  # the disk is full; the work goes on
+            discard(self._stream)

@@ -111,9 +111,10 @@ def test_what_cannot_be_printed_is_one_line(courses: Path, tmp_path: Path) -> No
 
 @pytest.mark.parametrize('program', ['check', 'grade'])
 def test_what_cannot_be_printed_nor_said_is_no_failed_course(
-    courses: Path, tmp_path: Path, program: str
+    courses: Path, tmp_path: Path, program: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As of `> log 2>&1` on a full disk."""
+    monkeypatch.delenv('PYTHONUNBUFFERED', raising=False)  # nothing is to be left for the end
     with Path('/dev/full').open('w') as full:
         course = str(courses / 'straight.yaml')
         ended = run_module(

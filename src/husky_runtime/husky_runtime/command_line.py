@@ -4,13 +4,12 @@
 
 import argparse
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 import errno
 from itertools import takewhile
 import os
 from pathlib import Path
 import sys
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 BAD_INPUT = 2
 BROKEN_PIPE = 141  # the exit status of a program that SIGPIPE ends
@@ -87,8 +86,10 @@ def run_printing(prog: str, work: Callable[[], int]) -> int:
 
 def tell(line: str) -> None:
     """Print a line on standard error; nothing where that cannot be written, either."""
-    with suppress(OSError):
+    try:
         print(line, file=sys.stderr, flush=True)
+    except OSError:
+        discard(sys.stderr)
 
 
 def why(error: OSError) -> str:
@@ -102,5 +103,10 @@ def why(error: OSError) -> str:
 
 def discard_output() -> int:
     """Discard further output after its reader (`head`, `less`) has ended; return the status."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    discard(sys.stdout)
     return BROKEN_PIPE
+
+
+def discard(stream: TextIO) -> None:
+    """Let go nowhere what a stream still holds: Python writes it at the end, and ends with 120."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
