@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator as a process: its exit status and its output."""
 
+from collections.abc import Iterator
 import os
 from pathlib import Path
 import re
@@ -14,14 +15,13 @@ import time
 from husky_course.record import read_record
 from husky_runtime.settings import NODE_PARAMETERS
 from playpen_testing.processes import Child, find_line
+from playpen_testing.services import ask
+from playpen_testing.spinning import SpunNodes
 import pytest
 from rcl_interfaces.msg import SetParametersResult
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from rcl_interfaces.srv import ListParameters, SetParameters
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.parameter_client import AsyncParameterClient
 
 
 def run_process(
@@ -47,29 +47,25 @@ def test_a_bad_world_gives_one_line_and_exit_status_2(domain_id: int) -> None:
     assert said.startswith(f"husky_sim: world='{Path.cwd()}/nowhere.xml': no such file")
 
 
-def test_help_tells_of_every_parameter_that_a_simulator_has(domain_id: int) -> None:
+@pytest.fixture
+def operator(domain_id: int) -> Iterator[Node]:
+    """Spin a node that asks the simulator."""
+    with SpunNodes(domain_id) as nodes:
+        yield nodes.start(Node, 'operator')
+
+
+def test_help_tells_of_every_parameter_that_a_simulator_has(operator: Node) -> None:
     command = [sys.executable, '-m', 'husky_sim.ros.node', '--help']
     helped = subprocess.run(command, capture_output=True, text=True, timeout=20.0)
     assert (helped.returncode, helped.stderr) == (0, '')
     told = set(re.findall(r'^  (\w+)', helped.stdout.partition('parameters')[2], re.MULTILINE))
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    node = Node('operator', context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
     process = run_process()
     try:
-        client = AsyncParameterClient(node, '/husky_sim')
-        assert client.wait_for_services(timeout_sec=20.0), 'no simulator'
-        future = client.list_parameters()
-        executor.spin_until_future_complete(future, timeout_sec=10.0)
-        names = {name for name in future.result().result.names if '.' not in name}
-        assert told == names - set(NODE_PARAMETERS)
+        names = ask(operator, ListParameters, '/husky_sim/list_parameters').result.names
+        assert told == {name for name in names if '.' not in name} - set(NODE_PARAMETERS)
     finally:
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20.0)
-        node.destroy_node()
-        context.try_shutdown()
 
 
 def test_physics_that_breaks_down_are_told_of_once(domain_id: int, tmp_path: Path) -> None:
@@ -106,24 +102,15 @@ def test_a_pace_too_slow_for_a_timer_gives_one_line(domain_id: int, factor: str)
     assert said == f'husky_sim: real_time_factor={float(factor)}: {allowed}\n'
 
 
-def test_a_refused_pace_is_answered_and_the_run_goes_on(domain_id: int) -> None:
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    node = Node('operator', context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
+def test_a_refused_pace_is_answered_and_the_run_goes_on(operator: Node) -> None:
+    def answer(factor: float) -> SetParametersResult:
+        asked = [Parameter('real_time_factor', value=factor).to_parameter_msg()]
+        answered = ask(operator, SetParameters, '/husky_sim/set_parameters', parameters=asked)
+        (result,) = answered.results
+        return result
+
     process = run_process()
     try:
-        client = AsyncParameterClient(node, '/husky_sim')
-        assert client.wait_for_services(timeout_sec=20.0), 'no simulator'
-
-        def answer(factor: float) -> SetParametersResult:
-            future = client.set_parameters([Parameter('real_time_factor', value=factor)])
-            executor.spin_until_future_complete(future, timeout_sec=10.0)
-            assert future.done(), f'no answer to {factor}'
-            (result,) = future.result().results
-            return result
-
         for factor in (1e-12, 5e-324, 0.0009):
             refused = answer(factor)
             assert not refused.successful
@@ -135,9 +122,6 @@ def test_a_refused_pace_is_answered_and_the_run_goes_on(domain_id: int) -> None:
     finally:
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=20.0)
-        executor.shutdown()
-        node.destroy_node()
-        context.try_shutdown()
     assert 'Traceback' not in said
     assert process.returncode == 0
 
