@@ -16,6 +16,7 @@ import gc
 import os
 from pathlib import Path
 import re
+import select
 import signal
 import sys
 from types import FrameType
@@ -26,6 +27,7 @@ from husky_runtime.parent_death import die_with_parent
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _BAD_INPUT = 2
 _AGAIN_SEC = 0.01
+_UNREAD_MS = 200
 _LAST_DOMAIN = 232  # above it the ports do not suffice: RTPS 2.2, 9.6.1.3
 _ASSIGNS = re.compile(r'[\w~/]+:=')
 _CHECK_FIELDS = 'ROS_PYTHON_CHECK_FIELDS'
@@ -66,6 +68,7 @@ def run(load: Load, *, interrupted: int = 0, catches: bool = False) -> int:
     os.environ['MUJOCO_GL'] = 'disabled'
 
     def interrupt(number: int, frame: FrameType | None) -> None:
+        discard_unread()
         if _is_importing(frame):
             interrupt_soon(number)  # what main() has open is closed then
         else:
@@ -135,6 +138,21 @@ def _open_closed_streams() -> None:
             opened = os.open(os.devnull, os.O_RDWR)
             os.set_inheritable(opened, opened == number)
             setattr(sys, name, os.fdopen(opened, 'w' if number else 'r', encoding='utf-8'))
+
+
+def discard_unread() -> None:
+    """
+    Let go nowhere what is printed from now on into a pipe that is full and that nobody reads.
+
+    A program that is asked to end would wait for its reader, and not end.
+    """
+    for number in (1, 2):
+        room = select.poll()
+        room.register(number, select.POLLOUT)
+        if not room.poll(_UNREAD_MS):
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, number)
+            os.close(nowhere)
 
 
 def _how_to_install(module: str | None) -> str:

@@ -19,7 +19,7 @@ from husky_runtime.descendants import (
     HURRIED_FIRM_SEC,
 )
 from husky_runtime.shared_memory import clean_shared_memory
-from husky_runtime.start import INTERRUPTED, run
+from husky_runtime.start import discard_unread, INTERRUPTED, run
 
 END_WITHIN_SEC = 1.0  # the one child of a run has a record to close
 POLL_SEC = 0.02
@@ -61,6 +61,7 @@ def run_to_end(
                 stops.clear()  # before: a Ctrl-Z soon after `fg` is another one
                 _stop_with_descendants()
         if asked:
+            discard_unread()
             firm_sec = HURRIED_FIRM_SEC
         first = signal.SIGINT if signal.SIGINT in asked else signal.SIGTERM
         child.end(first, within_sec=END_WITHIN_SEC, firm_sec=firm_sec)

@@ -6,11 +6,14 @@ import fcntl
 import os
 from pathlib import Path
 import pty
+import select
 import signal
 import subprocess
 import sys
 import termios
 
+from playpen_testing.processes import Child
+from playpen_testing.waiting import wait_until
 import pytest
 
 INTERRUPTED = 130
@@ -72,6 +75,26 @@ def main():
     return 0
 
 sys.exit(run(lambda: main, interrupted=130, catches=True))
+"""
+
+
+# Both print what nobody reads; the second one in another process.
+PRINTS = """
+import sys
+from husky_runtime.start import run
+
+def main():
+    while True:
+        print('progress', file=sys.stderr)
+
+sys.exit(run(lambda: main, interrupted=130, catches=True))
+"""
+SUPERVISES = """
+import sys
+from husky_runtime.supervise import program
+
+sys.argv[1:] = ['yes']
+sys.exit(program())
 """
 
 
@@ -176,3 +199,21 @@ def test_ctrl_c_ends_the_loop_of_a_shell(tmp_path: Path) -> None:
         said, _ = shell.communicate(timeout=30.0)
     os.close(keyboard)
     assert (said, shell.returncode) == ('', -signal.SIGINT)
+
+
+@pytest.mark.parametrize(
+    ('program', 'number', 'status'),
+    [
+        pytest.param(PRINTS, signal.SIGINT, INTERRUPTED, id='prints'),
+        pytest.param(SUPERVISES, signal.SIGINT, INTERRUPTED, id='supervises'),
+        pytest.param(SUPERVISES, signal.SIGTERM, 128 + signal.SIGTERM, id='supervises, SIGTERM'),
+    ],
+)
+def test_who_waits_for_a_reader_can_be_interrupted(program: str, number: int, status: int) -> None:
+    read, write = os.pipe()
+    with Child([sys.executable, '-c', program], stdout=write, stderr=write) as child:
+        wait_until(lambda: not select.select([], [write], [], 0.0)[1], what='a full pipe')
+        child.send_signal(number)
+        assert child.wait(10.0) == status
+    os.close(read)
+    os.close(write)
