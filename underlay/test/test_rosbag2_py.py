@@ -116,7 +116,7 @@ def _read(name: str, storage_id: str = 'mcap') -> Callable[[Path], object]:
         ),
         (_open(uri='.'), RuntimeError, "'.' already exists"),
         (_open(storage_preset_profile='best'), RuntimeError, 'it is one of none, fastwrite'),
-        (_open(snapshot_mode=True, max_cache_size=1), RuntimeError, 'is not offered here'),
+        (_open(snapshot_mode=True), RuntimeError, 'needs a max_cache_size'),
         (_open(storage_config_uri='x'), RuntimeError, 'use storage_preset_profile'),
         (_open(max_bagfile_size=10), RuntimeError, '1024 bytes at least'),
         (_write('m', b'', 0), RuntimeError, "no topic 'm', but 'n': call create_topic"),

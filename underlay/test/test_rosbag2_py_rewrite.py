@@ -173,6 +173,7 @@ def test_an_empty_bag_is_told_with_what_there_is(
         ('{uri: new, topic: [/a]}', 'number 2: there is no option topic; did you mean topics?'),
         ('{uri: new, 3: 4}', 'there is no option 3; there are uri, storage_id, '),
         ('{uri: new, topics: /a}', "number 2: topics='/a': it takes a list"),
+        ('{uri: new, snapshot_mode: true, max_cache_size: 9}', 'nobody asks for a snapshot'),
         ('{uri: new, topics: }', 'topics=None: it takes a list'),
         ('{uri: new, all_topics: 1}', 'all_topics=1: it takes true or false'),
         ('{uri: new, regex: "["}', "'[' is no regular expression"),

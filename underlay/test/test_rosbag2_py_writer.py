@@ -203,6 +203,34 @@ def test_a_writer_begins_new_files(tmp_path: Path) -> None:
     assert times_of(opened_reader(folder)) == [n * 10**9 for n in range(1, 10)]
 
 
+def test_a_snapshot_has_the_last_messages(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder, size = tmp_path / 'bag', len(string(1))
+    writer = opened_writer(folder, 'n', 'm', snapshot_mode=True, max_cache_size=3 * size)
+    for number in range(6):
+        writer.write('n', string(number), number)
+    assert writer.take_snapshot()
+    assert writer.take_snapshot()  # of nothing
+    writer.write('n', bytes(3 * size + 1), 6)  # more than there is room for
+    writer.write('m', string(7), 7)
+    writer.write('n', string(8), 8)
+    writer.remove_topic(TopicMetadata(0, 'm', '', ''))
+    assert writer.take_snapshot()
+    writer.write('n', string(9), 9)
+    writer.close()
+    assert times_of(opened_reader(folder)) == [3, 4, 5, 8]
+    assert "A message of 'n' is dropped: it has" in capfd.readouterr().err
+
+
+def test_without_the_mode_there_is_no_snapshot(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    writer = opened_writer(tmp_path / 'bag', 'n')
+    assert not writer.take_snapshot()
+    assert 'no snapshot_mode=True' in capfd.readouterr().err
+
+
 def test_full_disks_are_told(tmp_path: Path) -> None:
     writer = opened_writer(tmp_path / 'bag', 'n')
     mcap: Any = writer._writer._file

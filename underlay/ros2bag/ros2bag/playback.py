@@ -12,8 +12,11 @@ from typing import Any
 
 from ros2cli.node.direct import CommandNode
 import rosbag2_py
+from rosbag2_py._reader import on_split
 from rosgraph_msgs.msg import Clock
 from rtps_graph import names
+
+from ros2bag import split_events
 
 _SERVE_SEC = 0.01  # keys and services are served so often
 
@@ -83,6 +86,7 @@ class Playback:
         self._args = args
         self._publishers = publishers
         self._clock_publisher = clock_publisher
+        self._tell_split = split_events.of_player(node)
         self._clock_topics = _clock_topics(args, publishers)
         self._first_ns = bag.starting_time.nanoseconds + int(args.start_offset * 1e9)
         self._end_ns = _end_ns(args, self._first_ns)
@@ -219,7 +223,9 @@ class Playback:
         return self._node.node.get_logger()
 
     def _go_to(self, time_ns: int) -> None:
-        self._messages = _messages(self._args, list(self._publishers), time_ns, self._end_ns)
+        self._messages = _messages(
+            self._args, list(self._publishers), time_ns, self._end_ns, self._tell_split
+        )
         self._next = next(self._messages, None)
         self._clock.jump(time_ns)
 
@@ -262,13 +268,18 @@ def _clock_topics(args: argparse.Namespace, played: Collection[str]) -> set[str]
 
 
 def _messages(
-    args: argparse.Namespace, topics: list[str], first_ns: int, end_ns: int | None
+    args: argparse.Namespace,
+    topics: list[str],
+    first_ns: int,
+    end_ns: int | None,
+    tell_split: split_events.Tell,
 ) -> Iterator[tuple[str, bytes, int]]:
     reader = rosbag2_py.SequentialReader()
     options = rosbag2_py.StorageOptions(str(args.bag_path), args.storage)
     reader.open(options, rosbag2_py.ConverterOptions())
     reader.set_filter(rosbag2_py.StorageFilter(topics=topics, services_events=topics))
     reader.seek(first_ns)
+    on_split(reader, tell_split)  # not of the files that lie before
     while reader.has_next():
         message = reader.read_next()
         if end_ns is not None and message[2] > end_ns:

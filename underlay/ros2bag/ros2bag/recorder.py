@@ -12,6 +12,7 @@ from ros2cli.errors import CommandError
 from ros2cli.node.direct import CommandNode
 from rosbag2_py import TopicMetadata
 from rosbag2_py.bag_writer import BagWriter, offered_qos
+from rosbag2_py.last_messages import LastMessages
 from rosbag2_py.selection import Selection
 from rtps_graph.graph import Endpoint, Graph, Role
 
@@ -29,12 +30,14 @@ class Recorder:
         overrides: dict[str, QoSProfile],
         *,
         is_paused: bool = False,
+        last: LastMessages | None = None,
         include_unpublished: bool = False,
         ignore_leaves: bool = False,
     ) -> None:
         """
         Subscribe to nothing yet.
 
+        :param last: what keeps messages until a snapshot is asked for; None to write each.
         :param include_unpublished: also to topics that are only subscribed to.
         :param ignore_leaves: not to topics before somebody else subscribes to them.
         """
@@ -43,6 +46,7 @@ class Recorder:
         self._ignore_leaves = ignore_leaves
         self._node = node
         self._writer = writer
+        self._last = last
         self._selection = selection
         self._overrides = overrides
         self._seen: set[str] = set()
@@ -64,6 +68,17 @@ class Recorder:
     def split(self) -> None:
         """Go on in a new file."""
         self._writer.split()
+
+    @property
+    def takes_snapshots(self) -> bool:
+        return self._last is not None
+
+    def snapshot(self) -> bool:
+        """Write the last messages; return whether that can be asked for."""
+        if self._last is None:
+            return False
+        self._last.take()
+        return True
 
     def missing(self) -> list[str]:
         """Return the topics that were named, those of services as well, and are not there."""
@@ -110,11 +125,12 @@ class Recorder:
             qos.durability = DurabilityPolicy.TRANSIENT_LOCAL
         qos = self._overrides.get(name, qos)
         clock = self._node.node.get_clock()
+        write = (self._last or self._writer).write
 
         def on_message(data: bytes, info: dict[str, Any]) -> None:
             if not self.is_paused:
                 now_ns = clock.now().nanoseconds
-                self._writer.write(name, data, now_ns, info['source_timestamp'])
+                write(name, data, now_ns, info['source_timestamp'])
 
         self._node.node.create_subscription(message_class, name, on_message, qos, raw=True)
         self._log(f"Subscribed to topic '{name}'")

@@ -18,6 +18,7 @@ from rosbag2_interfaces.srv import (
     Resume,
     Seek,
     SetRate,
+    Snapshot,
     SplitBagfile,
     Stop,
     TogglePaused,
@@ -47,6 +48,8 @@ def control_recorder(node: CommandNode, recorder: Recorder) -> None:
     _create(node, Pause, 'pause', lambda _: recorder.pause())
     _create(node, Resume, 'resume', lambda _: recorder.resume())
     _create(node, IsPaused, 'is_paused', lambda _: recorder.is_paused, 'paused')
+    if recorder.takes_snapshots:
+        _create(node, Snapshot, 'snapshot', lambda _: recorder.snapshot(), 'success')
     _create(node, SplitBagfile, 'split_bagfile', lambda _: recorder.split())
 
 

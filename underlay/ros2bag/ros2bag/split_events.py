@@ -1,22 +1,35 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tell on a topic that a file of a bag is complete, so that others may take it away."""
+"""Tell on a topic that a file of a bag is done with, and which one follows it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ros2cli.node.direct import CommandNode
-from rosbag2_interfaces.msg import WriteSplitEvent
+from rosbag2_interfaces.msg import ReadSplitEvent, WriteSplitEvent
+
+Tell = Callable[[Path, Path | None], None]
+"""Publishes which file was closed, and which was opened in its place."""
 
 
-def teller(node: CommandNode) -> Callable[[Path, Path | None], None]:
-    """Return what publishes which file was closed, and which was opened in its place."""
-    publisher = node.node.create_publisher(WriteSplitEvent, 'events/write_split', 1)
+def of_recorder(node: CommandNode) -> Tell:
+    """Return what tells that a file is complete, so that others may take it away."""
+    return _teller(node, WriteSplitEvent, 'events/write_split')
+
+
+def of_player(node: CommandNode) -> Tell:
+    """Return what tells that a file was read to its end."""
+    return _teller(node, ReadSplitEvent, 'events/read_split')
+
+
+def _teller(node: CommandNode, kind: Any, topic: str) -> Tell:
+    publisher = node.node.create_publisher(kind, topic, 1)
 
     def tell(closed: Path, opened: Path | None) -> None:
-        event = WriteSplitEvent()
+        event = kind()
         event.closed_file = str(closed)
         event.opened_file = str(opened or '')
         event.node_name = node.node.get_fully_qualified_name()

@@ -17,7 +17,8 @@ class StorageOptions:
     :param storage_id: 'mcap' or 'sqlite3'; '' is found out to read, and 'mcap' to write.
     :param max_bagfile_size: bytes after which a writer begins a new file; 0 for never.
     :param max_bagfile_duration: seconds after which a writer begins a new file; 0 for never.
-    :param max_cache_size: taken, and of no effect: a writer has a buffer of its own.
+    :param max_cache_size: bytes of messages that are kept with snapshot_mode; of no effect
+        without it, for a writer has a buffer of its own.
     :param storage_preset_profile: for MCAP 'none', 'fastwrite', 'zstd_fast' or 'zstd_small', for
         sqlite3 'none' or 'resilient'.
     :param start_time_ns: messages from before are not written; -1 for no limit.

@@ -39,6 +39,7 @@ class SequentialReader:
         self._file: StoredFile | None = None
         self._number = 0
         self._close: Callable[[], object] = _nothing
+        self._on_split: Callable[[Path, Path], object] | None = None
         # The place: a time, and the message of it that was read last.
         self._time_ns = 0
         self._key: Key | None = None
@@ -165,7 +166,7 @@ class SequentialReader:
 
     def _load(self, number: int) -> StoredFile:
         """Open a file of the bag in place of the one before."""
-        file = self._storage.read(self._files[number])
+        before, file = self._file, self._storage.read(self._files[number])
         self._close()
         self._file, self._number = file, number
         self._close = weakref.finalize(self, file.close)
@@ -174,6 +175,8 @@ class SequentialReader:
         self._time_ns = self._sought_ns
         self._key = None
         self._restart()
+        if before is not None and self._on_split is not None:
+            self._on_split(before.path, file.path)
         return file
 
     @property
@@ -190,6 +193,11 @@ class SequentialReader:
 
 def _nothing() -> None:
     """Stand for the closing of a file where there is none."""
+
+
+def on_split(reader: SequentialReader, tell: Callable[[Path, Path], object]) -> None:
+    """Have it told from now on which file was left, and which is read in its place."""
+    reader._on_split = tell
 
 
 def stored_messages(reader: SequentialReader) -> Iterator[StoredMessage]:

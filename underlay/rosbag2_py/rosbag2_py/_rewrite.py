@@ -66,6 +66,8 @@ def _check(outputs: list[OutputBag]) -> None:
     """Refuse what cannot be made, before the first bag is."""
     folders: set[Path] = set()
     for output in outputs:
+        if output.storage.snapshot_mode:
+            raise BagError('snapshot_mode: nobody asks for a snapshot while bags are converted')
         storage_to_write(output.storage, ConverterOptions())
         folder = Path(output.storage.uri).absolute()
         if folder in folders or folder.exists():

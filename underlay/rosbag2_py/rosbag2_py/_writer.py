@@ -11,12 +11,14 @@ from typing import Any
 import weakref
 
 from rosbag2_py._fields import check_kind, nanoseconds_of
+from rosbag2_py._log import warn
 from rosbag2_py._message_definitions import definition_or_empty
 from rosbag2_py._metadata import MessageDefinition, TopicMetadata
 from rosbag2_py._options import ConverterOptions, StorageOptions
 from rosbag2_py._writing_thread import WritingThread
 from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.errors import BagError
+from rosbag2_py.last_messages import LastMessages
 from rosbag2_py.storages import DEFAULT_ID, storage_of, STORAGES
 from rosbag2_py.storages.interface import Storage
 
@@ -31,6 +33,7 @@ class SequentialWriter:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._topics: dict[str, TopicMetadata] = {}
+        self._last: LastMessages | None = None
         self._close: weakref.finalize[..., SequentialWriter] | None = None
 
     def open(  # noqa: A003
@@ -39,7 +42,7 @@ class SequentialWriter:
         """
         Make the folder of the bag; a writer that is open already stays as it is.
 
-        :raises BagError: the folder exists, or an option is not offered here.
+        :raises BagError: the folder exists, or an option is not offered here, or makes no sense.
         """
         check_kind(storage_options, StorageOptions)
         check_kind(converter_options, ConverterOptions)
@@ -57,6 +60,9 @@ class SequentialWriter:
                 ),
                 custom_data=storage_options.custom_data,
             )
+            self._last = None
+            if storage_options.snapshot_mode:
+                self._last = LastMessages(self._writer, storage_options.max_cache_size)
             self._thread = WritingThread(self._writer)
             self._topics = {}
             self._close = weakref.finalize(self, self._thread.close_at_exit)
@@ -124,8 +130,8 @@ class SequentialWriter:
             if 0 <= self._options.end_time_ns < received_ns:
                 return
             self._known(topic_name)
-            put = self._thread.put
-            put(len(data), self._writer.write, topic_name, data, received_ns, sent_ns)
+            write = (self._last or self._writer).write
+            self._thread.put(len(data), write, topic_name, data, received_ns, sent_ns)
 
     def split_bagfile(self) -> None:
         """Begin a new file."""
@@ -134,8 +140,14 @@ class SequentialWriter:
             self._thread.put(0, self._writer.split)
 
     def take_snapshot(self) -> bool:
-        """Return False, as always where the snapshot mode is off."""
-        return False
+        """Write the last messages; return False where the snapshot mode is off."""
+        with self._lock:
+            if self._last is None:
+                warn('take_snapshot() writes nothing: StorageOptions has no snapshot_mode=True')
+                return False
+            self._check_open()
+            self._thread.put(0, self._last.take)
+            return True
 
     def _check_open(self) -> None:
         if self._close is None:
@@ -188,10 +200,9 @@ def storage_to_write(options: StorageOptions, converter: ConverterOptions) -> St
             f"storage_config_uri='{options.storage_config_uri}': files of settings are not read "
             'here; use storage_preset_profile'
         )
-    if options.snapshot_mode:
+    if options.snapshot_mode and not options.max_cache_size:
         raise BagError(
-            'snapshot_mode=True is not offered here: keep the last messages in a '
-            'collections.deque and write them when they are wanted'
+            'snapshot_mode=True needs a max_cache_size: so many bytes of messages are kept'
         )
     if 0 < options.max_bagfile_size < storage.smallest_file_bytes:
         raise BagError(

@@ -140,6 +140,9 @@ class BagWriter:
         del self._topics[name]
         self._file.remove_topic(name)
 
+    def has_topic(self, name: str) -> bool:
+        return name in self._topics
+
     def write(self, topic_name: str, data: bytes, received_ns: int, published_ns: int) -> None:
         topic = self._topics[topic_name]
         if self._is_full(received_ns):

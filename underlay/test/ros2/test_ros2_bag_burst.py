@@ -16,6 +16,7 @@ from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
 from rclpy.node import Node
+from rosbag2_interfaces.msg import ReadSplitEvent
 from rosbag2_interfaces.srv import Burst, IsPaused, Play, PlayNext, Resume, Seek, Stop
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
@@ -30,9 +31,11 @@ class Student:
         self._node = node
         self.heard: list[int] = []
         self.times: list[Clock] = []
+        self.splits: list[ReadSplitEvent] = []
         for topic in ('/chatter', '/other'):
             node.create_subscription(String, topic, self._on_number, 100)
         node.create_subscription(Clock, '/clock', self.times.append, 10)
+        node.create_subscription(ReadSplitEvent, '/events/read_split', self.splits.append, 10)
 
     def _on_number(self, msg: String) -> None:
         self.heard.append(int(msg.data.split()[1]))
@@ -89,6 +92,10 @@ def test_a_player_goes_to_another_place(bag: Path, student: Student, processes: 
     wait_until(lambda: sought in student.times, timeout_sec=10.0, what='the time that was sought')
     assert student.call(Burst, 'burst', num_messages=1).actually_burst == 1
     student.wait_for(6)
+    student.seek(9)
+    assert student.call(Burst, 'burst', num_messages=2).actually_burst == 2
+    student.wait_for(9, 10)
+    wait_until(lambda: student.splits, timeout_sec=10.0, what='the event of a new file')
     student.seek(0)  # before the start, which --start-offset says
     assert student.call(Burst, 'burst', num_messages=2).actually_burst == 2
     student.wait_for(3, 4)
@@ -102,6 +109,10 @@ def test_a_player_goes_to_another_place(bag: Path, student: Student, processes: 
     student.call(Resume, 'resume')
     student.wait_for(18, 19)
     assert player.wait(timeout=10.0) == 0
+    (split,) = student.splits  # none of a place that was sought
+    files = sorted(str(file) for file in bag.glob('bag_*'))
+    assert [split.closed_file, split.opened_file] == files
+    assert split.node_name == '/rosbag2_player'
 
 
 def test_a_place_that_is_sought_during_the_delay_is_where_it_begins(

@@ -12,6 +12,7 @@ from ros2cli.errors import UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
 from rosbag2_py.bag_writer import BagWriter, Limits
+from rosbag2_py.last_messages import LastMessages
 from rosbag2_py.selection import EVENTS
 from rosbag2_py.storages import DEFAULT_ID, STORAGES
 from rosbag2_py.storages.interface import Storage
@@ -24,7 +25,7 @@ from ros2bag.refusals import refused_in_one_line
 from ros2bag.services import control_recorder
 
 _PRESETS = 'it is for plugins in C++; --storage-preset-profile says how a bag is stored'
-_LAST_FILES = '--max-bag-duration begins new files, of which the last may be kept'
+_SNAPSHOT = '`ros2 service call /rosbag2_recorder/snapshot rosbag2_interfaces/srv/Snapshot`'
 _COMPRESS = '--storage-preset-profile zstd_fast compresses an MCAP bag'
 
 
@@ -61,10 +62,10 @@ class RecordVerb(VerbExtension):
         _add_bag(parser)
         _add_limits(parser)
         _add_compression(parser)
+        _add_snapshots(parser)
         _add_refused(parser)
         without_effect.add_numbers(
             parser,
-            '--max-cache-size',
             '--compression-queue-size',
             '--compression-threads',
             '--compression-threads-priority',
@@ -103,11 +104,12 @@ class RecordVerb(VerbExtension):
                 selection,
                 overrides,
                 is_paused=args.start_paused,
+                last=LastMessages(writer, args.max_cache_size) if args.snapshot_mode else None,
                 include_unpublished=args.include_unpublished_topics,
                 ignore_leaves=args.ignore_leaf_topics,
             )
             control_recorder(node, recorder)
-            writer.on_split = tell = split_events.teller(node)
+            writer.on_split = tell = split_events.of_recorder(node)
             keys = {'SPACE': recorder.toggle_paused}
             with controls(keys, disabled=args.disable_keyboard_controls) as keyboard:
                 try:
@@ -141,6 +143,8 @@ def _record(
     recorder.subscribe_to_new_topics(graph)
     by_key = '; SPACE pauses and resumes' if keyboard.is_there else ''
     log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
+    if args.snapshot_mode:
+        log.info(f'Nothing is written before a snapshot is asked for: {_SNAPSHOT}')
     if missing := recorder.missing():
         log.info(f'Waiting for {", ".join(missing)}{_hint(missing, graph)}')
     while True:
@@ -228,9 +232,25 @@ def _add_compression(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--compression-format', help=f'Refused: {_COMPRESS}.')
 
 
+def _add_snapshots(parser: argparse.ArgumentParser) -> None:
+    arguments.add_flags(
+        parser,
+        {
+            '--snapshot-mode': 'Keep the last messages in memory, and write them only when '
+            f'somebody asks: {_SNAPSHOT}.'
+        },
+    )
+    parser.add_argument(
+        '--max-cache-size',
+        type=arguments.nonnegative_int,
+        default=100 * 1024 * 1024,
+        metavar='BYTES',
+        help='How much --snapshot-mode keeps (default: %(default)s); without effect else.',
+    )
+
+
 def _add_refused(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('--storage-config-file', metavar='FILE', help=f'Refused: {_PRESETS}.')
-    arguments.add_flags(parser, {'--snapshot-mode': f'Refused: {_LAST_FILES}.'})
 
 
 def _storage(args: argparse.Namespace) -> Storage:
@@ -255,8 +275,10 @@ def _storage(args: argparse.Namespace) -> Storage:
         raise UsageError(f'--compression-{option} is not offered here: {_COMPRESS}')
     if args.storage_config_file:
         raise UsageError(f'--storage-config-file is not offered here: {_PRESETS}')
-    if args.snapshot_mode:
-        raise UsageError(f'--snapshot-mode is not offered here: {_LAST_FILES}')
+    if args.snapshot_mode and not args.max_cache_size:
+        raise UsageError(
+            '--snapshot-mode needs a --max-cache-size: so many bytes of the last messages are kept'
+        )
     return storage
 
 
