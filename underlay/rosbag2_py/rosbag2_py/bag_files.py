@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
+from rosbag2_py import compression
 from rosbag2_py._metadata import BagMetadata, FileInformation, TopicInformation, VERSION
 from rosbag2_py._metadata_io import FILE_NAME, MetadataIo
 from rosbag2_py.errors import BagError
@@ -42,11 +43,6 @@ def find(path: Path, storage_id: str = '') -> Files:
     list_files = _named if (path / FILE_NAME).is_file() else _lying_about
     files = list_files(path, asked)
     for file in files.paths:
-        if file.suffix == '.zstd':
-            raise BagError(
-                f"'{file}' is compressed as a whole, which is not read here: call `zstd -d` on it "
-                f'and remove {path / FILE_NAME}'
-            )
         if not file.is_file():
             what = 'is no file' if file.exists() else 'does not exist'
             raise BagError(f"'{file}', named in {path / FILE_NAME}, {what}")
@@ -76,13 +72,15 @@ def describe(path: Path, storage_id: str = '') -> BagMetadata:
     storage, paths = find(path, storage_id)
     contents = []
     for name in paths:
-        with storage.read(name) as file:
+        with compression.read(storage, name) as file:
             contents.append(file.contents)
     bag, names = contents[-1].told, [_inside(name, path) for name in paths]
     bag.version = VERSION
     bag.storage_identifier = storage.id
     bag.bag_size = sum(each.size for each in contents)
     bag.relative_file_paths = names
+    if any(file.suffix == compression.SUFFIX for file in paths):
+        bag.compression_format, bag.compression_mode = 'zstd', 'FILE'
     bag.files = [
         FileInformation(name, each.span.start, each.span.duration, each.span.count)
         for name, each in zip(names, contents, strict=True)
@@ -107,7 +105,7 @@ def _storage_of_file(path: Path) -> Storage:
         if head.startswith(each.magic):
             return each
     by_suffix = {each.suffix: each for each in STORAGES.values()}
-    return by_suffix.get(path.suffix, STORAGES[DEFAULT_ID])
+    return by_suffix.get(compression.original(path).suffix, STORAGES[DEFAULT_ID])
 
 
 def _named(folder: Path, asked: Storage | None) -> Files:
@@ -130,10 +128,10 @@ def _lying_about(folder: Path, asked: Storage | None) -> Files:
     """Return what is in a folder without a metadata.yaml that names it."""
     found = {}
     for storage in STORAGES.values():
+        ends = (f'*{storage.suffix}{compression.SUFFIX}', f'*{storage.suffix}')
+        files = {compression.original(path): path for end in ends for path in folder.glob(end)}
         # behind file 9 comes file 10
-        paths = sorted(
-            folder.glob(f'*{storage.suffix}'), key=lambda file: (len(file.name), file.name)
-        )
+        paths = [files[name] for name in sorted(files, key=lambda file: (len(file.name), file))]
         if paths:
             found[storage.id] = Files(storage, paths)
     if asked and asked.id in found:

@@ -1,0 +1,119 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bags that `ros2 bag record --compression-mode` of a full ROS 2 has made are read here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import tempfile
+from typing import Any
+
+from playpen_testing.bags import opened_reader, opened_writer, rest_of, string, times_of
+import pytest
+from rosbag2_py import (
+    bag_files,
+    Reindexer,
+    SequentialCompressionReader,
+    SequentialReader,
+    StorageOptions,
+)
+import yaml
+import zstandard
+
+STORAGES = pytest.mark.parametrize('storage', ['mcap', 'sqlite3'])
+
+
+@pytest.fixture(autouse=True)
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return the folder for temporary files of the test."""
+    (folder := tmp_path / 'temporary').mkdir()
+    monkeypatch.setattr(tempfile, 'tempdir', str(folder))
+    return folder
+
+
+def pack(file: Path) -> Path:
+    packed = file.with_name(f'{file.name}.zstd')
+    packed.write_bytes(zstandard.compress(file.read_bytes()))
+    file.unlink()
+    return packed
+
+
+def tell(folder: Path, **fields: Any) -> None:
+    """Change what metadata.yaml says."""
+    metadata = yaml.safe_load((folder / 'metadata.yaml').read_text())
+    metadata['rosbag2_bagfile_information'] |= fields
+    (folder / 'metadata.yaml').write_text(yaml.safe_dump(metadata))
+
+
+def two_files(folder: Path, storage: str) -> list[Path]:
+    """Write a bag of two files with 'number 0' to 'number 5'; return them."""
+    writer = opened_writer(folder, 'n', storage_id=storage)
+    for number in range(6):
+        if number == 3:
+            writer.split_bagfile()
+        writer.write('n', string(number), number)
+    writer.close()
+    return sorted(folder.glob('bag_*'))
+
+
+@STORAGES
+def test_files_that_are_compressed_are_read(tmp_path: Path, temporary: Path, storage: str) -> None:
+    folder = tmp_path / 'bag'
+    packed = [pack(file) for file in two_files(folder, storage)]
+    names = [file.name for file in packed]
+    tell(folder, compression_format='zstd', compression_mode='FILE', relative_file_paths=names)
+    reader = opened_reader(folder)
+    assert rest_of(reader) == [('n', string(number), number) for number in range(6)]
+    reader.seek(2)  # back into the first file
+    assert times_of(reader) == [2, 3, 4, 5]
+    told = bag_files.describe(folder)
+    assert (told.message_count, told.relative_file_paths) == (6, names)
+    assert times_of(opened_reader(packed[1])) == [3, 4, 5]
+    assert list(temporary.iterdir()) == []
+    assert sorted(folder.glob('bag_*')) == packed
+
+
+@STORAGES
+def test_of_a_killed_recording_the_last_file_is_not_compressed(
+    tmp_path: Path, storage: str
+) -> None:
+    folder = tmp_path / 'bag'
+    pack(two_files(folder, storage)[0])
+    (folder / 'metadata.yaml').unlink()
+    assert times_of(opened_reader(folder)) == list(range(6))
+    Reindexer().reindex(StorageOptions(str(folder), storage))
+    metadata = yaml.safe_load((folder / 'metadata.yaml').read_text())
+    told = metadata['rosbag2_bagfile_information']
+    assert (told['compression_format'], told['compression_mode']) == ('zstd', 'FILE')
+
+
+@STORAGES
+def test_messages_that_are_compressed_are_read(tmp_path: Path, storage: str) -> None:
+    writer = opened_writer(tmp_path / 'bag', 'n', storage_id=storage)
+    for number in range(3):
+        writer.write('n', zstandard.compress(string(number)), number)
+    writer.write('n', b'\x28\xb5\x2f\xfd\xe0' + bytes(7) + b'\x7f', 3)  # of 2**63 bytes
+    writer.close()
+    tell(tmp_path / 'bag', compression_format='zstd', compression_mode='MESSAGE')
+    reader = opened_reader(tmp_path / 'bag')
+    assert [reader.read_next()[1] for _ in range(3)] == [string(number) for number in range(3)]
+    with pytest.raises(RuntimeError, match=r"'.*' has a message that cannot be decompressed: "):
+        reader.read_next()
+
+
+def test_what_cannot_be_decompressed_is_refused_in_words(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = (pack(file) for file in two_files(tmp_path / 'bag', 'mcap'))
+    first.write_bytes(first.read_bytes()[:200])
+    with pytest.raises(
+        RuntimeError, match=rf"^'{first}' cannot be read as MCAP: it ends too soon"
+    ):
+        opened_reader(first)
+    monkeypatch.setattr(tempfile, 'tempdir', str(tmp_path / 'none'))
+    with pytest.raises(RuntimeError, match=r'into .*none: No such file .*; TMPDIR names another'):
+        opened_reader(second)
+
+
+def test_one_class_reads_both() -> None:
+    assert SequentialCompressionReader is SequentialReader
