@@ -54,7 +54,7 @@ def test_each_name_is_there_or_says_what_to_use() -> None:
     assert importlib.import_module('rosbag2_py._writer').SequentialWriter is SequentialWriter
     storages = {'mcap', 'sqlite3'}
     assert rosbag2_py.get_registered_readers() == rosbag2_py.get_registered_writers() == storages
-    assert rosbag2_py.get_registered_compressors() == set()
+    assert rosbag2_py.get_registered_compressors() == {'zstd'}
     assert rosbag2_py.get_registered_serializers() == set()
     with pytest.raises(AttributeError, match='SequentialWrite'):
         _ = rosbag2_py.SequentialWrite

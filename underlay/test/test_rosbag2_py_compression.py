@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bags that `ros2 bag record --compression-mode` of a full ROS 2 has made are read here."""
+"""Bags that are compressed as `ros2 bag record --compression-mode` does."""
 
 from __future__ import annotations
 
@@ -12,10 +12,16 @@ from playpen_testing.bags import opened_reader, opened_writer, rest_of, string, 
 import pytest
 from rosbag2_py import (
     bag_files,
+    compression_mode_from_string,
+    compression_mode_to_string,
+    CompressionMode,
+    CompressionOptions,
+    ConverterOptions,
     Reindexer,
     SequentialCompressionReader,
-    SequentialReader,
+    SequentialCompressionWriter,
     StorageOptions,
+    TopicMetadata,
 )
 import yaml
 import zstandard
@@ -115,5 +121,58 @@ def test_what_cannot_be_decompressed_is_refused_in_words(
         opened_reader(second)
 
 
-def test_one_class_reads_both() -> None:
-    assert SequentialCompressionReader is SequentialReader
+@STORAGES
+@pytest.mark.parametrize('mode', [CompressionMode.FILE, CompressionMode.MESSAGE])
+def test_what_is_written_compressed_is_read(
+    tmp_path: Path, storage: str, mode: CompressionMode
+) -> None:
+    folder = tmp_path / 'bag'
+    writer = SequentialCompressionWriter(CompressionOptions('zstd', mode))
+    writer.open(StorageOptions(str(folder), storage), ConverterOptions())
+    writer.create_topic(TopicMetadata(0, 'n', 'std_msgs/msg/String', 'cdr'))
+    for number in range(6):
+        if number == 3:
+            writer.split_bagfile()
+        writer.write('n', string(number), number)
+    writer.close()
+    reader = SequentialCompressionReader()
+    reader.open_uri(str(folder))
+    assert rest_of(reader) == [('n', string(number), number) for number in range(6)]
+    told = reader.get_metadata()
+    assert (told.compression_format, told.compression_mode) == ('zstd', mode.name)
+    suffix = '.zstd' if mode is CompressionMode.FILE else ''
+    names = [f'bag_{n}{".mcap" if storage == "mcap" else ".db3"}{suffix}' for n in range(2)]
+    assert told.relative_file_paths == names
+    assert [file.path for file in told.files] == names
+    assert sorted(file.name for file in folder.iterdir()) == [*names, 'metadata.yaml']
+
+
+def test_a_file_that_cannot_be_compressed_stays_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / 'bag'
+    writer = SequentialCompressionWriter(CompressionOptions('zstd', CompressionMode.FILE))
+    writer.open(StorageOptions(str(folder)), ConverterOptions())
+    writer.create_topic(TopicMetadata(0, 'n', 'std_msgs/msg/String', 'cdr'))
+    writer.write('n', string(0), 0)
+    (folder / 'bag_0.mcap.zstd').symlink_to('/dev/full')
+    with pytest.raises(RuntimeError, match="bag' cannot be written: No space left on device"):
+        writer.close()
+    assert rest_of(opened_reader(folder)) == [('n', string(0), 0)]
+
+
+def test_what_cannot_compress_is_refused() -> None:
+    for options, message in {
+        CompressionOptions(): 'needs CompressionMode.FILE or CompressionMode.MESSAGE',
+        CompressionOptions('lz4', CompressionMode.FILE): "'lz4': here it is zstd",
+    }.items():
+        with pytest.raises(RuntimeError, match=message):
+            SequentialCompressionWriter(options)
+
+
+def test_modes_have_names(capfd: pytest.CaptureFixture[str]) -> None:
+    for mode in CompressionMode:
+        assert compression_mode_from_string(compression_mode_to_string(mode).lower()) is mode
+    assert compression_mode_from_string('') is CompressionMode.NONE
+    assert compression_mode_from_string('all') is CompressionMode.NONE
+    assert "'all' is no mode of compression" in capfd.readouterr().err

@@ -179,10 +179,8 @@ def test_an_empty_bag_is_told_with_what_there_is(
         ('{uri: new, regex: "["}', "'[' is no regular expression"),
         ('{uri: new, all_topics: true, storage_id: sqlite}', "'sqlite'"),
         ('{uri: new, all_topics: true, max_bagfile_size: -1}', 'max_bagfile_size=-1: it takes a'),
-        (
-            '{uri: new, all_topics: true, compression_mode: file}',
-            'storage_preset_profile: zstd_fa',
-        ),
+        ('{uri: new, all_topics: true, compression_mode: all}', 'it takes none, file or message'),
+        ('{uri: new, all_topics: true, compression_mode: file}', "format='': here it is zstd"),
         ('{uri: new, all_topics: true}\n- {uri: new, all_topics: true}', "new' already exists"),
         ('{uri: bag, all_topics: true}', "bag' already exists, and no bag is written over"),
         ('{all_topics: true}', 'number 2: it has no uri, the folder to make'),

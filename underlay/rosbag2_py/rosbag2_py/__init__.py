@@ -25,6 +25,12 @@ from rosbag2_py._storage import (
 )
 
 if TYPE_CHECKING:
+    from rosbag2_py._compression_options import (
+        compression_mode_from_string,
+        compression_mode_to_string,
+        CompressionMode,
+        CompressionOptions,
+    )
     from rosbag2_py._info import Info
     from rosbag2_py._message_definitions import LocalMessageDefinitionSource
     from rosbag2_py._reader import (
@@ -38,11 +44,14 @@ if TYPE_CHECKING:
         get_registered_compressors,
         get_registered_serializers,
         get_registered_writers,
+        SequentialCompressionWriter,
         SequentialWriter,
     )
 
 __all__ = [
     'BagMetadata',
+    'CompressionMode',
+    'CompressionOptions',
     'ConverterOptions',
     'FileInformation',
     'Info',
@@ -53,6 +62,7 @@ __all__ = [
     'ReadOrderSortBy',
     'Reindexer',
     'SequentialCompressionReader',
+    'SequentialCompressionWriter',
     'SequentialReader',
     'SequentialWriter',
     'StorageFilter',
@@ -60,6 +70,8 @@ __all__ = [
     'TopicInformation',
     'TopicMetadata',
     'bag_rewrite',
+    'compression_mode_from_string',
+    'compression_mode_to_string',
     'convert_rclcpp_qos_to_rclpy_qos',
     'get_default_storage_id',
     'get_registered_compressors',
@@ -76,10 +88,20 @@ _MODULES = {
     'Reindexer': '_reindexer',
     'bag_rewrite': '_rewrite',
     **dict.fromkeys(
+        (
+            'CompressionMode',
+            'CompressionOptions',
+            'compression_mode_from_string',
+            'compression_mode_to_string',
+        ),
+        '_compression_options',
+    ),
+    **dict.fromkeys(
         ('SequentialCompressionReader', 'SequentialReader', 'get_registered_readers'), '_reader'
     ),
     **dict.fromkeys(
         (
+            'SequentialCompressionWriter',
             'SequentialWriter',
             'get_registered_compressors',
             'get_registered_serializers',
@@ -90,22 +112,9 @@ _MODULES = {
 }
 _PLAY = '`ros2 bag play` plays; in a program, read with SequentialReader and publish'
 _RECORD = '`ros2 bag record` records; in a program, subscribe and write with SequentialWriter'
-_COMPRESS = (
-    "StorageOptions(storage_preset_profile='zstd_fast') compresses a SequentialWriter's MCAP bag"
-)
 _LEFT_OUT = {
     **dict.fromkeys(('Player', 'PlayOptions', 'ServiceRequestsSource'), _PLAY),
     **dict.fromkeys(('Recorder', 'RecordOptions'), _RECORD),
-    **dict.fromkeys(
-        (
-            'CompressionMode',
-            'CompressionOptions',
-            'SequentialCompressionWriter',
-            'compression_mode_from_string',
-            'compression_mode_to_string',
-        ),
-        _COMPRESS,
-    ),
 }
 
 

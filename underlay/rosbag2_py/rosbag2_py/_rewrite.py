@@ -9,13 +9,19 @@ from contextlib import closing, ExitStack
 import heapq
 from pathlib import Path
 
+from rosbag2_py._compression_options import CompressionMode, CompressionOptions
 from rosbag2_py._fields import check_kind
 from rosbag2_py._log import warn
 from rosbag2_py._metadata import TopicMetadata
 from rosbag2_py._options import ConverterOptions, StorageOptions
 from rosbag2_py._output_bags import OutputBag, read_output_bags
 from rosbag2_py._reader import SequentialReader, stored_messages
-from rosbag2_py._writer import add_topic, SequentialWriter, storage_to_write
+from rosbag2_py._writer import (
+    add_topic,
+    SequentialCompressionWriter,
+    SequentialWriter,
+    storage_to_write,
+)
 from rosbag2_py.bag_writer import already_there
 from rosbag2_py.errors import BagError
 
@@ -46,7 +52,7 @@ def bag_rewrite(input_options: list[StorageOptions], output_config_file: str, /)
     takers: defaultdict[str, list[SequentialWriter]] = defaultdict(list)
     with ExitStack() as stack:
         for output in outputs:
-            writer = stack.enter_context(closing(SequentialWriter()))
+            writer = stack.enter_context(closing(_writer_of(output)))
             writer.open(output.storage, ConverterOptions())
             for name, topic in topics.items():
                 if output.selection.wants(name, topic.type):
@@ -69,10 +75,18 @@ def _check(outputs: list[OutputBag]) -> None:
         if output.storage.snapshot_mode:
             raise BagError('snapshot_mode: nobody asks for a snapshot while bags are converted')
         storage_to_write(output.storage, ConverterOptions())
+        _writer_of(output)
         folder = Path(output.storage.uri).absolute()
         if folder in folders or folder.exists():
             raise already_there(output.storage.uri)
         folders.add(folder)
+
+
+def _writer_of(output: OutputBag) -> SequentialWriter:
+    mode, name = output.selection.compression_mode, output.selection.compression_format
+    if mode is CompressionMode.NONE:
+        return SequentialWriter()
+    return SequentialCompressionWriter(CompressionOptions(name, mode))
 
 
 def _topics_of(readers: list[SequentialReader]) -> dict[str, TopicMetadata]:

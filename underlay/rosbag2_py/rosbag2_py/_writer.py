@@ -10,6 +10,7 @@ import threading
 from typing import Any
 import weakref
 
+from rosbag2_py._compression_options import CompressionMode, CompressionOptions, FORMATS
 from rosbag2_py._fields import check_kind, nanoseconds_of
 from rosbag2_py._log import warn
 from rosbag2_py._message_definitions import definition_or_empty
@@ -33,6 +34,7 @@ class SequentialWriter:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._topics: dict[str, TopicMetadata] = {}
+        self._compress = CompressionMode.NONE
         self._last: LastMessages | None = None
         self._close: weakref.finalize[..., SequentialWriter] | None = None
 
@@ -58,6 +60,7 @@ class SequentialWriter:
                 limits=Limits(
                     storage_options.max_bagfile_size, storage_options.max_bagfile_duration
                 ),
+                compress=self._compress,
                 custom_data=storage_options.custom_data,
             )
             self._last = None
@@ -162,6 +165,29 @@ class SequentialWriter:
             )
 
 
+class SequentialCompressionWriter(SequentialWriter):
+    """Writes a bag whose files or messages are compressed."""
+
+    def __init__(self, compression_options: CompressionOptions, /) -> None:
+        """
+        Compress as the options say.
+
+        :raises BagError: they say that nothing is compressed, or name no format.
+        """
+        check_kind(compression_options, CompressionOptions)
+        super().__init__()
+        self._compress = compression_options.compression_mode
+        if self._compress is CompressionMode.NONE:
+            raise BagError(
+                'SequentialCompressionWriter needs CompressionMode.FILE or CompressionMode.MESSAGE'
+            )
+        if compression_options.compression_format not in FORMATS:
+            raise BagError(
+                f"compression_format='{compression_options.compression_format}': here it is "
+                f'{" or ".join(FORMATS)}'
+            )
+
+
 def add_topic(
     writer: SequentialWriter, topic: TopicMetadata, definition: MessageDefinition | None
 ) -> None:
@@ -174,8 +200,7 @@ def get_registered_writers() -> set[str]:
 
 
 def get_registered_compressors() -> set[str]:
-    """Return none: MCAP compresses by itself (storage_preset_profile)."""
-    return set()
+    return set(FORMATS)
 
 
 def get_registered_serializers() -> set[str]:

@@ -5,11 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
-from rosbag2_py import _qos
+from rosbag2_py import _qos, compression
+from rosbag2_py._compression_options import CompressionMode, FORMATS
 from rosbag2_py._message_definitions import definition_or_empty
 from rosbag2_py._metadata import (
     BagMetadata,
@@ -32,6 +34,12 @@ class Limits:
 
     file_bytes: int = 0
     file_sec: int = 0
+
+
+@dataclass
+class _File:
+    path: Path
+    span: Span
 
 
 @dataclass
@@ -73,7 +81,9 @@ class BagWriter:
 
     It is not for several threads, and what is interrupted within a call is not whole.
 
-    :ivar on_split: is told of a file that is complete, and of the one that follows it.
+    :param compress: messages are compressed as they come, files in another thread.
+    :ivar on_split: is told of a file that is complete, and compressed, and of the one that follows
+        it; in that thread where files are compressed.
     :raises BagError: the folder exists or cannot be made; every method: the disk is full.
     """
 
@@ -84,6 +94,7 @@ class BagWriter:
         *,
         preset: str = 'none',
         limits: Limits | None = None,
+        compress: CompressionMode = CompressionMode.NONE,
         custom_data: dict[str, str] | None = None,
     ) -> None:
         try:
@@ -101,7 +112,11 @@ class BagWriter:
         self._is_closed = False
         self._topics: dict[str, _Topic] = {}
         self._all = Span()
-        self._files: list[tuple[str, Span]] = []
+        self._files: list[_File] = []
+        self._mode = compress
+        self._packed = compression.compressor() if compress is CompressionMode.MESSAGE else None
+        self._pool = ThreadPoolExecutor(1) if compress is CompressionMode.FILE else None
+        self._packing: list[Future[None]] = []
         with self._refusals():
             self._begin_file()
 
@@ -114,7 +129,7 @@ class BagWriter:
     @property
     def file(self) -> Path:
         """The file that is being written."""
-        return self.folder / self._files[-1][0]
+        return self._files[-1].path
 
     @property
     def message_count(self) -> int:
@@ -147,13 +162,15 @@ class BagWriter:
         topic = self._topics[topic_name]
         if self._is_full(received_ns):
             self.split()
+        if self._packed is not None:
+            data = self._packed(data)
         try:
             self._file.write(topic_name, data, received_ns, published_ns, topic.count)
         except OSError as error:
             raise self._refusal(error) from None
         topic.count += 1
         self._all.add(received_ns)
-        self._files[-1][1].add(received_ns)
+        self._files[-1].span.add(received_ns)
 
     def flush(self) -> None:
         """Let other programs read what was written, as far as that is cheap."""
@@ -162,21 +179,42 @@ class BagWriter:
 
     def split(self) -> None:
         """Begin a new file."""
-        closed = self.file
+        closed = self._files[-1]
         with self._refusals():
             self._file.finish(self._metadata())
+            for packing in self._packing:
+                if packing.done():
+                    packing.result()
             self._begin_file()
-        if self.on_split is not None:
-            self.on_split(closed, self.file)
+        self._complete(closed, self._files[-1])
 
     def close(self) -> None:
         """Finish the files; may be called twice."""
         if self._is_closed:
             return
         self._is_closed = True
-        with self._refusals():
+        with self._refusals(), ExitStack() as later:
             self._file.finish(self._metadata())
+            self._complete(self._files[-1], None)
+            for packing in self._packing:
+                later.callback(packing.result)  # the bag is described also where that fails
+            if self._pool is not None:
+                self._pool.shutdown()
             MetadataIo().write_metadata(str(self.folder), self._metadata())
+
+    def _complete(self, closed: _File, following: _File | None) -> None:
+        """Compress a file that is complete, and tell of it."""
+
+        def complete() -> None:
+            if self._mode is CompressionMode.FILE:
+                closed.path = compression.compress_file(closed.path)
+            if self.on_split is not None and following is not None:
+                self.on_split(closed.path, following.path)
+
+        if self._pool is None:
+            complete()
+        else:
+            self._packing.append(self._pool.submit(complete))
 
     @contextmanager
     def _refusals(self) -> Iterator[None]:
@@ -189,7 +227,7 @@ class BagWriter:
         return BagError(f"'{self.folder}' cannot be written: {error.strerror or error}")
 
     def _is_full(self, time_ns: int) -> bool:
-        span, limits = self._files[-1][1], self._limits
+        span, limits = self._files[-1].span, self._limits
         if limits.file_bytes and self._file.size >= limits.file_bytes:
             return True
         return bool(
@@ -201,7 +239,7 @@ class BagWriter:
     def _begin_file(self) -> None:
         stem = f'{self.folder.name or self.folder.resolve().name}_{len(self._files)}'
         name = f'{stem}{self._storage.suffix}'
-        self._files.append((name, Span()))
+        self._files.append(_File(self.folder / name, Span()))
         self._file = self._storage.write(self.folder / name, self._preset)
         for topic in self._topics.values():
             self._file.add_topic(topic.metadata, topic.definition)
@@ -210,10 +248,12 @@ class BagWriter:
         topics = self._topics.values()
         return BagMetadata(
             storage_identifier=self._storage.id,
-            relative_file_paths=[name for name, _ in self._files],
+            relative_file_paths=[file.path.name for file in self._files],
             files=[
-                FileInformation(name, span.start, span.duration, span.count)
-                for name, span in self._files
+                FileInformation(
+                    file.path.name, file.span.start, file.span.duration, file.span.count
+                )
+                for file in self._files
             ],
             duration=self._all.duration,
             starting_time=self._all.start,
@@ -221,6 +261,8 @@ class BagWriter:
             topics_with_message_count=[
                 TopicInformation(topic.metadata, topic.count) for topic in topics
             ],
+            compression_format='' if self._mode is CompressionMode.NONE else FORMATS[0],
+            compression_mode='' if self._mode is CompressionMode.NONE else self._mode.name,
             custom_data=self._custom_data,
             ros_distro=ROS_DISTRO,
         )

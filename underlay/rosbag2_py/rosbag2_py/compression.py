@@ -1,9 +1,10 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Read what was compressed by zstd: a file of a bag as a whole, or its messages one by one."""
+"""Compress by zstd a file of a bag as a whole, or its messages one by one; and read them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from tempfile import gettempdir, TemporaryDirectory
 
@@ -12,6 +13,7 @@ from rosbag2_py.storages.interface import Storage, StoredFile
 
 SUFFIX = '.zstd'
 """What the name of a file has behind its own, where it was compressed as a whole."""
+_LEVEL = 1  # that of upstream, the fastest
 
 
 def original(path: Path) -> Path:
@@ -54,6 +56,33 @@ def read(storage: Storage, path: Path) -> StoredFile:
         ) from None
     opened.path = path
     return opened
+
+
+def compress_file(path: Path) -> Path:
+    """
+    Put a compressed file in the place of one that is complete; return its name.
+
+    :raises OSError: it cannot be written; the other is still there.
+    """
+    import zstandard
+
+    packed = path.with_name(path.name + SUFFIX)
+    try:
+        with path.open('rb') as whole, packed.open('wb') as file:
+            size = path.stat().st_size
+            zstandard.ZstdCompressor(_LEVEL).copy_stream(whole, file, size=size)
+    except BaseException:
+        packed.unlink(missing_ok=True)
+        raise
+    path.unlink()
+    return packed
+
+
+def compressor() -> Callable[[bytes], bytes]:
+    """Return what compresses the bytes of a message."""
+    import zstandard
+
+    return zstandard.ZstdCompressor(_LEVEL).compress
 
 
 def decompressed(data: bytes, path: Path) -> bytes:

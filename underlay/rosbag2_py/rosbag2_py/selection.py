@@ -8,13 +8,13 @@ from collections.abc import Callable
 import re
 from typing import Any
 
+from rosbag2_py._compression_options import CompressionMode
 from rosbag2_py._fields import Field, many, text
 from rosbag2_py._options import StorageFilter
 from rosbag2_py.errors import BagError
 
 EVENTS = '/_service_event'
 """Ends the names of the topics that tell what a service does."""
-_COMPRESS = 'storage_preset_profile: zstd_fast compresses an MCAP bag'
 
 
 def pattern(text: str) -> re.Pattern[str] | None:
@@ -59,6 +59,16 @@ def _yes_or_no(value: Any) -> bool:
     return value
 
 
+def _mode(value: Any) -> CompressionMode:
+    """Take a mode, or its name in letters of either kind; nothing is NONE."""
+    if isinstance(value, CompressionMode):
+        return value
+    try:
+        return CompressionMode[text(value).upper() or 'NONE']
+    except KeyError:
+        raise TypeError('none, file or message') from None
+
+
 def _unset(why: str) -> Any:
     """Return a check of what is not offered: it may be empty."""
 
@@ -84,15 +94,16 @@ class Selection:
     exclude_services = Field(many(text))
     exclude_regex = Field(text)
     include_hidden_topics = Field(_yes_or_no)
-    compression_mode = Field(_unset(_COMPRESS))
-    compression_format = Field(_unset(_COMPRESS))
+    compression_mode = Field(_mode)
+    compression_format = Field(text)
     rmw_serialization_format = Field(_unset('messages stay as they are'))
 
     def __init__(self) -> None:
         self.all_topics = self.all_services = self.include_hidden_topics = False
         self.topics = self.topic_types = self.services = []
         self.exclude_topics = self.exclude_topic_types = self.exclude_services = []
-        self.regex = self.exclude_regex = ''
+        self.regex = self.exclude_regex = self.compression_format = ''
+        self.compression_mode = CompressionMode.NONE
 
     def is_empty(self) -> bool:
         return not (

@@ -356,13 +356,13 @@ def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: 
     assert (answer.status, answer.err) == (1, "Bag path 'nothing' does not exist!\n")
 
 
-def test_storages_are_listed_and_nothing_else_is_there() -> None:
+def test_storages_and_compressors_are_listed_and_no_converters() -> None:
     expected = {
         ('storage',): 'mcap\nsqlite3\n',
         ('storage', '-v'): 'name: sqlite3\n\tfiles *.db3, presets none, resilient\n',
         ('converter', '--verbose'): 'available converter plugins are:\n',
-        ('compressor',): '',
-        ('decompressor',): '',
+        ('compressor',): 'zstd\n',
+        ('decompressor',): 'zstd\n',
     }
     calls = [('ros2cli.cli', 'bag', 'list', *words) for words in expected]
     results = run_forked(*calls, preload=('rosbag2_py',))

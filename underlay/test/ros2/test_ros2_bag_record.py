@@ -136,20 +136,23 @@ def test_it_counts_who_else_uses_a_topic(graph: Any, shared_domain: int, tmp_pat
     assert CHATTER not in recording.end()
 
 
-@pytest.mark.parametrize('words', [('-d', '1'), ('-s', 'mcap', '--max-bag-size', '2000')])
+@pytest.mark.parametrize(
+    'words', [('-d', '1', '--compression-mode', 'file'), ('-s', 'mcap', '--max-bag-size', '2000')]
+)
 def test_a_limit_begins_new_files(processes: Any, tmp_path: Path, words: tuple[str, ...]) -> None:
     # MCAP is written by the megabyte.
     publish = ('topic', 'pub', '-r', '40', '--print', '1000000', '/large', 'std_msgs/msg/String')
     processes.ros2(*publish, f'data: {"x" * 50_000}')
     recording = Recording(processes, tmp_path, '/large', *words)
     deadline = time.monotonic() + 20.0
-    while len({file.stem for file in recording.bag.glob('bag_*')}) < 3:
+    while len({file.name.partition('.')[0] for file in recording.bag.glob('bag_*')}) < 3:
         assert time.monotonic() < deadline, 'not three files within 20 s'
         time.sleep(0.05)
     assert recording.end() == {'/large'}
     files = opened_reader(recording.bag).get_metadata().files
     assert len(files) >= 3
     assert all(file.message_count > 1 for file in files[:2])
+    assert {file.path.endswith('.zstd') for file in files} == {'--compression-mode' in words}
 
 
 def test_services_pause_a_recording_and_begin_a_new_file(
@@ -285,6 +288,7 @@ def test_a_wrong_value_is_refused() -> None:
         ('--custom-data', 'husky'): "'husky' is no KEY=VALUE",
         ('--node-name', '1 tape'): "'1 tape' is no name of a node: letters, digits and _, ",
         ('--log-level', 'loud'): "invalid choice: 'loud'",
+        ('--compression-mode', 'all'): "invalid choice: 'all'",
         ('-f', 'json'): "invalid choice: 'json'",
     }
     calls = [('ros2cli.cli', 'bag', 'record', '-a', *words) for words in bad]
@@ -344,8 +348,7 @@ def test_options_that_make_no_sense_are_refused(
         (CHATTER, '--exclude-topic-types', 'x'): '--exclude-topic-types goes with one of',
         ('--all-topics', '--exclude-services', '/flip'): '--exclude-services goes with one of',
         ('-a', '--qos-profile-overrides-path', 'none'): "'none' cannot be read: No such file",
-        ('-a', '--compression-mode', 'file'): '--storage-preset-profile zstd_fast',
-        ('-a', '--compression-format', 'zstd'): '--storage-preset-profile zstd_fast',
+        ('-a', '--compression-format', 'zstd'): 'needs a --compression-mode: file or message',
         ('-a', '--snapshot-mode', '--max-cache-size', '0'): 'needs a --max-cache-size',
         ('-a', '--storage-config-file', 'x'): 'here: it is for plugins in C++; --storage-preset',
         ('-a', '-b', '1023'): '--max-bag-size 1023: it is 1024 bytes at least for mcap',

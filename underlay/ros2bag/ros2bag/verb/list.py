@@ -7,6 +7,7 @@ import argparse
 
 from ros2cli import arguments
 from ros2cli.verb import VerbExtension
+from rosbag2_py import get_registered_compressors
 from rosbag2_py.storages import STORAGES
 
 
@@ -17,16 +18,28 @@ class ListVerb(VerbExtension):
         parser.add_argument(
             'plugin_type',
             choices=('storage', 'converter', 'compressor', 'decompressor'),
-            help='Which plugins; here there are some for storage alone.',
+            help='Which plugins; here there are none that convert.',
         )
         arguments.add_flags(parser, {'-v --verbose': 'Say as well what each is.'})
 
     def main(self, *, args: argparse.Namespace) -> None:
         if args.verbose:
             print(f'available {args.plugin_type} plugins are:')
-        for storage in STORAGES.values() if args.plugin_type == 'storage' else ():
+        for name, what in _plugins(args.plugin_type):
             if args.verbose:
-                print(f'name: {storage.id}')
-                print(f'\tfiles *{storage.suffix}, presets {", ".join(storage.presets)}')
+                print(f'name: {name}')
+                print(f'\t{what}')
             else:
-                print(storage.id)
+                print(name)
+
+
+def _plugins(kind: str) -> list[tuple[str, str]]:
+    """Return the names of plugins, and what each is."""
+    if kind == 'storage':
+        return [
+            (each.id, f'files *{each.suffix}, presets {", ".join(each.presets)}')
+            for each in STORAGES.values()
+        ]
+    if kind == 'converter':
+        return []
+    return [(name, 'files and messages') for name in sorted(get_registered_compressors())]

@@ -11,6 +11,7 @@ from ros2cli import arguments, discovery
 from ros2cli.errors import UsageError
 from ros2cli.node.direct import command_node, CommandNode
 from ros2cli.verb import VerbExtension
+from rosbag2_py import CompressionMode, get_registered_compressors
 from rosbag2_py.bag_writer import BagWriter, Limits
 from rosbag2_py.last_messages import LastMessages
 from rosbag2_py.selection import EVENTS
@@ -26,7 +27,6 @@ from ros2bag.services import control_recorder
 
 _PRESETS = 'it is for plugins in C++; --storage-preset-profile says how a bag is stored'
 _SNAPSHOT = '`ros2 service call /rosbag2_recorder/snapshot rosbag2_interfaces/srv/Snapshot`'
-_COMPRESS = '--storage-preset-profile zstd_fast compresses an MCAP bag'
 
 
 class RecordVerb(VerbExtension):
@@ -92,6 +92,7 @@ class RecordVerb(VerbExtension):
                 storage,
                 preset=args.storage_preset_profile,
                 limits=Limits(args.max_bag_size, args.max_bag_duration),
+                compress=CompressionMode[args.compression_mode.upper()],
                 custom_data=dict(args.custom_data),
             ) as writer,
             # Interrupted while it is written or closed, a bag would not be whole.
@@ -225,11 +226,15 @@ def _add_limits(parser: argparse.ArgumentParser) -> None:
 def _add_compression(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--compression-mode',
-        choices=('none', 'file', 'message'),
+        choices=[mode.name.lower() for mode in CompressionMode],
         default='none',
-        help=f"Refused, unless it is '%(default)s': {_COMPRESS}.",
+        help='Compress each file when it is complete, or each message (default: %(default)s).',
     )
-    parser.add_argument('--compression-format', help=f'Refused: {_COMPRESS}.')
+    parser.add_argument(
+        '--compression-format',
+        choices=sorted(get_registered_compressors()),
+        help='By what; need not be said, for there is only one.',
+    )
 
 
 def _add_snapshots(parser: argparse.ArgumentParser) -> None:
@@ -270,9 +275,8 @@ def _storage(args: argparse.Namespace) -> Storage:
             f'--max-bag-size {args.max_bag_size}: it is {storage.smallest_file_bytes} bytes at '
             f'least for {storage.id}, or 0 for no limit'
         )
-    if args.compression_mode != 'none' or args.compression_format:
-        option = 'format' if args.compression_mode == 'none' else 'mode'
-        raise UsageError(f'--compression-{option} is not offered here: {_COMPRESS}')
+    if args.compression_format and args.compression_mode == 'none':
+        raise UsageError('--compression-format needs a --compression-mode: file or message')
     if args.storage_config_file:
         raise UsageError(f'--storage-config-file is not offered here: {_PRESETS}')
     if args.snapshot_mode and not args.max_cache_size:
