@@ -94,13 +94,19 @@ def test_of_a_killed_recording_the_last_file_is_not_compressed(
 
 
 @STORAGES
-def test_messages_that_are_compressed_are_read(tmp_path: Path, storage: str) -> None:
+@pytest.mark.parametrize('is_killed', [False, True])
+def test_messages_that_are_compressed_are_read(
+    tmp_path: Path, storage: str, is_killed: bool
+) -> None:
     writer = opened_writer(tmp_path / 'bag', 'n', storage_id=storage)
     for number in range(3):
         writer.write('n', zstandard.compress(string(number)), number)
     writer.write('n', b'\x28\xb5\x2f\xfd\xe0' + bytes(7) + b'\x7f', 3)  # of 2**63 bytes
     writer.close()
-    tell(tmp_path / 'bag', compression_format='zstd', compression_mode='MESSAGE')
+    if is_killed:
+        (tmp_path / 'bag' / 'metadata.yaml').unlink()
+    else:
+        tell(tmp_path / 'bag', compression_format='zstd', compression_mode='MESSAGE')
     reader = opened_reader(tmp_path / 'bag')
     assert [reader.read_next()[1] for _ in range(3)] == [string(number) for number in range(3)]
     with pytest.raises(RuntimeError, match=r"'.*' has a message that cannot be decompressed: "):

@@ -149,7 +149,9 @@ class SequentialReader:
         if not self.has_next() or self._next is None:
             raise BagError('The bag has no further message: ask has_next() before read_next()')
         message, self._next = self._next, None
-        if self._metadata.compression_mode.lower() == 'message':
+        is_compressed = self._metadata.compression_mode.lower() == 'message'
+        # a recording that was killed has no metadata that says so
+        if is_compressed or message.data.startswith(compression.MAGIC):
             data = compression.decompressed(message.data, self._opened().path)
             message = message._replace(data=data)
         self._key = message.key

@@ -13,6 +13,8 @@ from rosbag2_py.storages.interface import Storage, StoredFile
 
 SUFFIX = '.zstd'
 """What the name of a file has behind its own, where it was compressed as a whole."""
+MAGIC = b'\x28\xb5\x2f\xfd'
+"""What compressed bytes begin with; those of a message in CDR begin with 0."""
 _LEVEL = 1  # that of upstream, the fastest
 
 
