@@ -140,7 +140,7 @@ def test_arguments_of_markup_files_can_be_listed(launch_file: LaunchFile) -> Non
         ('<launch>\n\n<log/></launch>', 3, "Attribute 'message' of type 'str' not found in Enti"),
         ('<launch>\n<log message="" x=""/></launch>', 2, r'Unexpected attribute\(s\) .*`log`: x'),
         ('<launch>\n<log message=""><x/></log></launch>', 2, r'Unexpected nested tag\(s\) .* x'),
-        ('<launch>\n<log>hi</log></launch>', 2, "unexpected text 'hi' in element 'log'"),
+        ('<launch>\n<log>hi</log></launch>', 2, "the text 'hi' in it is passed over: values"),
         ('<launch>\n<log\n</launch>', 3, 'XML syntax error: not well-formed'),
         ('<launch>\n<log message="$(var"/></launch>', 2, 'missing \\)'),
         ('<launch>\n<group if="1" unless="1"/></launch>', 2, "can't be used simultaneously"),
@@ -206,6 +206,25 @@ def test_errors_in_python_name_file_and_line(
     assert str(path) in describe_error(caught.value)
     if line is not None:
         assert describe_error(caught.value).endswith(f'(at {path}:{line})')
+
+
+@pytest.mark.parametrize(
+    ('text', 'name'),
+    [
+        ('<launch version="0.1.0"><log message="b"/></launch>', 'a.launch.xml'),
+        ('<launch>stray><log message="b"/>></launch>', 'a.launch.xml'),
+        ('launch:\n- log: {message: a, message: b}', 'a.launch.yaml'),
+        ('launch:\n- log: &a {message: a}\n- log: {<<: *a, message: b}', 'a.launch.yaml'),
+        ('launch:\n  version: 1\n  children: [{log: {message: b}}]', 'a.launch.yaml'),
+    ],
+)
+def test_what_upstream_passes_over_is_no_error(
+    text: str, name: str, launch_file: LaunchFile
+) -> None:
+    path = launch_file(text, name)
+    log = get_launch_description_from_any_launch_file(str(path)).entities[-1]
+    assert isinstance(log, LogInfo)
+    assert perform_substitutions(LaunchContext(), log.msg) == 'b'
 
 
 @pytest.mark.parametrize('name', ['a.launch.py', 'a.launch.xml', 'a.launch.yaml'])

@@ -68,15 +68,6 @@ class Entity(BaseEntity):
     """One XML element, whose attributes are read as the wanted types."""
 
     def __init__(self, xml_element: Element, *, parent: Entity | None = None) -> None:
-        text = xml_element.text.strip()
-        if text:
-            raise located_error(
-                ValueError(
-                    f"unexpected text '{text}' in element '{xml_element.tag}': values are "
-                    'attributes'
-                ),
-                xml_element.location,
-            )
         self.__xml = xml_element
         self.type_name = xml_element.tag
         self.parent = parent
@@ -107,6 +98,10 @@ class Entity(BaseEntity):
         news = [f'{each} of ROS 1 is {_OF_ROS_1[self.type_name, each]} now' for each in old]
         return f' ({", ".join(news)})' if news else ''
 
+    def __hint_at_text(self) -> str:
+        text = ' '.join(self.__xml.text.split())  # as upstream, it counts for nothing
+        return f" (the text '{text}' in it is passed over: values are attributes)" if text else ''
+
     def get_attr(
         self,
         name: str,
@@ -128,7 +123,7 @@ class Entity(BaseEntity):
             kind = getattr(data_type, '__name__', data_type)
             raise AttributeError(
                 f"Attribute '{name}' of type '{kind}' not found in Entity '{self.type_name}'"
-                f'{self.__hint(self.__xml.attributes)}'
+                f'{self.__hint(self.__xml.attributes) or self.__hint_at_text()}'
             )
         return value
 

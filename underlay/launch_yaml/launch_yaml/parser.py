@@ -22,12 +22,7 @@ class _LocatedDict(dict[Any, Any]):
 
 class _Loader(yaml.SafeLoader):
     def construct_located(self, node: yaml.MappingNode) -> _LocatedDict:
-        self.flatten_mapping(node)
         mapping = _LocatedDict(self.construct_mapping(node, deep=True))
-        if len(mapping) != len(node.value):
-            raise yaml.constructor.ConstructorError(
-                None, None, 'a key is given twice', node.start_mark
-            )
         mapping.line = node.start_mark.line + 1
         return mapping
 

@@ -95,7 +95,7 @@ class Parser:
                 raise RuntimeError(f"Expected 'launch' as root tag, got '{entity.type_name}'")
             actions = [self.parse_action(child) for child in entity.children]
             deprecated = entity.get_attr('deprecated', optional=True)
-            entity.assert_entity_completely_parsed()
+            # As upstream, other attributes are passed over: many files have a version.
         except Exception as error:
             attach_location(error, entity.location)
             raise
