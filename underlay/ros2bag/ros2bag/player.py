@@ -8,6 +8,7 @@ from collections.abc import Collection
 from typing import Any
 
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from ros2cli import discovery, interfaces
 from ros2cli.errors import CommandError
@@ -31,7 +32,9 @@ def publishers_of(
     """
     Return a publisher for each topic whose type is installed; say which are left out.
 
-    :raises CommandError: there are topics, but no type of theirs is installed.
+    So is one with a name that ROS 2 does not take, as bags have that were made of those of ROS 1.
+
+    :raises CommandError: there are topics, but all are left out.
     """
     publishers, reasons = {}, []
     for topic in topics:
@@ -40,10 +43,15 @@ def publishers_of(
         name = remaps.get(full_name, topic.name)
         try:
             message_class = interfaces.message(topic.type)
+            publishers[topic.name] = node.node.create_publisher(message_class, name, qos)
         except CommandError as error:
             reasons.append(f"Topic '{topic.name}' is left out: {error}")
-            continue
-        publishers[topic.name] = node.node.create_publisher(message_class, name, qos)
+        except InvalidTopicNameException:
+            reasons.append(
+                f"Topic '{topic.name}' is left out: '{name}' is no name of a topic: letters, "
+                'digits and _ between /, no digit behind /; '
+                f"--remap '{full_name}:=/NAME' gives it one"
+            )
     if reasons and not publishers:
         raise CommandError('; '.join(reasons))
     for reason in reasons:

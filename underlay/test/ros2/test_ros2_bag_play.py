@@ -66,19 +66,20 @@ def write_bag(tmp_path: Path) -> Callable[..., Path]:
     return write
 
 
-def test_a_topic_of_unknown_type_is_left_out(
+def test_a_topic_of_unknown_type_or_wrong_name_is_left_out(
     write_bag: Callable[..., Path], processes: Any, ros2: Callable[..., Any]
 ) -> None:
-    bag = write_bag({'/strange': UNKNOWN, '/chatter': STRING})
+    bag = write_bag({'/strange': UNKNOWN, '/chatter': STRING, '/of-ros-1': STRING})
     listener = processes.node('listener', 'listener')
     played = ros2('bag', 'play', str(bag))
     assert played.status == 0
-    assert played.err.count('\n') == 2
+    assert played.err.count('\n') == 3
     assert '[WARN] [' in played.err
-    assert f"Playing 1 of 2 topics in '{bag}', 0.1 s long, at rate 1; Ctrl-C ends it" in played.err
+    assert f"Playing 1 of 3 topics in '{bag}', 0.1 s long, at rate 1; Ctrl-C ends it" in played.err
+    assert "Topic '/of-ros-1' is left out: '/of-ros-1' is no name of a topic: " in played.err
     assert "Topic '/strange' is left out: " in played.err
     assert "package 'not_installed_msgs' not found" in played.err
-    for number in (1, 3, 5):
+    for number in (1, 4):
         find_line(listener.stdout, f'^heard number {number}$')
 
 
