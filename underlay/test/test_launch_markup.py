@@ -37,7 +37,7 @@ XML = """
       <group if="$(equals $(var mode) fast)">
         <log message="quick"/>
       </group>
-      <group unless="$(equals $(var mode) fast)" scoped="true">
+      <group unless="$(equals $(var mode) fast)" scoped="$(not false)">
         <let name="greeting" value="inside"/>
         <log message="$(var greeting)"/>
       </group>
@@ -71,6 +71,7 @@ YAML = """
           output: screen
           emulate_tty: true
           sigterm_timeout: 1.0
+          respawn: 'false'
           respawn_delay: 1.0
           env:
             - {name: A, value: b}

@@ -102,8 +102,10 @@ class ExecuteProcess(ExecuteLocal):
         for attribute, kind in _TYPED.items():
             if attribute not in ignored:
                 value = entity.get_attr(attribute, data_type=kind, optional=True)
+                if isinstance(value, str):  # as 'true' in YAML: what it means is found when run
+                    value = parser.parse_substitution(value)
                 if value is not None:
-                    kwargs[attribute] = parser.parse_if_substitutions(value)
+                    kwargs[attribute] = value
         if 'on_exit' not in ignored:
             on_exit = entity.get_attr('on_exit', optional=True)
             if on_exit == 'shutdown':

@@ -50,9 +50,9 @@ class GroupAction(Action):
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         kwargs = super().parse(entity, parser)[1]
         for name in ('scoped', 'forwarding'):
-            value = entity.get_attr(name, data_type=bool, optional=True, can_be_str=False)
+            value = entity.get_attr(name, data_type=bool, optional=True)
             if value is not None:
-                kwargs[name] = value
+                kwargs[name] = bool(value)  # a text, as $(var x), is true in upstream, too
         kept = parser.parse_pairs(entity, 'keep', 'name', 'value')
         kwargs['launch_configurations'] = {tuple(name): value for name, value in kept}
         kwargs['actions'] = [
