@@ -210,9 +210,10 @@ def test_interfaces_are_listed_by_kind(
     ]
     for option, found in (('-m', 'msg/Num'), ('-s', 'srv/Add'), ('--only-actions', 'action/Go')):
         assert ros2('interface', 'package', 'kinds', option).lines == [f'kinds/{found}']
-    missing = ros2('interface', 'package', 'std_svs')
-    assert missing.status == 1
-    assert missing.err.startswith("Unknown package 'std_svs': ")
+    for wrong in ('std_svs', 'std_srvs/'):  # the Tab key writes the latter beside such a folder
+        missing = ros2('interface', 'package', wrong)
+        assert missing.status == 1
+        assert missing.err.startswith(f"Unknown package '{wrong}': ")
     assert 'std_srvs' in ros2('interface', 'packages', '-s').lines
     assert 'std_srvs' not in ros2('interface', 'packages', '-m').lines
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ament_index_python import InvalidResourceNameError
 from ros2_diagnosis import packages
 from ros2cli import arguments
 from ros2cli.errors import CommandError
@@ -26,9 +27,10 @@ class PackageVerb(VerbExtension):
         for interfaces in chosen:
             try:
                 found = interfaces([args.package_name])
-            except LookupError as error:
-                why = packages.why_missing(args.package_name)
-                raise CommandError(f'{error.args[0]}: {why}') from None
+            except (LookupError, InvalidResourceNameError):  # the latter of std_msgs/
+                name = args.package_name
+                why = packages.why_missing(name)
+                raise CommandError(f"Unknown package '{name}': {why}") from None
             for package, names in found.items():
                 for name in names:
                     print(f'{package}/{name}')
