@@ -17,6 +17,8 @@ _TURNING = ('revolute', 'continuous')
 _SLIDING = 'prismatic'
 _STANDING = ('fixed', 'floating', 'planar')
 _LIMITED = ('revolute', _SLIDING)
+# Of what stands it is not read, as by upstream's parser: what SolidWorks exports has 0 0 0 there.
+_NO_AXIS = (0.0, 0.0, 0.0)
 _XACRO = '{http://www.ros.org/wiki/xacro}'
 
 
@@ -39,7 +41,7 @@ class Joint:
     What holds one link to another.
 
     :param origin: where the child's frame is in the parent's, while the position is 0.
-    :param axis: in the child's frame; of length 1.
+    :param axis: in the child's frame, of length 1; of no joint that stands.
     """
 
     name: str
@@ -133,11 +135,6 @@ def _joint(element: Element) -> Joint:
         raise UrdfError(f"{where}: the type '{kind}' is unknown; there are {allowed}")
     if kind in _LIMITED and element.find('limit') is None:
         raise UrdfError(f'{where}: a {kind} joint needs a <limit>')
-    axis = _vector(element.find('axis'), 'xyz', where, (1.0, 0.0, 0.0))
-    length = math.hypot(*axis)
-    if length == 0.0:
-        raise UrdfError(f'{where}: <axis xyz="0 0 0"> has no direction')
-    x, y, z = axis
     origin = element.find('origin')
     angles = _vector(origin, 'rpy', where)
     mimic = element.find('mimic')
@@ -147,9 +144,17 @@ def _joint(element: Element) -> Joint:
         _attribute(_child(element, 'parent', where), 'link', f'{where}: <parent>'),
         _attribute(_child(element, 'child', where), 'link', f'{where}: <child>'),
         Motion(of_angles(*angles), _vector(origin, 'xyz', where)),
-        (x / length, y / length, z / length),
+        _NO_AXIS if kind in _STANDING else _axis(element, where),
         None if mimic is None else _mimic(mimic, where),
     )
+
+
+def _axis(element: Element, where: str) -> Vector:
+    x, y, z = _vector(element.find('axis'), 'xyz', where, (1.0, 0.0, 0.0))
+    length = math.hypot(x, y, z)
+    if length == 0.0:
+        raise UrdfError(f'{where}: <axis xyz="0 0 0"> has no direction')
+    return (x / length, y / length, z / length)
 
 
 def _mimic(element: Element, where: str) -> Mimic:

@@ -33,7 +33,7 @@ ARM = """<?xml version='1.0'?>
   <link name='base'/> <link name='mast'/> <link name='boom'/> <link name='hand'/>
   <link name='tool'/> <link name='free'/>
   <joint name='stands' type='fixed'>
-    <parent link='base'/> <child link='mast'/> <origin xyz='0 0 HEIGHT'/>
+    <parent link='base'/> <child link='mast'/> <origin xyz='0 0 HEIGHT'/> <axis xyz='0 0 0'/>
   </joint>
   <joint name='turns' type='continuous'>
     <parent link='mast'/> <child link='boom'/> <origin xyz='1 0 0' rpy='0 0 1.5707963267948966'/>
