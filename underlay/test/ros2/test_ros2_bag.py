@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import closing
 import importlib
 from itertools import islice
@@ -254,16 +254,26 @@ def _read(file: Path) -> list[tuple[str, bytes, int]]:
     return found
 
 
-def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
-    file = tmp_path / 'run.mcap'
+def _write_mcap(file: Path, times_ns: Iterable[int]) -> None:
     with file.open('wb') as stream:
         writer = Writer(stream, chunk_size=500)
         writer.start()
         schema = writer.register_schema('std_msgs/msg/String', 'ros2msg', b'string data')
         channel = writer.register_channel('/chatter', 'cdr', schema)
-        for number in range(100):
-            writer.add_message(channel, number, b'message %d' % number, number)
+        for time_ns in times_ns:
+            writer.add_message(channel, time_ns, b'message %d' % time_ns, 0)
         writer.finish()
+
+
+def test_a_time_that_ros_has_not_is_a_damage(tmp_path: Path) -> None:
+    _write_mcap(tmp_path / 'run.mcap', [1, 2**63])
+    with pytest.raises(BagError, match=r"as MCAP: a message of '/chatter' is of after the year"):
+        _read(tmp_path / 'run.mcap')
+
+
+def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
+    file = tmp_path / 'run.mcap'
+    _write_mcap(file, range(100))
     whole = file.read_bytes()
     assert len(_read(file)) == 100
     refused = 0

@@ -36,6 +36,7 @@ from rosbag2_py.storages.interface import Contents, Key, Span, Start, StoredFile
 
 _RECORD_HEAD = 9
 _CHUNK_HEAD = 40
+_END_OF_TIME_NS = 2**63  # of ROS; that of MCAP is twice as far
 _FIRST = float('-inf')
 
 
@@ -246,6 +247,8 @@ class McapFile(StoredFile):
 
 def _stored(key: Key, message: Message, topics: dict[int, str]) -> StoredMessage:
     topic = topics[message.channel_id]
+    if message.log_time >= _END_OF_TIME_NS:
+        raise ValueError(f"a message of '{topic}' is of after the year 2262: it is damaged")
     return StoredMessage(key, topic, message.data, message.log_time, message.publish_time)
 
 
