@@ -6,6 +6,7 @@ from husky_course.outline import Outline
 from husky_course.route import plan_route
 from husky_course.route.survey import survey_route
 from husky_course.waypoints import parse_course
+import pytest
 
 
 def test_what_is_in_the_way_is_named_in_the_order_of_the_way() -> None:
@@ -18,3 +19,19 @@ def test_what_is_in_the_way_is_named_in_the_order_of_the_way() -> None:
     found = survey_route(route, obstacles)
     assert found.touched == ('near', 'far', 'after')
     assert [near.waypoint for near in found.near] == [1, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ('text', 'place', 'waypoints'),
+    [
+        ('waypoints:\n- [0, 2]\n- [0, 5]\n- [3, 5]', (0.0, -0.55), [0]),  # at the start
+        ('waypoints:\n- [0, 0]\n- [0, 5]\n- [3, 5]', (0.0, -0.55), [1]),
+        ('waypoints:\n- [0, 0]\n- {x: 4, y: 0, yaw: 1.57}\n- [4, 5]', (4.0, -0.5), [1, 2]),
+    ],
+)
+def test_a_turn_on_the_spot_belongs_to_the_way_that_follows(
+    text: str, place: tuple[float, float], waypoints: list[int]
+) -> None:
+    post = Outline(name='post', x=place[0], y=place[1], yaw=0.0, size=(0.05,))
+    found = survey_route(plan_route(parse_course(text)), [post]).near
+    assert [near.waypoint for near in found] == waypoints, [str(near) for near in found]

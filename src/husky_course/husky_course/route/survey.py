@@ -114,7 +114,7 @@ def poses_along(route: Route, start: Pose) -> tuple[Array, Indices]:
     for leg in route.begun_at((0.0, 0.0)).legs:
         turn = _turn(leg.curve.x[0], leg.curve.y[0], heading, leg.begin_yaw_rad)
         poses += turn
-        numbers += [leg.first] * len(turn)
+        numbers += [leg.first + 1] * len(turn)
         for pose, number in _drive(leg):
             poses.append(pose)
             numbers.append(number)
