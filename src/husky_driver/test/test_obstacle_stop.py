@@ -65,6 +65,23 @@ def test_it_looks_only_as_far_as_it_needs_to_stop() -> None:
     assert seen(scan_of((1.4, 0.0)), speed_m_s=1.0) is not None
 
 
+def test_it_looks_to_where_the_bumper_gets_in_any_frame() -> None:
+    x, y, yaw = 3.0, -4.0, 2.0  # and the path ends 0.5 m ahead
+    ahead, aside = (math.cos(yaw), math.sin(yaw)), (-math.sin(yaw), math.cos(yaw))
+    path = smooth_curve([(x, y), (x + 0.5 * ahead[0], y + 0.5 * ahead[1])])
+
+    def found(*point: float) -> Sighting | None:
+        scan = Scan(0.0, scan_of((point[0], point[1])), FIRST, STEP)
+        return look_along(scan, (x, y, yaw), path, 0.0, 1.0)
+
+    assert found(1.45, 0.0) is None, 'it stops before that'
+    seen = found(1.05, 0.35)
+    assert seen is not None
+    assert seen.ahead_m == pytest.approx(math.hypot(1.05, 0.35) - FRONT_M, abs=0.01)
+    place = (1.05 * ahead[k] + 0.35 * aside[k] for k in (0, 1))
+    assert (seen.x_m - x, seen.y_m - y) == pytest.approx(tuple(place), abs=0.01)
+
+
 def test_a_wall_beside_a_bend_does_not_block_the_bend() -> None:
     bend = smooth_curve([(0, 0), (1, 0), (1.7, 0.7), (1.7, 2)])
     wall = scan_of(*[(2.3, y / 20) for y in range(-10, 20)])
@@ -125,8 +142,12 @@ def test_a_laser_farther_back_sees_what_is_nearer() -> None:
         assert f'{ahead_m:.2f} m ahead' in stop.update(10.0)
 
 
+def waiting_drive() -> Drive:
+    return Drive(plan_route(parse_course('waypoints: [[0, 0], [9, 0]]')))
+
+
 def test_without_scans_the_robot_stands() -> None:
-    stop, waiting = ObstacleStop(), Drive(plan_route(parse_course('waypoints: [[0, 0], [9, 0]]')))
+    stop, waiting = ObstacleStop(), waiting_drive()
     stop.update(10.0)
     stop.add_scan(scan_at(10.0, (0.65, 0.0)), waiting)  # not on its way yet: no obstacle
     assert (stop.update(10.9), stop.holds) == ('', False)
@@ -136,6 +157,10 @@ def test_without_scans_the_robot_stands() -> None:
     assert stop.update(11.2) == 'the way is free: driving on'
     assert stop.update(1.0) == ''  # the simulator was reset
     assert stop.holds
+    stop.add_scan(scan_at(1.0, (0.65, 0.0)), driving())
+    assert stop.update(1.0).startswith('stopping: ')
+    stop.add_scan(scan_at(1.1, (0.65, 0.0)), waiting)
+    assert stop.update(1.1) == 'the way is free: driving on', 'of another course'
 
 
 def test_scans_that_measure_nothing_do_not_tell_that_the_way_is_free() -> None:
@@ -161,3 +186,8 @@ def test_it_waits_a_minute_and_no_longer() -> None:
         stop.update(tenth / 10)
         assert (stop.complaint != '') == (tenth >= 600)
     assert stop.complaint.startswith('stood for 60 s: standing: no scan comes')
+    stop.add_scan(scan_at(61.0), waiting_drive())
+    stop.update(61.0)
+    assert stop.complaint == '', 'it has driven since'
+    stop.update(100.0)
+    assert stop.complaint == '', 'it has stood for less than a minute'
