@@ -96,6 +96,7 @@ def test_each_collision_costs_a_factor_and_fails_the_run(make_record: Make) -> N
     assert report.completed
     assert not report.passed
     assert report.score == pytest.approx(100 * 0.65**2)
+    assert report.parts[1].why == 'touched 2 times: cone'
     assert 'touched cone with its base at 1.00 s, with 12 N' in report.reasons
 
 
@@ -122,6 +123,11 @@ def test_a_run_that_never_stops_is_not_completed(make_record: Make) -> None:
     assert report.waypoints_reached == 3
     assert not report.completed
     assert any('did not stop: still driving 0.50 m/s' in reason for reason in report.reasons)
+    completion = report.parts[0]
+    assert completion.factor == pytest.approx(0.8)
+    assert completion.why == (
+        '3 of 3 waypoints reached in order; not standing at the last waypoint in the end'
+    )
 
 
 def test_one_that_turned_over_is_told_when_and_where(make_record: Make) -> None:
@@ -245,8 +251,10 @@ def test_one_that_is_pushed_back_is_not_said_to_drive_so(make_record: Make) -> N
     for ahead, said in ((0.5, False), (-0.5, True)):
         asked = [0.5] * 300 + [ahead] * (len(places) - 300)
         record = make_record(places, speed_m_s=speed, command_speed_m_s=asked)
-        reasons = judge(read_run(record), STRAIGHT).reasons
-        assert any('backwards' in line for line in reasons) is said
+        report = judge(read_run(record), STRAIGHT)
+        assert any('backwards' in line for line in report.reasons) is said
+        assert report.parts[-1].factor == pytest.approx(1 - 0.5 * 0.25, abs=0.01)
+        assert report.parts[-1].why.endswith('; 25% of the way in the wrong direction')
 
 
 AWAY = '[[6, 0], [6, 2], [3, 2], [3, 0.3]]'
@@ -365,6 +373,7 @@ def test_the_reports_time_begins_with_the_first_command(make_record: Make) -> No
     (touch,) = report.collisions
     assert touch.time_sec == pytest.approx(1.0, abs=0.03)
     assert 'touched cone with its base at 1.00 s, with 12 N' in report.reasons
+    assert report.parts[1].why == 'touched once: cone'
     assert report.sim_time_sec == pytest.approx(8.0, abs=0.05)
 
 
