@@ -116,13 +116,15 @@ def test_stopping_early_is_not_completed_and_says_where(make_record: Make) -> No
     assert 'stopped at (2.50, 0.00), 1.50 m from the last waypoint' in report.reasons[1]
 
 
-def test_a_run_that_never_stops_is_not_completed(make_record: Make) -> None:
+@pytest.mark.parametrize('speed_m_s', [SPEED_M_S, -SPEED_M_S])
+def test_a_run_that_never_stops_is_not_completed(make_record: Make, speed_m_s: float) -> None:
     places = along((0, 0), (4, 0), (4.2, 0))[:-10]
-    record = make_record(places, speed_m_s=[SPEED_M_S] * len(places))
+    record = make_record(places, speed_m_s=[speed_m_s] * len(places))
     report = judge(read_run(record), STRAIGHT)
     assert report.waypoints_reached == 3
     assert not report.completed
-    assert any('did not stop: still driving 0.50 m/s' in reason for reason in report.reasons)
+    told = f'did not stop: still driving {speed_m_s:.2f} m/s when the run ended'
+    assert told in report.reasons, report.reasons
     completion = report.parts[0]
     assert completion.factor == pytest.approx(0.8)
     assert completion.why == (
@@ -149,6 +151,20 @@ def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make
         assert 'no command but zero arrived' in report.reasons[0]
 
 
+@pytest.mark.parametrize(
+    ('column', 'said'),
+    [
+        ('command_yaw_rate_rad_s', 'it was only told to turn (linear.x was always 0)'),
+        ('command_speed_m_s', 'it never moved, although it was told to'),
+    ],
+)
+def test_one_that_was_told_to_move_and_did_not_is_told_how(
+    make_record: Make, column: str, said: str
+) -> None:
+    record = make_record([(0.0, 0.0)] * 50, **{column: [0.0] * 49 + [-0.5]})
+    assert said in judge(read_run(record), STRAIGHT).reasons[0]
+
+
 CLOSED = plan_route(parse_course('speed: 0.5\nwaypoints: [[0, 0], [2, 0], [2, 2], [0, 0]]'))
 
 
@@ -169,11 +185,12 @@ def test_a_course_that_ends_where_it_begins_is_driven(make_record: Make) -> None
 def test_one_visit_counts_for_one_way_past_a_place(make_record: Make) -> None:
     there_and_back = '[[0, 0], [1, 0], [2, 0], [3, 0], [2, 0], [1, 0], [0, 0]]'
     route = plan_route(parse_course(f'speed: 0.5\nwaypoints: {there_and_back}'))
-    visits = [
-        judge(read_run(make_record(along((0, 0), *run))), route).waypoints_reached
+    reports = [
+        judge(read_run(make_record(along((0, 0), *run))), route)
         for run in (((1, 0),), ((3, 0),), ((3, 0), (1, 0)), ((3, 0), (0, 0)))
     ]
-    assert visits == [2, 4, 6, 7]
+    assert [report.waypoints_reached for report in reports] == [2, 4, 6, 7]
+    assert reports[0].reasons[3] == '... and 2 more waypoints', reports[0].reasons
 
 
 def test_near_waypoints_are_reached_in_one_visit(make_record: Make) -> None:
