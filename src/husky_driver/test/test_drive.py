@@ -157,30 +157,41 @@ def test_a_distance_is_driven_from_any_start_pose(
 
 
 @pytest.mark.parametrize(
-    ('to', 'why', 'asked'),
+    ('to', 'after_sec', 'why'),
     [
         (
             '[2, 0]',
-            'the robot does not move: told to drive 0.50 m/s',
-            'stayed at (0.00, 0.00); does an emergency stop (e_stop) hold it?',
+            4.5,
+            'the robot does not move: told to drive 0.50 m/s and turn 0.00 rad/s, but for 4 s its '
+            'odometry has stayed at (0.10, 0.00); does an emergency stop (e_stop) hold it?',
         ),
         (
             '[-2, 0]',
-            'the wheels slip: told to turn',
-            'battery empty, or its emergency stop (e_stop) pressed?',
+            1.5,
+            'the wheels slip: told to turn 2.00 rad/s, but it turns 0.00 rad/s; is something in '
+            'its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) pressed?',
         ),
     ],
 )
 def test_a_robot_that_does_not_move_is_given_up_with_a_message(
-    to: str, why: str, asked: str
+    to: str, after_sec: float, why: str
 ) -> None:
     drive = drive_of(parse_course(f'waypoints: [[0, 0], {to}]'))
-    periods = 0
-    while drive.step(Odometry(periods * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0)) is not None:
+    periods, stands = 0, Odometry(0.0, 0.1, 0.0, 0.0, 0.0, 0.0)
+    while not drive.failure:
+        drive.step(stands._replace(time_sec=periods * 0.02))
         periods += 1
         assert periods < 1000
-    assert why in drive.failure
-    assert drive.failure.endswith(asked)
+    assert drive.failure == why
+    assert periods * 0.02 == pytest.approx(after_sec, abs=0.1)
+
+
+def test_the_time_in_which_no_odometry_comes_is_no_standing_still() -> None:
+    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
+    for begin in (0, 150, 300):  # three times two seconds
+        for period in range(begin, begin + 100):
+            drive.step(Odometry(period * 0.02, 0.0, 0.0, 0.0, 0.0, 0.0))
+    assert drive.failure == ''
 
 
 def test_one_that_gave_up_is_stopped_until_it_stays_at_rest() -> None:

@@ -222,6 +222,7 @@ def test_one_that_turns_on_at_the_end_is_told_so(make_record: Make) -> None:
     report = judge(read_run(make_record(run, yaw_rate_rad_s=turning)), STRAIGHT)
     assert not report.passed
     assert report.reasons == ('did not stop: still turning 0.80 rad/s when the run ended',)
+    assert report.sim_time_sec == pytest.approx(18.2, abs=0.05), 'it turned to the end'
 
 
 def test_a_loop_that_is_not_ended_at_its_beginning_says_so(make_record: Make) -> None:
@@ -231,6 +232,7 @@ def test_a_loop_that_is_not_ended_at_its_beginning_says_so(make_record: Make) ->
         'missed waypoint 5 at (0, 0): a loop is to end there',
         'stopped at (0.00, -0.50), 0.50 m from the last waypoint',
     )
+    assert report.parts[0].factor == pytest.approx(3 / 4 * 0.8)
 
 
 def test_a_near_miss_is_told_with_enough_digits(make_record: Make) -> None:
@@ -359,6 +361,8 @@ def test_driving_faster_than_asked_costs_points(make_record: Make) -> None:
 def test_driving_slowly_costs_points_in_proportion(make_record: Make) -> None:
     report = judge(read_run(make_record(along((0, 0), (4, 0), speed_m_s=0.3))), STRAIGHT)
     assert report.parts[2].factor == pytest.approx(1.15 * 9.0 / 13.33, abs=0.02)
+    report = judge(read_run(make_record(along((0, 0), (4, 0), speed_m_s=0.1))), STRAIGHT)
+    assert report.parts[2].factor == 0.5, 'that is the least'
 
 
 def test_a_start_elsewhere_moves_the_course_with_it(make_record: Make) -> None:
