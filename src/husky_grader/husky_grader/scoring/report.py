@@ -33,7 +33,7 @@ score = 100 x completion x {COLLISION_FACTOR} per collision x time x tracking x 
               times {NOT_STOPPED_FACTOR} unless the robot stands at the last one in the end
   time        1 within {TIME_ALLOWANCE} x the time at the asked speed, that to the first waypoint
               as well, then in proportion, not below {MIN_TIME_FACTOR};
-              times 1 - {1 - TOO_FAST_FACTOR} x the share driven too fast
+              times 1 - {1 - TOO_FAST_FACTOR} x the share of the time driven too fast
   tracking    1 up to {FULL_TRACKING_M:.2f} m RMS off the path, 0 from {NO_TRACKING_M:.2f} m;
               times 1 - {1 - WRONG_WAY_FACTOR} x the share driven backwards where the course asks
               for forwards, or forwards where it asks for backwards (reverse: true)
@@ -147,7 +147,7 @@ def _time(measured: Measurement, route_par_sec: float, lead_in_sec: float) -> tu
     why = f'{needed_sec:.{digits}f} s, full marks up to {allowed:.{digits}f} s'
     if measured.too_fast > 0.005:
         factor *= 1.0 - (1.0 - TOO_FAST_FACTOR) * measured.too_fast
-        why += f'; {measured.too_fast:.0%} of the path faster than asked'
+        why += f'; {measured.too_fast:.0%} of the time faster than asked'
     return factor, why
 
 
