@@ -171,6 +171,18 @@ def test_a_distance_is_driven_from_any_start_pose(
             'the wheels slip: told to turn 2.00 rad/s, but it turns 0.00 rad/s; is something in '
             'its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) pressed?',
         ),
+        (
+            '{x: -2, y: 0, reverse: true}',
+            4.5,
+            'the robot does not move: told to drive -0.50 m/s and turn 0.00 rad/s, but for 4 s '
+            'its odometry has stayed at (0.10, 0.00); does an emergency stop (e_stop) hold it?',
+        ),
+        (
+            '[-2, -0.5]',
+            1.5,
+            'the wheels slip: told to turn -2.00 rad/s, but it turns 0.00 rad/s; is something in '
+            'its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) pressed?',
+        ),
     ],
 )
 def test_a_robot_that_does_not_move_is_given_up_with_a_message(
