@@ -46,9 +46,11 @@ def test_what_is_no_number_is_named(field: str, value: float) -> None:
     [
         ({'x_m': 5.5}, 'it jumps 0.50 m in 0.02 s, from (5.00, 2.00) to (5.50, 2.00)'),
         ({'yaw_rad': 2.0}, 'it jumps by 1.00 rad of yaw in 0.02 s'),
+        ({'yaw_rad': 0.0}, 'it jumps by -1.00 rad of yaw in 0.02 s'),
         ({'time_sec': 29.98}, 'goes back from 30.00 s to 29.98 s, which is no reset'),
         ({'time_sec': 0.5, 'speed_m_s': 0.8}, 'which is no reset'),
         ({'time_sec': 12.0, 'speed_m_s': 0.0}, 'which is no reset'),
+        ({'time_sec': 0.5, 'speed_m_s': 0.0, 'yaw_rate_rad_s': -0.8}, 'which is no reset'),
     ],
 )
 def test_what_no_husky_can_do_is_named(changes: dict[str, float], said: str) -> None:
@@ -75,6 +77,12 @@ def test_a_reset_is_accepted_however_early(before: int) -> None:
 def test_a_stamp_far_ahead_is_named() -> None:
     said = complaint(DRIVING, moved(time_sec=130.0))
     assert said == 'its stamp jumps ahead from 30.00 s to 130.00 s'
+
+
+def test_a_stamp_that_returns_after_a_reset_is_named() -> None:
+    reset = Odometry(0.02, 0.0, 0.0, 0.0, 0.0, 0.0)
+    said = complaint(DRIVING, reset, moved(time_sec=30.04))
+    assert said == 'its stamp jumps to and fro between 0.02 s and 30.04 s'
 
 
 @settings(max_examples=50)
