@@ -168,8 +168,9 @@ def test_a_distance_is_driven_from_any_start_pose(
         (
             '[-2, 0]',
             1.5,
-            'the wheels slip: told to turn 2.00 rad/s, but it turns 0.00 rad/s; is something in '
-            'its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) pressed?',
+            'the wheels slip: told to turn 2.00 rad/s, but it turns 0.00 rad/s; is something '
+            'in its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) '
+            'pressed?',
         ),
         (
             '{x: -2, y: 0, reverse: true}',
@@ -180,8 +181,9 @@ def test_a_distance_is_driven_from_any_start_pose(
         (
             '[-2, -0.5]',
             1.5,
-            'the wheels slip: told to turn -2.00 rad/s, but it turns 0.00 rad/s; is something in '
-            'its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) pressed?',
+            'the wheels slip: told to turn -2.00 rad/s, but it turns 0.00 rad/s; is something '
+            'in its way near (0.10, 0.00), its battery empty, or its emergency stop (e_stop) '
+            'pressed?',
         ),
     ],
 )

@@ -4,9 +4,10 @@ from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
 
-from husky_grader import tally as tally_module
 from husky_grader.tally import Tally
 import pytest
+
+from husky_grader import tally as tally_module
 
 
 class Unread(StringIO):
