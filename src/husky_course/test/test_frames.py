@@ -15,6 +15,13 @@ def test_ahead_of_a_robot_that_faces_y_is_along_y() -> None:
     assert to_odom(START, 1.0, 5.0) == pytest.approx((3.0, 0.0))
 
 
+def test_ahead_and_left_of_a_robot_that_faces_anywhere() -> None:
+    start = (1.0, 2.0, -math.pi / 6)
+    place = (1.0 + 0.75**0.5 * 2.0 + 0.5, 2.0 - 1.0 + 0.75**0.5)
+    assert to_world(start, 2.0, 1.0) == pytest.approx(place)
+    assert to_odom(start, *place) == pytest.approx((2.0, 1.0))
+
+
 def test_arrays_give_the_same_bits_as_numbers() -> None:
     x = np.linspace(-5.0, 5.0, 101, dtype=np.float64)
     y = np.linspace(3.0, -7.0, 101, dtype=np.float64)
