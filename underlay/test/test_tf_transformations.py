@@ -167,8 +167,10 @@ def test_a_way_between_two_rotations_turns_evenly() -> None:
         yaw = tft.euler_from_quaternion(tft.quaternion_slerp(start, end, fraction))[2]
         assert yaw == pytest.approx(0.2 + 1.2 * fraction)
     opposite = tuple(-each for each in end)  # the same rotation
-    half = tft.quaternion_slerp(start, opposite, 0.5)
-    assert tft.euler_from_quaternion(half)[2] == pytest.approx(0.8)
+    for fraction in (0.25, 0.5):
+        part = tft.quaternion_slerp(start, opposite, fraction)
+        assert np.linalg.norm(part) == pytest.approx(1.0)
+        assert tft.euler_from_quaternion(part)[2] == pytest.approx(0.2 + 1.2 * fraction)
     long = tft.quaternion_slerp(start, opposite, 0.5, shortestpath=False)
     assert tft.euler_from_quaternion(long)[2] == pytest.approx(0.8 - math.pi)
     once_round = tft.quaternion_slerp(start, end, 0.5, spin=2)
@@ -180,8 +182,10 @@ def test_random_rotations_take_a_direction_anywhere() -> None:
     turned = np.array([tft.random_rotation_matrix()[:3, 0] for _ in range(2000)])
     assert np.abs(turned.mean(axis=0)).max() < 0.08  # four sigma
     assert (turned**2).mean(axis=0) == pytest.approx((1 / 3, 1 / 3, 1 / 3), abs=0.03)
-    assert tft.random_quaternion((0.2, 0.3, 0.4)) == pytest.approx(
-        tft.random_quaternion([0.2, 0.3, 0.4])
+    by_upstream = (0.850650808, -0.276393202, 0.262865556, -0.361803399)
+    assert tft.random_quaternion((0.2, 0.3, 0.4)) == pytest.approx(by_upstream)
+    assert tft.random_rotation_matrix((0.2, 0.3, 0.4)) == pytest.approx(
+        tft.quaternion_matrix(by_upstream)
     )
     with pytest.raises(AssertionError, match='three are needed'):
         tft.random_quaternion([0.1])
@@ -322,7 +326,7 @@ def test_lengths_and_directions(numbers: np.random.Generator) -> None:
     for axis in (0, 1):
         wanted = np.linalg.norm(vectors, axis=axis)
         assert tft.vector_norm(vectors, axis=axis) == pytest.approx(wanted)
-        lengths, units = np.empty_like(wanted), vectors.copy()
+        lengths, units = np.full_like(wanted, np.nan), vectors.copy()
         assert tft.vector_norm(vectors, axis=axis, out=lengths) is None
         assert lengths == pytest.approx(wanted)
         assert tft.unit_vector(units, axis=axis, out=units) is None
@@ -342,9 +346,10 @@ def test_a_ball_turns_with_the_mouse() -> None:
     assert ball.matrix() == pytest.approx(tft.identity_matrix())
     ball.drag((110, 100))
     ball.drag((120, 100))
-    before = tft.rotation_from_matrix(ball.matrix())[0]
+    first, second = (2 * math.asin(x) for x in (0.2, 0.4))
+    assert tft.rotation_from_matrix(ball.matrix())[0] == pytest.approx(second)
     ball.next()
-    assert abs(tft.rotation_from_matrix(ball.matrix())[0]) > abs(before)
+    assert tft.rotation_from_matrix(ball.matrix())[0] == pytest.approx(2 * second - first)
 
     held = tft.Arcball(initial=tft.rotation_matrix(0.5, (0, 0, 1)))
     held.place((0, 0), 1)
@@ -355,6 +360,19 @@ def test_a_ball_turns_with_the_mouse() -> None:
     held.drag((0.3, 0.6))
     axis = tft.rotation_from_matrix(held.matrix() @ tft.rotation_matrix(-0.5, (0, 0, 1)))[1]
     assert np.abs(axis) == pytest.approx((0, 0, 1), abs=1e-6)
+    sums = []  # those that upstream's own examples have
+    for axes, pressed, moved in (
+        ((), (500, 250), (475, 275)),
+        (((1, 1, 0), (-1, 1, 0)), (400, 200), (200, 400)),
+    ):
+        ball = tft.Arcball(initial=(0, 0, 0, 1))
+        ball.place((320, 320), 320)
+        ball.setaxes(*axes)
+        ball.setconstrain(bool(axes))
+        ball.down(pressed)
+        ball.drag(moved)
+        sums.append(ball.matrix().sum())
+    assert sums == pytest.approx([3.90583455, 0.2055924])
     assert tft.Arcball([0, 0, 0, 2]).matrix() == pytest.approx(tft.identity_matrix())
     with pytest.raises(ValueError, match='no quaternion and no matrix'):
         tft.Arcball([1, 2, 3])
