@@ -213,6 +213,9 @@ def test_two_trees_have_no_connection() -> None:
     with pytest.raises(TransformException) as general:
         buffer.get_latest_common_time('b', 'd')
     assert str(general.value) == said
+    for frames in (('b', 'nowhere'), ('nowhere', 'd')):
+        with pytest.raises(LookupException, match='"nowhere" passed to get_latest_common_time '):
+            buffer.get_latest_common_time(*frames)
 
 
 @pytest.mark.timeout(20)
