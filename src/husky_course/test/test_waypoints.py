@@ -103,9 +103,20 @@ def test_every_mistake_of_a_file_is_named_at_once_with_its_line() -> None:
         ('waypoints: [[0, 0], [0x1, 1]]', 'waypoints[1].x: 0x1 is not a number; allowed'),
         ('waypoints: [[0, 0], [\u22123, 1]]', 'is not a number (write -3, with the minus'),
         ('waypoints: [[0, 0], [3m, 1]]', 'waypoints[1].x: 3m is not a number (write 3, without'),
-        ('waypoints: [[0, 0], [0, 0.01]]', 'waypoints[1]: 0.010 m from waypoints[0]'),
+        (
+            'waypoints: [[0, 0], [0, 0.01]]',
+            'waypoints[1]: 0.010 m from waypoints[0]; at least 0.05 m',
+        ),
         ('loop: true\nwaypoints: [[0, 0], [1, 0]]', 'waypoints: 2 given; a loop needs at least 3'),
-        ('loop: true\nwaypoints: [[0, 0], [1, 0], [0, 0]]', 'a loop comes back by itself'),
+        (
+            'loop: true\nwaypoints: [[0, 0], [1, 0], [0, 0]]',
+            'waypoints[2]: 0.000 m from waypoints[0]; at least 0.05 m; leave it out, a loop comes '
+            'back by itself',
+        ),
+        (
+            'waypoints: [[0, 0], {x: 1, y: 0, loop: true}]',
+            'waypoints[1]: loop is no field; allowed: x, y, speed, yaw, dwell, reverse',
+        ),
         ('speed: -0.5\nwaypoints: [[0, 0], [1, 0]]', 'to drive backwards write reverse: true'),
         (
             'speed: 0.5\nspeed: 0.6\nwaypoints: [[0, 0], [1, 0]]',
