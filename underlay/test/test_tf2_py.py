@@ -70,6 +70,13 @@ def test_the_latest_is_the_newest_time_that_all_have() -> None:
     assert buffer.lookup_transform_core('b', 'c', LATEST).header.stamp.sec == 0
 
 
+def test_between_two_parents_the_older_one_holds() -> None:
+    buffer = buffer_of(
+        transform('a', 'b', 1.0, (1.0, 0.0, 0.0)), transform('c', 'b', 3.0, (9.0, 0.0, 0.0))
+    )
+    assert x_of(buffer, 'a', 'b', seconds(2.5)) == 1.0
+
+
 def test_a_frame_in_itself_is_nowhere_else_at_its_latest_time() -> None:
     buffer = buffer_of(transform('a', 'b', 4.0, (1.0, 0.0, 0.0)))
     found = buffer.lookup_transform_core('b', 'b', LATEST)
