@@ -15,6 +15,7 @@ from husky_sim.errors import SettingError
 from husky_sim.ros.sensor_topics import new_camera_info, new_image
 from husky_sim.sensors import lidar, navsat
 from husky_sim.sensors.camera import Camera
+from husky_sim.sensors.imu import disturbed, new_noise
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import Simulation
 import mujoco
@@ -92,13 +93,21 @@ def test_the_imu_gives_the_true_orientation(drive: Drive) -> None:
 
 
 def test_noise_has_the_deviation_of_the_original(drive: Drive) -> None:
-    simulation = simulate(noise=True, seed=3)
+    simulation = simulate(noise=True, seed=3, yaw=2.0)
     values = []
     for _ in range(1000):
         drive(simulation, 0.0, 0.0, seconds=0.02)
         imu = simulation.robots[0].imu
-        values.append((*imu.angular_velocity, imu.acceleration[0], imu.yaw))
-    assert np.std(values, axis=0) == pytest.approx([0.005] * 5, rel=0.1)
+        w, x, y, z = imu.orientation
+        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+        assert yaw == pytest.approx(imu.yaw, abs=1e-9), 'the orientation has another error'
+        assert math.hypot(w, x, y, z) == pytest.approx(1.0)
+        values.append((*imu.angular_velocity, *imu.acceleration, imu.yaw))
+    assert np.std(values, axis=0) == pytest.approx([0.005] * 7, rel=0.1)
+    assert np.mean(values, axis=0) == pytest.approx([0, 0, 0, 0, 0, 9.8, 2.0], abs=0.02)
+    inclined = imu._replace(orientation=(0.8, 0.48, 0.36, 0.0))
+    _, x, y, _ = disturbed(inclined, new_noise([3, 0]), 0.02).orientation
+    assert x * x + y * y == pytest.approx(0.36), 'the error is one of the heading alone'
 
 
 def test_the_noise_depends_on_the_seed_alone(drive: Drive) -> None:
