@@ -133,6 +133,7 @@ def test_a_cache_is_asked_by_time() -> None:
     assert (cache.getOldestTime(), cache.getLastestTime()) == (when(20), when(40))
     assert cache.getInterval(when(20), when(30)) == messages[1:3]
     assert cache.getInterval(when(21), when(29)) == []
+    assert cache.getInterval(when(30), when(30)) == messages[2:3]
     assert cache.getElemAfterTime(when(30)) is messages[2]
     assert cache.getElemAfterTime(when(41)) is None
     assert cache.getElemBeforeTime(when(39)) is messages[2]
@@ -197,11 +198,12 @@ def test_what_has_not_changed_is_not_let_out() -> None:
     for text in 'aabba':
         source.signalMessage(String(data=text))
     assert [message.data for message in heard] == ['a', 'b', 'a']
-    paths = PathDeltaFilter(['header.frame_id', 'point.x'])
+    points = SimpleFilter()
+    paths = PathDeltaFilter(['header.frame_id', 'point.x'], points)
     heard.clear()
     paths.registerCallback(heard.append)
     for frame, t in (('a', 1), ('a', 2), ('b', 3)):
-        paths.add(at(t, frame))
+        points.signalMessage(at(t, frame))
     assert [message.header.frame_id for message in heard] == ['a', 'b']
 
 
