@@ -107,6 +107,19 @@ def test_every_mistake_of_a_rubric_is_told_with_its_place() -> None:
             'steps[1].content: dat of dat is no field; did you mean data? allowed: data',
         ),
         (
+            f'kind: publisher, {TOPIC}, {STRING}, content: [{{field: zzz, equals: a}}]',
+            'steps[1].content: zzz of zzz is no field; allowed: data',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, {STRING}, content: [{{field: data.x, equals: a}}]',
+            'steps[1].content: x of data.x is no field; nothing is below it',
+        ),
+        (
+            f'kind: publisher, {TOPIC}, type: q/w',
+            'steps[1].type: q/w is no type of messages that is installed here; write it as '
+            'std_msgs/msg/String, or install its package',
+        ),
+        (
             f'kind: publisher, {TOPIC}, {STRING}, content: [{{field: data}}]',
             'data: say what it must hold: form, equals, least or most',
         ),
