@@ -2,16 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 from husky_course.route import plan_route
 from husky_course.waypoints import parse_course
 from husky_driver.checks import Bump
+from husky_driver.checks.path_scan import FRONT_M, HALF_WIDTH_M, LASER_X_M
 from husky_driver.motion import read_imu
 from husky_grader.run.in_process import Conditions, drive_route
-from husky_sim.world import default_worlds
+from husky_sim.world import default_worlds, FIXED_FRAMES
 import pytest
 
 EMPTY = str(default_worlds() / 'empty.xml')
 NORTH_WALL = (-2.0, 8.5, math.pi / 2)  # a metre before it, and square to it
+
+
+def test_the_driver_knows_the_robot_of_the_simulator() -> None:
+    assert FIXED_FRAMES['front_laser'].position_m[0] == LASER_X_M
+    assert pytest.approx(ROBOT_LENGTH_M / 2, abs=0.001) == FRONT_M
+    assert pytest.approx(ROBOT_WIDTH_M / 2 + 0.06, abs=0.001) == HALF_WIDTH_M
 
 
 def held_sec(

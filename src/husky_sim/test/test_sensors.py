@@ -18,6 +18,7 @@ from husky_sim.sensors.camera import Camera
 from husky_sim.sensors.imu import disturbed, new_noise
 from husky_sim.sensors.sensors import Rate
 from husky_sim.simulation import Simulation
+from husky_sim.world import FIXED_FRAMES
 import mujoco
 import numpy as np
 import pytest
@@ -142,6 +143,7 @@ def test_the_scanner_measures_walls_in_every_direction(
     angles = -lidar.HALF_ANGLE_RAD + lidar.ANGLE_INCREMENT_RAD * np.arange(lidar.BEAMS)
     distance = 2.5 - lidar.PLACE[0]
     ahead = np.abs(angles) < 1.3
+    assert FIXED_FRAMES['front_laser'].position_m == lidar.PLACE, 'as tf has it'
     assert scan[ahead] == pytest.approx(distance / np.cos(angles[ahead]), abs=0.005)
     assert np.isinf(scan[np.abs(angles) > 1.6]).all()
     assert angles[-1] == pytest.approx(2.35619)
