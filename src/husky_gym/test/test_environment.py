@@ -188,8 +188,11 @@ def test_without_gymnasium_it_says_how_to_get_it() -> None:
 
 
 def test_reset_knows_no_options(make: Make) -> None:
+    env = make(laser_beams=0)
     with pytest.raises(ValueError, match='reset knows none; give settings to make'):
-        make(laser_beams=0).reset(options={'course': 'other.yaml'})
+        env.reset(options={'course': 'other.yaml'})
+    with pytest.raises(RuntimeError, match=r'none has begun: call reset\(\) first'):
+        env.unwrapped.step(np.zeros(2))
 
 
 def test_the_camera_draws_or_says_what_is_missing(make: Make) -> None:
