@@ -141,8 +141,7 @@ class HuskyPlaypen(gymnasium.Env[Observation, Action]):
         self._touches += touches
         self._rows.append(husky.row())
         place.follow(*husky.place)
-        speed = husky.robot.state.velocity[0]
-        self._score.add(place, speed_m_s=speed, touches=len(touches))
+        self._score.add(place, speed_m_s=husky.robot.state.velocity[0])
         return bool(touches) or place.away_m > self.settings.lost_m or self._has_arrived()
 
     def _has_arrived(self) -> bool:

@@ -4,7 +4,8 @@
 The score of an episode: an estimate while it lasts, and what the grader says in the end.
 
 The estimate has the grader's formula with what is known by then: in the place of waypoints the
-part of the path, without the points for standing at the end, for speed and for direction.
+part of the path, without the points for standing at the end, for speed and for direction. A
+touch is no part of it: it ends the episode.
 """
 
 from collections.abc import Sequence
@@ -13,7 +14,6 @@ import math
 from husky_course.record import Collision, read_run, Record
 from husky_course.route import Route
 from husky_grader.scoring import (
-    COLLISION_FACTOR,
     FULL_TRACKING_M,
     judge,
     MIN_TIME_FACTOR,
@@ -39,12 +39,11 @@ class RunningScore:
 
     def restart(self) -> None:
         self._farthest_m = self._squares_m2 = 0.0
-        self._moving = self._touches = 0
+        self._moving = 0
 
-    def add(self, place: Progress, *, speed_m_s: float, touches: int) -> None:
+    def add(self, place: Progress, *, speed_m_s: float) -> None:
         """Add a control period."""
         self._farthest_m = max(self._farthest_m, place.along_m)
-        self._touches += touches
         if abs(speed_m_s) > STANDING_M_S:
             self._moving += 1
             self._squares_m2 += place.offset_m * place.offset_m
@@ -56,8 +55,7 @@ class RunningScore:
         time = min(1.0, max(allowed_sec / time_sec, MIN_TIME_FACTOR))
         rms_m = math.sqrt(self._squares_m2 / max(self._moving, 1))
         tracking = (NO_TRACKING_M - rms_m) / (NO_TRACKING_M - FULL_TRACKING_M)
-        unhurt = COLLISION_FACTOR**self._touches
-        return 100.0 * NOT_STOPPED_FACTOR * share * time * unhurt * min(max(tracking, 0.0), 1.0)
+        return 100.0 * NOT_STOPPED_FACTOR * share * time * min(max(tracking, 0.0), 1.0)
 
 
 def report_on(

@@ -13,7 +13,7 @@ import gymnasium
 from gymnasium.utils.env_checker import check_env
 from husky_course.record import read_run
 from husky_course.route import plan_route
-from husky_course.waypoints import load_course
+from husky_course.waypoints import load_course, parse_course
 from husky_driver.drive import Drive
 from husky_grader.run.in_process import drive_with
 from husky_grader.scoring import judge
@@ -118,6 +118,37 @@ def test_progress_is_rewarded_at_once(make: Make) -> None:
     driven = [float(env.step(np.array([0.6, 0.0]))[1]) for _ in range(60)]
     assert sum(driven) > 1.0 > abs(sum(turned))
     assert sum(reward > 0.0 for reward in driven) > 40
+
+
+@pytest.mark.parametrize(
+    ('time_sec', 'offset_m', 'worth'),
+    [
+        (11.5, 0.1, 40.0),  # half of the path, and 80 of 100 points for one that still drives
+        (11.5, -0.3, 20.0),
+        (11.5, 0.6, 0.0),
+        (20.0, 0.1, 40.0 * 11.5 / 20.0),
+        (99.0, 0.1, 20.0),
+    ],
+)
+def test_the_estimate_is_of_way_time_and_tracking(
+    time_sec: float, offset_m: float, worth: float
+) -> None:
+    from husky_gym.progress import Progress
+    from husky_gym.running_score import RunningScore
+
+    place = Progress(plan_route(parse_course('waypoints: [[0, 0], [6, 8]]')))
+    score = RunningScore(par_time_sec=20.0, length_m=10.0)
+    for along_m, speed_m_s in ((5.0, 0.5), (3.0, -0.5)):  # and back again
+        place.follow(0.6 * along_m - 0.8 * offset_m, 0.8 * along_m + 0.6 * offset_m)
+        assert place.along_m == pytest.approx(along_m)
+        assert place.offset_m == pytest.approx(offset_m)
+        assert place.away_m == pytest.approx(abs(offset_m))
+        score.add(place, speed_m_s=speed_m_s)
+    place.follow(-0.6, -0.8)
+    assert place.away_m == pytest.approx(1.0)
+    place.offset_m = 5.0
+    score.add(place, speed_m_s=0.0)  # of one that stands nothing counts
+    assert score.value(time_sec) == pytest.approx(worth)
 
 
 BAD_ACTIONS = [
