@@ -12,6 +12,7 @@ import math
 from typing import Any
 
 import gymnasium
+from gymnasium.utils import EzPickle
 from husky_course.frames import Pose
 from husky_course.record import Collision
 from husky_course.route import plan_route
@@ -36,8 +37,13 @@ MAX_DRAWS = 1000
 PERIODS_A_SECOND = 50
 
 
-class HuskyPlaypen(gymnasium.Env[Observation, Action]):
-    """See docs/learning.md for what is seen, commanded and rewarded, and in which units."""
+class HuskyPlaypen(gymnasium.Env[Observation, Action], EzPickle):
+    """
+    See docs/learning.md for what is seen, commanded and rewarded, and in which units.
+
+    A copy, or what `pickle` makes of one, is a new one with the same settings, as of Gymnasium's
+    own environments: not all of MuJoCo can be copied.
+    """
 
     metadata: dict[str, Any] = {
         'render_modes': ['rgb_array'],
@@ -52,6 +58,7 @@ class HuskyPlaypen(gymnasium.Env[Observation, Action]):
         :param settings: those of `EnvironmentSettings`.
         :raises ValueError: if a setting, the course or the start cannot be used.
         """
+        EzPickle.__init__(self, render_mode=render_mode, **settings)
         if render_mode not in (None, 'rgb_array'):
             raise ValueError(f'render_mode={render_mode!r}: allowed is rgb_array or None')
         self.render_mode = render_mode

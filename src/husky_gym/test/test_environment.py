@@ -3,8 +3,10 @@
 """The environment keeps Gymnasium's rules, and its rewards are the grader's score."""
 
 from collections.abc import Callable
+import copy
 import math
 from pathlib import Path
+import pickle
 import subprocess
 import sys
 from typing import Any
@@ -210,6 +212,22 @@ def test_a_setting_may_be_drawn_by_numpy() -> None:
     assert type(settings.frame_skip) is int
     assert type(settings.floor) is str
     assert settings.lost_m == 0.5
+
+
+@pytest.mark.parametrize('again', [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+def test_a_copy_is_a_new_one_with_the_same_settings(
+    make: Make, again: Callable[[Env], Env]
+) -> None:
+    env = make(laser_beams=0, noise=True, random_start_m=0.3, frame_skip=5)
+    seen, _ = env.reset(seed=1)
+    env.step(np.ones(2))
+    other = again(env)
+    with pytest.raises(RuntimeError, match=r'none has begun: call reset\(\)'):
+        other.step(np.ones(2))
+    seen_there, _ = other.reset(seed=1)
+    assert {name: seen[name].tolist() for name in seen} == {
+        name: seen_there[name].tolist() for name in seen
+    }
 
 
 def test_without_gymnasium_it_says_how_to_get_it() -> None:
