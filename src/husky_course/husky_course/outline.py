@@ -4,7 +4,8 @@
 What obstacles look like from above, and how near a robot comes to them.
 
 An outline is a circle or a rectangle: enough for every obstacle of the playpen, and for any other
-the smallest rectangle around it, in the direction the body faces.
+the smallest rectangle around it, in the direction the body faces. An obstacle that is mostly
+empty, as the walls of a room, has several of its name, one around each part.
 """
 
 from collections.abc import Sequence
@@ -21,7 +22,7 @@ _CHUNK = 20_000  # poses at a time: a day of them would take gigabytes
 
 @dataclass(frozen=True, kw_only=True)
 class Outline:
-    """An obstacle seen from above, in the frame `world`: metres and radians."""
+    """An obstacle, or a part of one, seen from above, in the frame `world`: metres and radians."""
 
     name: str
     x: float

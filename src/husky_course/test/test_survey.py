@@ -44,3 +44,13 @@ def test_the_last_place_of_a_way_is_looked_at() -> None:
     (near,) = survey_route(plan_route(parse_course('waypoints: [[0, 0], [4, 0]]')), [post]).near
     assert (near.waypoint, near.x) == (1, 4.0)
     assert near.clearance_m == pytest.approx(4.6 - 0.05 - 4.0 - ROBOT_LENGTH_M / 2)
+
+
+def test_an_obstacle_of_several_parts_is_named_once() -> None:
+    route = plan_route(parse_course('waypoints: [[0, 0], [8, 0]]'))
+    parts = [Outline(name='walls', x=x, y=0.6, yaw=0.0, size=(0.4, 0.4)) for x in (2.0, 5.0)]
+    found = survey_route(
+        route, [*parts, Outline(name='post', x=3.0, y=0.75, yaw=0.0, size=(0.4,))]
+    )
+    assert [near.obstacle for near in found.near] == ['walls', 'post']
+    assert found.nearest == 'post'

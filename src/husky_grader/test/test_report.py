@@ -67,8 +67,9 @@ def test_waypoints_and_collisions_are_numbered_as_in_the_text(scene: Map) -> Non
 
 def test_only_what_is_near_the_path_has_its_name_on_the_map(scene: Map) -> None:
     near = Outline(name='near', x=2.0, y=-1.5, yaw=0.0, size=(4.0, 1.0))
+    part = replace(near, y=1.7)  # of the same obstacle, a little farther away
     far = Outline(name='far', x=2.0, y=-3.0, yaw=0.0, size=(0.3,))
-    drawing = map_svg(replace(scene, obstacles=(far, near)))
+    drawing = map_svg(replace(scene, obstacles=(far, part, near)))
     assert re.findall(r'<text class="name"[^>]*>(\w+)<', drawing) == ['near']
 
 

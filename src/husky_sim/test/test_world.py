@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 
 from husky_course.robot import RobotStart
+from husky_course.route import plan_route, survey_route
+from husky_course.waypoints import parse_course
 from husky_sim.errors import StartPoseError, WorldError
 from husky_sim.simulation import Simulation
 from husky_sim.world.world import load_world
@@ -51,6 +53,49 @@ def test_obstacles_are_named_after_the_outermost_body(write: Callable[[str], str
     assert [outline.name for outline in world.obstacles][:2] == ['stone', 'geom 2']
     assert world.obstacles[2].name == 'house'
     assert world.obstacles[2].size == pytest.approx((2.0, 2.0))
+
+
+WALLS = (
+    '<geom type="box" size="4 0.1 0.4" pos="1 3 0.4"/>'
+    '<geom type="box" size="4 0.1 0.4" pos="1 -3 0.4"/>'
+    '<geom type="box" size="0.1 3 0.4" pos="5 0 0.4"/>'
+)
+GATE_POSTS = (
+    '<geom size="0.1 0.5" type="cylinder" pos="0 0.8 0.5"/>'
+    '<geom size="0.1 0.5" type="cylinder" pos="0 -0.8 0.5"/>'
+)
+LINTEL = '<geom type="box" size="0.1 0.9 0.1" pos="0 0 1.1"/>'
+SLANTED = '<geom name="fence" type="box" size="3 0.05 0.4" pos="1.5 2 0.4" euler="0 0 25"/>'
+ROOF = '<geom name="roof" type="box" size="1 1 0.05" pos="0 0 1"/>'
+
+
+@pytest.mark.parametrize(
+    ('body', 'sizes', 'clearance_m'),
+    [
+        (f'<body name="room">{WALLS}</body>', [(8.0, 0.2), (8.0, 0.2), (0.2, 6.0)], 0.41),
+        (f'<body name="gate" pos="2 0 0">{GATE_POSTS}{LINTEL}</body>', [(0.1,), (0.1,)], 0.36),
+        (SLANTED, [(6.0, 0.1)], 0.61),
+        (f'<body name="yard">{SLANTED}</body>', [(6.0, 0.1)], 0.61),
+        (ROOF, [], None),
+        # What hangs may swing or fall down, and on a hill a robot is higher.
+        (f'<body name="lamp"><freejoint/>{ROOF}</body>', [(2.0, 2.0)], 0.0),
+        (ROOF + '<geom name="ramp" type="box" size="1 1 0.5" pos="9 0 0.1"/>', [(2.0, 2.0)], 0.0),
+    ],
+)
+def test_an_outline_leaves_out_where_a_robot_can_be(
+    write: Callable[[str], str],
+    body: str,
+    sizes: list[tuple[float, ...]],
+    clearance_m: float | None,
+) -> None:
+    world = load_world(write(mjcf(FLOOR + body)), [RobotStart()])
+    assert sorted(each.size for each in world.obstacles) == [
+        pytest.approx(size) for size in sorted(sizes)
+    ]
+    route = plan_route(parse_course('waypoints: [[0, 0], [4, 0]]'))
+    found = survey_route(route, world.obstacles)
+    assert found.least_m == (clearance_m and pytest.approx(clearance_m, abs=0.01))
+    assert len(found.near) == (clearance_m == 0.0)
 
 
 def test_obstacles_have_the_same_names_without_what_is_only_seen(

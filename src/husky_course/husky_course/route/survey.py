@@ -71,13 +71,17 @@ def survey_route(
     if not found:
         return Survey(found, (), None, '')
     poses, numbers = poses_along(route, start)
-    table = np.array([clearances(poses, [obstacle]) for obstacle in found])
+    parts: dict[str, list[Outline]] = {}  # of each obstacle
+    for outline in found:
+        parts.setdefault(outline.name, []).append(outline)
+    names = list(parts)
+    table = np.array([clearances(poses, parts[name]) for name in names])
     nearest = int(table.min(axis=1).argmin())
     return Survey(
         obstacles=found,
-        near=tuple(_near_passes(route.course, poses, numbers, table, [o.name for o in found])),
+        near=tuple(_near_passes(route.course, poses, numbers, table, names)),
         least_m=float(table.min()),
-        nearest=found[nearest].name,
+        nearest=names[nearest],
     )
 
 

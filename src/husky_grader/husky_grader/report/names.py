@@ -31,7 +31,10 @@ def names(
     points = np.array(path).reshape(-1, 2)
     away_m = {outline: _distance(outline, points) for outline in obstacles}
     level: list[tuple[float, float, float]] = []  # of those that are not turned
-    for outline in sorted(away_m, key=away_m.__getitem__)[:MAX_NAMES]:
+    nearest: dict[str, Outline] = {}  # the part that is, of an obstacle with several
+    for outline in sorted(away_m, key=away_m.__getitem__):
+        nearest.setdefault(outline.name, outline)
+    for outline in list(nearest.values())[:MAX_NAMES]:
         if away_m[outline] > NAMED_M:
             return
         length = LETTER * len(outline.name)

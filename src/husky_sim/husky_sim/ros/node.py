@@ -113,8 +113,9 @@ class SimulatorNode(SettingsNode):
         self._watch = PaceWatch(self.simulation)
         self.create_timer(DIAGNOSTICS_PERIOD_SEC, self._on_diagnose, clock=self._steady)
         self.add_on_set_parameters_callback(self._on_set_parameters)
+        obstacles = len(self.simulation.world.names) - len(config.robots)
         self.get_logger().info(
-            f'{self._run.world}: {len(self.simulation.world.obstacles)} obstacles, '
+            f'{self._run.world}: {obstacles} obstacles, '
             f'{", ".join(robot.name for robot in config.robots)}; '
             f'{self._pace}'
         )

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the outline of what stands in a world: see `outline`."""
+"""Measures the outlines of what stands in a world: see `outline`."""
 
 from collections.abc import Sequence
 import math
@@ -13,14 +13,67 @@ import numpy as np
 _DIRECTIONS = 72
 _ROUND = 0.02  # how far a circle may be from round, as a part of its radius
 _UPRIGHT_RAD = 0.15  # a body tilted less than this is seen along its own axis
+_FULL = 0.9  # of a rectangle, which is filled enough to be seen as a whole
+
+
+def outlines_of(
+    name: str, model: mujoco.MjModel, data: mujoco.MjData, geoms: Sequence[int], *, body: int
+) -> list[Outline]:
+    """
+    Measure an obstacle as a whole, or each geom where the whole is mostly empty.
+
+    So a robot can be between the walls of one body, or pass the gate in it.
+    """
+    whole = outline_of(name, model, data, geoms, body=body)
+    parts = [
+        min(
+            _outline(name, model, data, [geom], data.xpos[body], data.xmat[body]),
+            _outline(name, model, data, [geom], data.geom_xpos[geom], data.geom_xmat[geom]),
+            key=_area_m2,
+        )
+        for geom in geoms
+    ]
+    return parts if sum(map(_area_m2, parts)) < _FULL * _area_m2(whole) else [whole]
+
+
+def _area_m2(outline: Outline) -> float:
+    return math.pi * outline.size[0] ** 2 if outline.type == 'circle' else math.prod(outline.size)
+
+
+def lowest_m(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> float:
+    """Return the height of the lowest point of a geom."""
+    return -float(_reach(model, data, geom, np.zeros(3), np.array([[0.0, 0.0, -1.0]]))[0])
+
+
+def highest_m(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> float:
+    """Return the height of the highest point of a geom, infinite of a plane that is inclined."""
+    kind, shape = mujoco.mjtGeom, int(model.geom_type[geom])
+    if shape in (kind.mjGEOM_PLANE, kind.mjGEOM_HFIELD):
+        if data.geom_xmat[geom][8] < 1.0 - 1e-9:
+            return math.inf
+        field = int(model.geom_dataid[geom])
+        above = model.hfield_size[field][2] if shape == kind.mjGEOM_HFIELD else 0.0
+        return float(data.geom_xpos[geom][2] + above)
+    return float(_reach(model, data, geom, np.zeros(3), np.array([[0.0, 0.0, 1.0]]))[0])
 
 
 def outline_of(
     name: str, model: mujoco.MjModel, data: mujoco.MjData, geoms: Sequence[int], *, body: int
 ) -> Outline:
     """Measure the outline of some geoms that stand in data as they do in the world."""
-    origin = data.xpos[body].copy()
-    turn = data.xmat[body].reshape(3, 3)
+    return _outline(name, model, data, geoms, data.xpos[body], data.xmat[body])
+
+
+def _outline(
+    name: str,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    geoms: Sequence[int],
+    origin: Array,
+    axes: Array,
+) -> Outline:
+    """Measure it along these axes."""
+    turn = axes.reshape(3, 3)
     yaw = math.atan2(turn[1, 0], turn[0, 0])
     tilted = math.acos(max(-1.0, min(1.0, float(turn[2, 2])))) > _UPRIGHT_RAD
     frame = _about_z(yaw) if tilted else turn

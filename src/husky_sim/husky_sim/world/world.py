@@ -30,7 +30,7 @@ from husky_sim.world.flat_ground import (
     find_flat_ground,
     FlatGround,
 )
-from husky_sim.world.silhouette import outline_of
+from husky_sim.world.silhouette import highest_m, lowest_m, outlines_of
 from husky_sim.world.world_file import (
     check_names,
     check_numbers,
@@ -46,6 +46,7 @@ HUSKY_FILE = 'husky.xml'
 # Places, from base_link, under which there must be ground: the middle and the four wheels.
 _FEET = ((0.0, 0.0), (0.256, 0.2854), (0.256, -0.2854), (-0.256, 0.2854), (-0.256, -0.2854))
 _ABOVE_M = 1000.0
+_HEADROOM_M = 0.6  # what a robot needs, also with its front up a slope of 20 degrees
 _NOTHING, _GROUND, _FIRST_OWNER = -2, -1, 0
 
 
@@ -350,9 +351,18 @@ def _outlines(
     owners: Indices,
     robots: int,
 ) -> tuple[Outline, ...]:
-    outlines = []
+    """Measure what a robot can drive against: not what hangs above, as a roof or a bridge."""
+    ground = np.flatnonzero(owners == _GROUND).tolist()
+    above_m = max(highest_m(model, data, geom) for geom in ground) + _HEADROOM_M
+    outlines: list[Outline] = []
     for owner in range(robots, len(names)):
-        geoms = np.flatnonzero(owners == owner).tolist()
-        body = int(model.body_rootid[model.geom_bodyid[geoms[0]]])
-        outlines.append(outline_of(names[owner], model, data, geoms, body=body))
+        all_geoms = np.flatnonzero(owners == owner).tolist()
+        body = int(model.body_rootid[model.geom_bodyid[all_geoms[0]]])
+        geoms = [
+            geom
+            for geom in all_geoms
+            if model.body_weldid[model.geom_bodyid[geom]] or lowest_m(model, data, geom) < above_m
+        ]
+        if geoms:
+            outlines += outlines_of(names[owner], model, data, geoms, body=body)
     return tuple(outlines)
