@@ -1,6 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
 import math
+from pathlib import Path
 
 from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
 from husky_course.route import plan_route
@@ -123,6 +124,17 @@ def test_gravity_that_an_inclined_imu_feels_does_not_count() -> None:
     felt = 9.81 * math.sin(roll)
     q = (math.sin(roll / 2), 0.0, 0.0, math.cos(roll / 2))
     assert read_imu(0.0, (0.5, felt + 0.2), *q)[2:] == pytest.approx((0.5, 0.2))
+
+
+@pytest.mark.parametrize('gravity', ['0.2 0 -9.8', '2 -1 -9.5'])
+def test_a_robot_on_a_slope_is_left_alone(tmp_path: Path, gravity: str) -> None:
+    world = tmp_path / 'slope.xml'
+    text = Path(EMPTY).read_text(encoding='utf-8')
+    world.write_text(text.replace('gravity="0 0 -9.8"', f'gravity="{gravity}"'), encoding='utf-8')
+    course = parse_course('waypoints: [[0, 0], [2, 0], [3, 1]]')
+    record, drive = drive_route(plan_route(course), world=str(world))
+    assert (drive.failure, drive.reached) == ('', drive.total)
+    assert math.hypot(*(record.rows[-1, 0, 1:3] - (3.0, 1.0))) < 0.1
 
 
 @pytest.mark.parametrize(('speed_m_s', 'reverse'), [(0.2, False), (0.8, True)])

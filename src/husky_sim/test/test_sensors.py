@@ -72,6 +72,14 @@ def test_the_imu_at_rest_feels_all_of_a_gravity_that_is_not_down(
     drive(simulation, 0.0, 0.0, seconds=2.0)
     imu = simulation.robots[0].imu
     assert imu.acceleration == pytest.approx((-3.0, 1.0, 9.0), abs=0.1)
+    # Its orientation tells the slope, so that a driver can tell gravity from a push.
+    w, x, y, z = imu.orientation
+    up = (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y))
+    assert math.hypot(*imu.acceleration) * np.array(up) == pytest.approx(
+        imu.acceleration, abs=0.01
+    )
+    state = simulation.robots[0].state._replace(orientation=imu.orientation)
+    assert state.yaw == pytest.approx(imu.yaw)
 
 
 def test_the_imu_measures_acceleration_in_line_and_in_circles(drive: Drive) -> None:

@@ -98,7 +98,7 @@ class Husky:
         self._model = model
         self._data = data
         self._tyres = [_shapes_of_tyre(model, f'{name}/{wheel}') for wheel in WHEELS]
-        self._gravity: Vector = tuple(model.opt.gravity.tolist())
+        self.gravity: Vector = tuple(model.opt.gravity.tolist())
         # The joints and the actuators of one robot lie side by side, so that slices do.
         self._wheel_angles = _block(data.qpos, self._angles)
         self._wheel_speeds = _block(data.qvel, self._speeds)
@@ -193,7 +193,7 @@ class Husky:
         It is the mean over the time from one world velocity to the next: an IMU, too, filters the
         vibration of contacts out of samples 20 ms apart.
         """
-        gravity = self._gravity
+        gravity = self.gravity
         return into_body(
             tuple(self._orientation.tolist()),  # type: ignore[arg-type]
             (

@@ -9,7 +9,7 @@ Noise and drift are those of husky_description for ROS Noetic: 0.005 m/s2, rad/s
 import math
 from typing import NamedTuple
 
-from husky_sim.robot.husky import Husky, Quaternion, RobotState, Vector
+from husky_sim.robot.husky import Husky, into_body, Quaternion, RobotState, Vector
 from husky_sim.sensors.noise import Noise
 
 DEVIATION = 0.005
@@ -17,7 +17,11 @@ VARIANCE = DEVIATION * DEVIATION
 
 
 class ImuSample(NamedTuple):
-    """A measurement: orientation in `world` (w, x, y, z), the rest in base_link."""
+    """
+    A measurement: orientation in `world` (w, x, y, z), the rest in base_link.
+
+    Where gravity is inclined, the orientation says so, as one that is felt does.
+    """
 
     orientation: Quaternion
     angular_velocity: Vector
@@ -31,6 +35,8 @@ class Imu:
     def __init__(self, husky: Husky, noise: Noise | None) -> None:
         self._husky = husky
         self._noise = noise
+        x, y, z = husky.gravity
+        self._up: Vector | None = (-x, -y, -z) if x or y else None  # where it is inclined
         self.reset()
 
     def reset(self) -> None:
@@ -44,7 +50,10 @@ class Imu:
         velocity = self._husky.world_velocity()
         acceleration = self._husky.specific_force(self._velocity, velocity, period_sec)
         self._velocity = velocity
-        sample = ImuSample(state.orientation, state.angular_velocity, acceleration, state.yaw)
+        orientation = state.orientation
+        if self._up is not None:
+            orientation = _felt(into_body(orientation, self._up), state.yaw)
+        sample = ImuSample(orientation, state.angular_velocity, acceleration, state.yaw)
         return sample if self._noise is None else disturbed(sample, self._noise, period_sec)
 
 
@@ -63,6 +72,16 @@ def disturbed(sample: ImuSample, noise: Noise, period_sec: float) -> ImuSample:
         (acceleration[0] + errors[0], acceleration[1] + errors[1], acceleration[2] + errors[2]),
         math.remainder(sample.yaw + errors[6], math.tau),
     )
+
+
+def _felt(up: Vector, yaw: float) -> Quaternion:
+    """Return the orientation with this heading in which a robot has `up` above it."""
+    x, y, z = up
+    pitch, roll = math.atan2(-x, math.hypot(y, z)), math.atan2(y, z)
+    cos, sin = math.cos(pitch / 2.0), math.sin(pitch / 2.0)
+    cos_roll, sin_roll = math.cos(roll / 2.0), math.sin(roll / 2.0)
+    level = (cos * cos_roll, cos * sin_roll, sin * cos_roll, -sin * sin_roll)
+    return _turned(level, yaw)
 
 
 def _turned(orientation: Quaternion, angle_rad: float) -> Quaternion:
