@@ -46,6 +46,7 @@ class CommandTopics:
         on_commander: _Found,
     ) -> None:
         self.commanded = False  # since it was last set to False
+        self.has_newcomer = True  # somebody who is to command it has come, and not done so yet
         self._robot = robot
         self._simulation = simulation
         self._on_command = on_command
@@ -68,7 +69,7 @@ class CommandTopics:
                     callback,
                     qos,
                     raw=raw,
-                    event_callbacks=_watch(
+                    event_callbacks=self._watch(
                         node.resolve_topic_name(f'{namespace}{topic}'), on_commander
                     ),
                 ),
@@ -88,6 +89,13 @@ class CommandTopics:
     def is_commanded(self) -> bool:
         """Return whether the commands have a publisher."""
         return any(each.get_publisher_count() > 0 for each, _ in self._subscriptions)
+
+    def _watch(self, topic: str, on_commander: _Found) -> SubscriptionEventCallbacks:
+        def on_matched(event: Any) -> None:
+            self.has_newcomer |= event.total_count_change > 0
+            on_commander(topic, most_at_once(event))
+
+        return SubscriptionEventCallbacks(matched=on_matched)
 
     def _on_e_stop(self, message: Bool) -> None:
         robot = self._robot
@@ -117,6 +125,7 @@ class CommandTopics:
         except ValueError as error:
             self._logger.error(f'{self._robot.name}: {error}', throttle_duration_sec=1.0)
         self.commanded = True
+        self.has_newcomer = False
         self._on_command()
 
     def warn_of_other_types(self, node: Node) -> None:
@@ -140,12 +149,6 @@ class CommandTopics:
                         f'{publisher.node_name} publishes {kind} on {topic}, which nobody hears; '
                         f'publish {taken}'
                     )
-
-
-def _watch(topic: str, on_commander: _Found) -> SubscriptionEventCallbacks:
-    return SubscriptionEventCallbacks(
-        matched=lambda event: on_commander(topic, most_at_once(event))
-    )
 
 
 def most_at_once(event: Any) -> int:

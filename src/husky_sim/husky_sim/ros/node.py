@@ -49,6 +49,8 @@ from husky_sim.ros.simulation_topics import SimulationTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
 
+WAITING_LOOKS = 3  # one a second: drivers that are started together come one after the other
+
 
 @dataclass(frozen=True)
 class Trial:
@@ -86,6 +88,7 @@ class SimulatorNode(SettingsNode):
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         self.over: Future[None] = Future()
         self.paused = False  # time stands still
+        self._looks_at_waiting = 0
         self._has_broken_down = False  # the physics, in this run
         self._topics = SimulationTopics(
             self,
@@ -177,6 +180,10 @@ class SimulatorNode(SettingsNode):
         """Publish the last control period."""
         self._topics.publish()
 
+    def publish_to_newcomers(self) -> None:
+        """Publish it again of the robots whose driver may not have it."""
+        self._topics.publish_to_newcomers()
+
     def publish_clock(self) -> None:
         """Tell the time on /clock."""
         self._topics.publish_clock()
@@ -224,6 +231,22 @@ class SimulatorNode(SettingsNode):
         self._diagnostics.publish(message)
         self._topics.warn_of_other_types()
         self._tell_of_breakdown()
+        self._tell_who_waits()
+
+    def _tell_who_waits(self) -> None:
+        """Log, once, whose drivers lockstep waits for, where other robots have theirs."""
+        if not isinstance(self._pace, Lockstep) or self._pace.has_begun:
+            self._looks_at_waiting = 0
+            return
+        lack = self._topics.without_driver
+        if 0 < len(lack) < len(self.simulation.robots):
+            self._looks_at_waiting += 1
+            if self._looks_at_waiting == WAITING_LOOKS:
+                self.get_logger().warning(
+                    'in lockstep time begins when each robot has a driver, which reads its '
+                    'odometry/filtered and publishes its commands; so far nobody drives '
+                    f'{", ".join(lack)}'
+                )
 
     def _tell_of_breakdown(self) -> None:
         """Log, once a run, that the physics has failed; seldom, because it takes time to look."""

@@ -15,7 +15,10 @@ from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.ros.pacing import Pacer
 
 REPEAT_SEC = 0.5
-"""How often lockstep repeats its first odometry message, until the first command comes."""
+"""
+How often lockstep repeats its first odometry message, until the first command comes, and the last
+one for a driver that has come since: it waits for odometry, while time waits for its command.
+"""
 
 HANGING_SEC = 60.0
 """
@@ -64,6 +67,9 @@ class Periods(Protocol):
 
     def publish(self) -> None:
         """Publish the last control period again."""
+
+    def publish_to_newcomers(self) -> None:
+        """Publish it again of the robots whose driver may not have it."""
 
     def publish_clock(self) -> None:
         """Tell the time on /clock."""
@@ -155,13 +161,17 @@ class Lockstep(Pace):
         self._begun = False  # the first odometry message is out
         self._answered = False  # and was answered
         self._ticks = 0  # since the last control period
+        self._repetitions = 1  # of its messages, and the first
         self._sent_at_sec = 0.0
 
     def tick(self) -> None:
-        """Begin, repeat the first message, or use a command that came too early."""
+        """Begin, repeat a message that was not heard, or use a command that came too early."""
         if self._answered:
             self._advance_if_answered()
             self._ticks += 1
+            if self._ticks * self.tick_sec >= REPEAT_SEC * self._repetitions:
+                self._repetitions += 1
+                self._periods.publish_to_newcomers()
             if self._limited and self._ticks * self.tick_sec > HANGING_SEC:
                 self._periods.end(f'no command for {HANGING_SEC:g} s: the driver hangs')
             return
@@ -183,12 +193,17 @@ class Lockstep(Pace):
             return
         if self.factor > 0.0 and not self.pacer.due(time.monotonic(), most=1):
             return
-        self._ticks = 0
+        self._ticks, self._repetitions = 0, 1
         self._periods.advance()
 
     def begin_again(self) -> None:
         super().begin_again()
         self._begun = self._answered = False
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether a driver was found for every robot, or somebody has commanded one."""
+        return self._begun or self._answered
 
     def __str__(self) -> str:
         return f'lockstep, {super().__str__()}'

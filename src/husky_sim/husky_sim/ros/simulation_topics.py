@@ -73,7 +73,12 @@ class SimulationTopics:
     @property
     def has_drivers(self) -> bool:
         """Whether every robot's odometry has a subscription, and its commands a publisher."""
-        return all(topics.has_driver() for topics in self._robots)
+        return not self.without_driver
+
+    @property
+    def without_driver(self) -> list[str]:
+        """Return the names of the robots that have none."""
+        return [topics.robot.name for topics in self._robots if not topics.has_driver()]
 
     @property
     def has_followers(self) -> bool:
@@ -122,6 +127,14 @@ class SimulationTopics:
             topics.publish_rest(stamp)
         for touch in self._simulation.touches:
             self._by_name[touch.robot].publish_collision(touch)
+
+    def publish_to_newcomers(self) -> None:
+        """Publish the last control period again, of the robots whose driver may not have it."""
+        stamp = self._simulation.stamp
+        for topics in self._robots:
+            if topics.commands.has_newcomer and topics.has_driver():
+                topics.publish_filtered(stamp)
+                topics.publish_rest(stamp)
 
     def warn_of_timeouts(self) -> None:
         """Log which robots have just begun to stop because no command came."""
