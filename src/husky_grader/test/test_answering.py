@@ -49,6 +49,9 @@ class Robot:
         self.published += 1
         self.timed += 1
 
+    def publish_to_newcomers(self) -> None:
+        pass
+
     def publish_clock(self) -> None:
         self.timed += 1
 
