@@ -11,6 +11,7 @@ from husky_course.printable import printable
 from husky_grader.submission import Submission
 
 LAB_FILE = 'lab.json'  # of one, in the folder of its report
+RUN_WITH = 'it was run with'  # begins what is told beside the reasons of a step, and is none
 
 
 @dataclass(frozen=True)

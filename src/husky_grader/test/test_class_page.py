@@ -72,6 +72,10 @@ def test_a_mistake_has_all_who_made_it_and_its_cost() -> None:
             told(3, build='see the log'),
             told(4, build='c.py line 9: no'),
             told(5, drive='touched cone_7; touched cone_8'),
+            # With what a program was run is no mistake, and has no part in the cost of one.
+            told(6, rate='it publishes on /a; it was run with -p rate_hz:=20.0'),
+            told(7, rate='it publishes on /b; it was run with -p rate_hz:=20.0'),
+            told(8, rate='it hears nothing; it was run with -p rate_hz:=20.0'),
         ]
     )
     found = [(m.step, m.text, [one.submission.id for one in m.who]) for m in summary.mistakes]
@@ -79,8 +83,9 @@ def test_a_mistake_has_all_who_made_it_and_its_cost() -> None:
         ('build', 'a.py line 1: no', ['student 1', 'student 2', 'student 4']),
         ('build', 'see the log', ['student 1', 'student 2', 'student 3']),
         ('drive', 'touched cone_1', ['student 1', 'student 5']),
+        ('rate', 'it publishes on /a', ['student 6', 'student 7']),
     ]
-    assert [mistake.lost for mistake in summary.mistakes] == [20.0, 20.0, 20.0]
+    assert [mistake.lost for mistake in summary.mistakes] == [20.0, 20.0, 20.0, 20.0]
 
 
 def test_what_the_same_students_were_told_is_one_mistake() -> None:

@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 
 from husky_runtime.children import ChildProcess, tail_of
 
+from husky_grader.graded import RUN_WITH
 from husky_grader.jail import JailedProcess
 from husky_grader.lab.build_step import NO_PROGRAM
 from husky_grader.lab.finding import Finding, nothing
@@ -78,7 +79,7 @@ def _with_words(found: Finding, words: Sequence[str]) -> Finding:
     """Tell with what a program was run that lost points, so that its student can do the same."""
     if not words or (found.score >= 100.0 and not found.defects):
         return found
-    told = f'it was run with {shlex.join(words)}'
+    told = f'{RUN_WITH} {shlex.join(words)}'
     if not found.defects:
         return replace(found, why=f'{found.why}; {told}')
     last = list(found.defects)[-1]
