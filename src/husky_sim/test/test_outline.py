@@ -7,7 +7,7 @@ import math
 from husky_course.frames import Array
 from husky_course.outline import clearances, least_clearance, Outline
 from husky_course.robot import ROBOT_LENGTH_M, ROBOT_WIDTH_M
-from husky_sim.world.silhouette import outline_of
+from husky_sim.world.silhouette import outline_of, outlines_of
 from hypothesis import given
 from hypothesis import strategies as st
 import mujoco
@@ -40,6 +40,16 @@ def measured(geoms: str, *, at: str = 'pos="1 2 0"') -> Outline:
 )
 def test_the_outline_of_a_shape(geoms: str, size: tuple[float, ...]) -> None:
     assert measured(geoms).size == pytest.approx(size)
+
+
+@pytest.mark.parametrize(('parts', 'outlines'), [(5000, 5000), (5001, 1)])
+def test_an_obstacle_has_no_more_outlines_than_a_record_holds(parts: int, outlines: int) -> None:
+    geoms = ''.join(f'<geom size="0.1" pos="{k} 0 0"/>' for k in range(parts))
+    model = mujoco.MjModel.from_xml_string(f'<mujoco><worldbody>{geoms}</worldbody></mujoco>')
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    found = outlines_of('it', model, data, range(model.ngeom), body=0)
+    assert len(found) == outlines
 
 
 def test_the_outline_turns_with_the_body() -> None:

@@ -14,6 +14,7 @@ _DIRECTIONS = 72
 _ROUND = 0.02  # how far a circle may be from round, as a part of its radius
 _UPRIGHT_RAD = 0.15  # a body tilted less than this is seen along its own axis
 _FULL = 0.9  # of a rectangle, which is filled enough to be seen as a whole
+_MOST_PARTS = 5000  # of an obstacle; a record holds 10 000 outlines
 
 
 def outlines_of(
@@ -25,6 +26,8 @@ def outlines_of(
     So a robot can be between the walls of one body, or pass the gate in it.
     """
     whole = outline_of(name, model, data, geoms, body=body)
+    if len(geoms) > _MOST_PARTS:
+        return [whole]
     parts = [
         min(
             _outline(name, model, data, [geom], data.xpos[body], data.xmat[body]),
