@@ -242,8 +242,10 @@ def test_a_name_that_no_interfaces_can_have_is_refused(folder: Path) -> None:
         ),
         (
             '\nfoo(bar)',
-            r':3: foo\(\.\.\.\): is not understood here; what is: ament_python_install',
+            r':3: foo\(\.\.\.\): is not understood here; what is: ament_auto_package, ament_py',
         ),
+        ('foo(bar)\nadd_library(talk)', r':3: add_library\(\.\.\.\): needs a C\+\+ co'),
+        ('ament_auto_package(INSTALL_TO_SHARE lost)', r'there is no folder lost: mend the name'),
         ('if(WIN32)\ninstall(FILES a DESTINATION b)\nendif()', r'stands in if\(WIN32\)'),
         ('install(FILES lost DESTINATION share)', r'there is no file lost: mend the name'),
         ('install(DIRECTORY package.xml DESTINATION x)', r'there is no folder package\.xml: mend'),
@@ -263,6 +265,10 @@ def test_a_name_that_no_interfaces_can_have_is_refused(folder: Path) -> None:
         (')', r":2: '\)' closes nothing"),
         (
             'ament_package()\nrosidl_generate_interfaces(own_msgs "msg/Own.msg")',
+            r':3: rosidl_generate_interfaces\(\.\.\.\): stands behind ament_package\(\): move',
+        ),
+        (
+            'ament_auto_package()\nrosidl_generate_interfaces(own_msgs "msg/Own.msg")',
             r':3: rosidl_generate_interfaces\(\.\.\.\): stands behind ament_package\(\): move',
         ),
     ],
@@ -302,7 +308,8 @@ def test_a_cmake_file_is_read_as_cmake_reads_it(folder: Path) -> None:
 
 
 def test_folders_and_modules_are_installed(folder: Path) -> None:
-    for path in ('data/a.txt', 'data/deep/b.txt', 'data/c.bak', 'own_tools/__init__.py'):
+    installed = ('data/a.txt', 'data/deep/b.txt', 'data/c.bak', 'own_tools/__init__.py')
+    for path in (*installed, 'launch/a.launch.py', 'include/own_msgs/a.hpp'):
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).touch()
     write_cmake(
@@ -311,7 +318,8 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
         'install(DIRECTORY data/ DESTINATION share/one FILES_MATCHING PATTERN "*.txt")\n'
         'install(DIRECTORY data DESTINATION share/two PATTERN deep EXCLUDE)\n'
         'ament_python_install_package(own_tools)\n'
-        'install(DIRECTORY own_tools/ DESTINATION ${PYTHON_INSTALL_DIR}/by_hand)\n',
+        'install(DIRECTORY own_tools/ DESTINATION ${PYTHON_INSTALL_DIR}/by_hand)\n'
+        'ament_auto_package(INSTALL_TO_PATH INSTALL_TO_SHARE launch data/deep)\n',
     )
     prefix = folder / 'prefix'
     build(folder, prefix, link=True)
@@ -320,6 +328,9 @@ def test_folders_and_modules_are_installed(folder: Path) -> None:
         'share/one/a.txt', 'share/one/deep/b.txt', 'share/two/data/a.txt', 'share/two/data/c.bak',
     }  # fmt: skip
     assert (prefix / 'share/one/a.txt').is_symlink()
+    for name in ('share/own_msgs/launch/a.launch.py', 'share/own_msgs/deep/b.txt'):
+        assert name in files
+    assert 'include/own_msgs/a.hpp' in files
     for name in ('own_tools', 'by_hand'):
         assert any(file.endswith(f'-packages/{name}/__init__.py') for file in files)
 

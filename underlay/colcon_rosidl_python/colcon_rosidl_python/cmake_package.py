@@ -10,7 +10,7 @@ is built.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from catkin_pkg.package import parse_package
@@ -46,6 +46,7 @@ _TESTS = {
 }
 _GENERATORS = {'rosidl_default_generators', 'rosidl_cmake'}
 _FINDS_ALL = 'ament_auto_find_build_dependencies'
+_COMPLETES = ('ament_package', 'ament_auto_package')
 _OPTIONS_OF_INTERFACES = {'ADD_LINTER_TESTS', 'SKIP_INSTALL', 'SKIP_GROUP_MEMBERSHIP_CHECK'}
 _OPTIONS_OF_INSTALL = {'USE_SOURCE_PERMISSIONS', 'OPTIONAL'}
 
@@ -91,18 +92,18 @@ def read_cmake_package(folder: Path) -> CMakePackage:
     :raises CMakeListsError: if it asks for what cannot be done here.
     """
     package = CMakePackage()
+    commands = list(_commands_to_do(folder))
+    for command in commands:  # no other line of such a package is worth mending
+        if command.name in _COMPILED or command.arguments[:1] == ('TARGETS',):
+            raise command.refused(_NEEDS_A_COMPILER)
     complete = False  # ament_package() writes down what came before it
-    for command in read_commands(folder / 'CMakeLists.txt'):
-        complete = complete or command.name == 'ament_package'
+    for command in commands:
+        complete = complete or command.name in _COMPLETES
         if complete and command.name == 'rosidl_generate_interfaces':
             raise command.refused('stands behind ament_package(): move it before that')
-        if 'BUILD_TESTING' in ' '.join(command.conditions):
-            continue
         if command.name in _HARMLESS:
             package.found += _found(command, folder)
             continue
-        if command.name in _COMPILED or command.arguments[:1] == ('TARGETS',):
-            raise command.refused(_NEEDS_A_COMPILER)
         if command.name not in _DONE:
             raise command.refused(f'is not understood here; what is: {", ".join(sorted(_DONE))}')
         if command.conditions:
@@ -111,6 +112,12 @@ def read_cmake_package(folder: Path) -> CMakePackage:
             )
         _DONE[command.name](package, command, folder)
     return package
+
+
+def _commands_to_do(folder: Path) -> Iterator[Command]:
+    for command in read_commands(folder / 'CMakeLists.txt'):
+        if 'BUILD_TESTING' not in ' '.join(command.conditions):
+            yield command
 
 
 def tests_left_out(folder: Path) -> Iterator[str]:
@@ -199,6 +206,20 @@ def _install_options(
     return tuple(without), tuple(only), rename
 
 
+def _install_to_share(package: CMakePackage, command: Command, folder: Path) -> None:
+    """Do what ament_auto_package() does of itself: ament_cmake_auto's short form of install()."""
+    installs = [('include/', 'include')] if (folder / 'include').is_dir() else []
+    wanted = ''
+    for argument in command.arguments:
+        if argument in ('INSTALL_TO_SHARE', 'INSTALL_TO_PATH'):
+            wanted = argument
+        elif wanted == 'INSTALL_TO_SHARE':
+            installs.append((argument, f'share/{parse_package(folder).name}'))
+    for source, target in installs:
+        install = replace(command, arguments=('DIRECTORY', source, 'DESTINATION', target))
+        _add_install(package, install, folder)
+
+
 def _add_module(package: CMakePackage, command: Command, folder: Path) -> None:
     name, *rest = command.arguments or ('',)
     path = Path(rest[rest.index('PACKAGE_DIR') + 1] if 'PACKAGE_DIR' in rest[:-1] else name)
@@ -211,4 +232,5 @@ _DONE = {
     'rosidl_generate_interfaces': _add_interfaces,
     'install': _add_install,
     'ament_python_install_package': _add_module,
+    'ament_auto_package': _install_to_share,
 }
