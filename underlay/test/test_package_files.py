@@ -55,6 +55,7 @@ setup(
     'talk/__init__.py': '',
     'talk/hello.py': "def main():\n    print('hello')\n",
 }
+CATKIN = '<buildtool_depend>catkin</buildtool_depend>'
 BUILD_TYPE = '<export><build_type>ament_python</build_type></export>'
 
 
@@ -123,6 +124,7 @@ def test_another_encoding_is_named(folder: Path, name: str, encoding: str, reaso
         ('package.xml', '0.0.0', '1.0', 'package.xml: Package version "1.0" does not follow'),
         ('package.xml', '>talk<', '>my talk<', 'package.xml: Package name "my talk" does not fol'),
         ('package.xml', BUILD_TYPE, '', f'package.xml has no build type: write {BUILD_TYPE}'),
+        ('package.xml', BUILD_TYPE, CATKIN, 'package.xml is that of a package of ROS 1, which bu'),
         ('package.xml', 't_python<', 't-python<', "has the build type 'ament-python': write"),
         ('package.xml', 'ament_python<', 'catkin<', "package.xml has the build type 'catkin': "),
         ('setup.cfg', '[dev', '\ufeff[dev', 'byte order mark, which setuptools does not read'),

@@ -84,6 +84,12 @@ def _build_type(folder: Path) -> str:
     except (AssertionError, InvalidPackage) as error:
         raise _RefusedError(f'package.xml: {"; ".join(_reasons(str(error)))}') from None
     if build_type not in _BUILD_TYPES:
+        if any(each.name == 'catkin' for each in package.buildtool_depends):
+            raise _RefusedError(
+                'package.xml is that of a package of ROS 1, which builds with catkin: take the '
+                'branch of its repository that is for ROS 2, or port the package '
+                '(https://docs.ros.org/en/jazzy/How-To-Guides/Migrating-from-ROS1.html)'
+            )
         named = any(export.tagname == 'build_type' for export in package.exports)
         wanted = 'ament_python' if (folder / 'setup.py').is_file() else 'ament_cmake'
         raise _RefusedError(
