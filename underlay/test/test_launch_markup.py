@@ -141,7 +141,7 @@ def test_arguments_of_markup_files_can_be_listed(launch_file: LaunchFile) -> Non
         ('<launch>\n\n<log/></launch>', 3, "Attribute 'message' of type 'str' not found in Enti"),
         ('<launch>\n<log message="" x=""/></launch>', 2, r'Unexpected attribute\(s\) .*`log`: x'),
         ('<launch>\n<log message=""><x/></log></launch>', 2, r'Unexpected nested tag\(s\) .* x'),
-        ('<launch>\n<log>hi</log></launch>', 2, "the text 'hi' in it is passed over: values"),
+        ('<launch>\n<log>hi</log></launch>', 2, "Attribute 'message' of type 'str' not found in"),
         ('<launch>\n<log\n</launch>', 3, 'XML syntax error: not well-formed'),
         ('<launch>\n<log message="$(var"/></launch>', 2, 'missing \\)'),
         ('<launch>\n<group if="1" unless="1"/></launch>', 2, "can't be used simultaneously"),
@@ -165,6 +165,16 @@ def test_errors_in_xml_name_file_and_line(
     with pytest.raises(InvalidLaunchFileError, match=message) as caught:
         get_launch_description_from_any_launch_file(str(path))
     assert describe_error(caught.value).endswith(f'(at {path}:{line})')
+
+
+def test_text_between_xml_elements_is_passed_over(
+    launch_file: LaunchFile, run_launch: Run
+) -> None:
+    path = launch_file('<launch>\n<!-- a --> -->\n<log message="b"> c\nd</log></launch>', 'a.xml')
+    output = run_launch(path).output
+    assert _logged(output) == ['b']
+    for where in ("2: text '-->' in element 'launch'", "3: text 'c' in element 'log'"):
+        assert f'[WARNING] [launch]: {path}:{where} is passed over: values are attr' in output
 
 
 @pytest.mark.parametrize(

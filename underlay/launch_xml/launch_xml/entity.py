@@ -10,6 +10,7 @@ from xml.parsers import expat
 
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.type_utils import check_is_list_entity
+from launch.logging import get_logger
 from launch.source_location import located_error
 from launch.utilities.type_utils import get_typed_value
 
@@ -23,14 +24,14 @@ _OF_ROS_1 = {
 
 
 class Element:
-    """One element with its attributes, children and text."""
+    """One element with its attributes and children, and whether it has text, too."""
 
     def __init__(self, tag: str, attributes: dict[str, str], location: tuple[str, int]) -> None:
         self.tag = tag
         self.attributes = attributes
         self.location = location
         self.children: list[Element] = []
-        self.text = ''
+        self.has_text = False
 
 
 def read_xml(text: str, name: str) -> Element:
@@ -51,7 +52,13 @@ def read_xml(text: str, name: str) -> Element:
         open_elements.pop()
 
     def data(characters: str) -> None:
-        open_elements[-1].text += characters
+        text, element = characters.strip(), open_elements[-1]
+        if text and not element.has_text:
+            element.has_text = True
+            get_logger('launch').warning(
+                f"{name}:{parser.CurrentLineNumber}: text '{text}' in element '{element.tag}' is "
+                'passed over: values are attributes'
+            )
 
     parser.StartElementHandler = start
     parser.EndElementHandler = end
@@ -98,10 +105,6 @@ class Entity(BaseEntity):
         news = [f'{each} of ROS 1 is {_OF_ROS_1[self.type_name, each]} now' for each in old]
         return f' ({", ".join(news)})' if news else ''
 
-    def __hint_at_text(self) -> str:
-        text = ' '.join(self.__xml.text.split())  # as upstream, it counts for nothing
-        return f" (the text '{text}' in it is passed over: values are attributes)" if text else ''
-
     def get_attr(
         self,
         name: str,
@@ -123,7 +126,7 @@ class Entity(BaseEntity):
             kind = getattr(data_type, '__name__', data_type)
             raise AttributeError(
                 f"Attribute '{name}' of type '{kind}' not found in Entity '{self.type_name}'"
-                f'{self.__hint(self.__xml.attributes) or self.__hint_at_text()}'
+                f'{self.__hint(self.__xml.attributes)}'
             )
         return value
 
