@@ -177,6 +177,13 @@ def test_text_between_xml_elements_is_passed_over(
         assert f'[WARNING] [launch]: {path}:{where} is passed over: values are attr' in output
 
 
+def test_a_key_that_is_given_twice_is_told(launch_file: LaunchFile, run_launch: Run) -> None:
+    path = launch_file('launch:\n- log: {message: a, message: b}', 'a.launch.yaml')
+    output = run_launch(path).output
+    assert _logged(output) == ['b']
+    assert f"[WARNING] [launch]: {path}:2: 'message' is given twice: the last counts" in output
+
+
 @pytest.mark.parametrize(
     ('text', 'line', 'message'),
     [
@@ -224,7 +231,6 @@ def test_errors_in_python_name_file_and_line(
     [
         ('<launch version="0.1.0"><log message="b"/></launch>', 'a.launch.xml'),
         ('<launch>stray><log message="b"/>></launch>', 'a.launch.xml'),
-        ('launch:\n- log: {message: a, message: b}', 'a.launch.yaml'),
         ('launch:\n- log: &a {message: a}\n- log: {<<: *a, message: b}', 'a.launch.yaml'),
         ('launch:\n  version: 1\n  children: [{log: {message: b}}]', 'a.launch.yaml'),
     ],

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from launch.frontend import Parser as BaseParser
+from launch.logging import get_logger
 from launch.source_location import located_error
 import yaml
 
@@ -22,6 +23,11 @@ class _LocatedDict(dict[Any, Any]):
 
 class _Loader(yaml.SafeLoader):
     def construct_located(self, node: yaml.MappingNode) -> _LocatedDict:
+        keys = [str(key.value) for key, _ in node.value]
+        for key in sorted({key for key in keys if keys.count(key) > 1} - {'<<'}):
+            get_logger('launch').warning(
+                f"{self.name}:{node.start_mark.line + 1}: '{key}' is given twice: the last counts"
+            )
         mapping = _LocatedDict(self.construct_mapping(node, deep=True))
         mapping.line = node.start_mark.line + 1
         return mapping
@@ -36,7 +42,9 @@ def _read_yaml(text: str, name: str) -> Any:
     :raises ValueError: the document is not well formed; says where.
     """
     try:
-        return yaml.load(text, Loader=_Loader)  # a SafeLoader
+        loader = _Loader(text)
+        loader.name = name
+        return loader.get_single_data()
     except yaml.YAMLError as error:
         what = str(getattr(error, 'problem', None) or error)
         failure = ValueError(f'YAML syntax error: {what}')
