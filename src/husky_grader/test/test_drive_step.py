@@ -29,6 +29,14 @@ def test_what_exceeds_a_limit_is_told_above_it() -> None:
         'off_path_m': '0.10004 m RMS off the path, 0.1 m are allowed',
         'time_sec': '60.02 s, 60 s are allowed',
     }
+    for collisions, said in (
+        (1, '1 collision, 0 are allowed'),
+        (2, '2 collisions, 0 are allowed'),
+    ):
+        found = exceeded(
+            DriveLimits(collisions=0), collisions=collisions, off_path_m=0, time_sec=0
+        )
+        assert found == {'collisions': said}
 
 
 def test_a_drive_of_the_very_time_that_is_allowed_is_in_time() -> None:

@@ -223,6 +223,7 @@ def test_an_odd_world_is_driven_in_like_any_other(
         ),
         (mjcf(before='<option timestep="0.003"/>'), r'whole number of timesteps.*line 2$'),
         (mjcf(before='<option timestep="0.005"/>'), r'0.004 s or less, line 2$'),
+        (mjcf(before='<option timestep="1e-9"/>'), r'timestep=1e-09: .*1e-05 s or more, line 2$'),
         (mjcf(before='<option timestep="0"/>'), r'timestep=0: .*use 0.004, line 2$'),
         (mjcf(before='<option timestep="nan"/>'), r'timestep=nan: .*use 0.004, line 2$'),
         (

@@ -137,7 +137,8 @@ def exceeded(
     found = {}
     time_sec = round(time_sec, 6)  # of 60 s the difference of two times may be a hair more
     if limits.collisions is not None and collisions > limits.collisions:
-        found['collisions'] = f'{collisions} collisions, {limits.collisions:g} are allowed'
+        noun = 'collision' if collisions == 1 else 'collisions'
+        found['collisions'] = f'{collisions} {noun}, {limits.collisions:g} are allowed'
     if limits.off_path_m is not None and off_path_m > limits.off_path_m:
         digits = digits_apart(off_path_m, limits.off_path_m, least=3)
         found['off_path_m'] = (

@@ -13,6 +13,7 @@ from husky_sim.config import CONTROL_PERIOD_SEC
 from husky_sim.errors import WorldError
 
 LONGEST_TIMESTEP_SEC = 0.004
+SHORTEST_TIMESTEP_SEC = 1e-5  # with which a second takes some minutes
 
 _NUMBERS = ('pos', 'quat', 'size', 'friction', 'mass', 'inertia', 'ipos', 'axis', 'range')
 
@@ -51,7 +52,8 @@ def steps_per_period(path: str, timestep_sec: float) -> int:
     """
     Return how many physics steps make a control period.
 
-    :raises WorldError: if they are not a whole number, or too long for the wheels.
+    :raises WorldError: if they are not a whole number, too long for the wheels, or so short that
+        nothing would seem to move.
     """
     steps = CONTROL_PERIOD_SEC / timestep_sec if timestep_sec > 0.0 else 0.0
     # Also false for nan, which MuJoCo accepts.
@@ -67,6 +69,13 @@ def steps_per_period(path: str, timestep_sec: float) -> int:
             path,
             f'timestep={timestep_sec:g}: the servos of the wheels need {LONGEST_TIMESTEP_SEC:g} s '
             'or less',
+            word='timestep',
+        )
+    if timestep_sec < SHORTEST_TIMESTEP_SEC:
+        raise refused(
+            path,
+            f'timestep={timestep_sec:g}: nothing would get on; use {SHORTEST_TIMESTEP_SEC:g} s or '
+            'more',
             word='timestep',
         )
     return round(steps)
