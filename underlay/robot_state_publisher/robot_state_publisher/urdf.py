@@ -17,7 +17,7 @@ _TURNING = ('revolute', 'continuous')
 _SLIDING = 'prismatic'
 _STANDING = ('fixed', 'floating', 'planar')
 _LIMITED = ('revolute', _SLIDING)
-# Of what stands it is not read, as by upstream's parser: what SolidWorks exports has 0 0 0 there.
+# Of what stands it is not read, as by upstream's parser: files of real robots have 0 0 0 there.
 _NO_AXIS = (0.0, 0.0, 0.0)
 _XACRO = '{http://www.ros.org/wiki/xacro}'
 

@@ -114,9 +114,10 @@ class BagWriter:
         self._all = Span()
         self._files: list[_File] = []
         self._mode = compress
-        self._packed = compression.compressor() if compress is CompressionMode.MESSAGE else None
+        of_messages = compress is CompressionMode.MESSAGE
+        self._compress_message = compression.compressor() if of_messages else None
         self._pool = ThreadPoolExecutor(1) if compress is CompressionMode.FILE else None
-        self._packing: list[Future[None]] = []
+        self._compressing: list[Future[None]] = []
         with self._refusals():
             self._begin_file()
 
@@ -162,8 +163,8 @@ class BagWriter:
         topic = self._topics[topic_name]
         if self._is_full(received_ns):
             self.split()
-        if self._packed is not None:
-            data = self._packed(data)
+        if self._compress_message is not None:
+            data = self._compress_message(data)
         try:
             self._file.write(topic_name, data, received_ns, published_ns, topic.count)
         except OSError as error:
@@ -182,9 +183,9 @@ class BagWriter:
         closed = self._files[-1]
         with self._refusals():
             self._file.finish(self._metadata())
-            for packing in self._packing:
-                if packing.done():
-                    packing.result()
+            for each in self._compressing:
+                if each.done():
+                    each.result()
             self._begin_file()
         self._complete(closed, self._files[-1])
 
@@ -196,8 +197,8 @@ class BagWriter:
         with self._refusals(), ExitStack() as later:
             self._file.finish(self._metadata())
             self._complete(self._files[-1], None)
-            for packing in self._packing:
-                later.callback(packing.result)  # the bag is described also where that fails
+            for each in self._compressing:
+                later.callback(each.result)  # the bag is described also where that fails
             if self._pool is not None:
                 self._pool.shutdown()
             MetadataIo().write_metadata(str(self.folder), self._metadata())
@@ -214,7 +215,7 @@ class BagWriter:
         if self._pool is None:
             complete()
         else:
-            self._packing.append(self._pool.submit(complete))
+            self._compressing.append(self._pool.submit(complete))
 
     @contextmanager
     def _refusals(self) -> Iterator[None]:

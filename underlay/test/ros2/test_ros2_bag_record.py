@@ -182,15 +182,15 @@ def test_services_pause_a_recording_and_begin_a_new_file(
 def test_a_snapshot_has_the_last_messages(graph: Any, shared_domain: int, tmp_path: Path) -> None:
     size = len(serialize_message(String(data='Hello World: 10')))
     words = (CHATTER, '--snapshot-mode', '--max-cache-size', str(2 * size + 3))
-    ready = 'Nothing is written before a snapshot is asked for: `ros2 service call '
-    recording = Recording(graph, tmp_path, *words, ready=ready)
+    ready = 'a snapshot is asked for: `ros2 service call /tape/snapshot rosbag2_interfaces/srv/S'
+    recording = Recording(graph, tmp_path, *words, '--node-name', 'tape', ready=ready)
     heard: list[String] = []
     with SpunNodes(shared_domain) as nodes:
         node = nodes.start(Node, 'student')
         node.create_subscription(String, CHATTER, heard.append, 10)
         wait_until(lambda: len(heard) > 4, timeout_sec=20.0, what='a talker')
         assert recording.count(CHATTER) == 0
-        assert ask(node, Snapshot, '/rosbag2_recorder/snapshot').success
+        assert ask(node, Snapshot, '/tape/snapshot').success
     recording.wait_for(CHATTER, count=2)
     assert recording.end() == {CHATTER}
     assert recording.count(CHATTER) == 2  # what came since is lost

@@ -26,7 +26,8 @@ from ros2bag.refusals import refused_in_one_line
 from ros2bag.services import control_recorder
 
 _PRESETS = 'it is for plugins in C++; --storage-preset-profile says how a bag is stored'
-_SNAPSHOT = '`ros2 service call /rosbag2_recorder/snapshot rosbag2_interfaces/srv/Snapshot`'
+_NODE_NAME = 'rosbag2_recorder'
+_SNAPSHOT = '`ros2 service call /{}/snapshot rosbag2_interfaces/srv/Snapshot`'
 
 
 class RecordVerb(VerbExtension):
@@ -57,7 +58,7 @@ class RecordVerb(VerbExtension):
             help='Look for new topics every so many milliseconds (default: %(default)s).',
         )
         qos_overrides.add_argument(parser)
-        node_options.add_node_name(parser, 'rosbag2_recorder')
+        node_options.add_node_name(parser, _NODE_NAME)
         node_options.add_log_level(parser)
         _add_bag(parser)
         _add_limits(parser)
@@ -145,7 +146,8 @@ def _record(
     by_key = '; SPACE pauses and resumes' if keyboard.is_there else ''
     log.info(f'Recording...{" (paused)" if args.start_paused else ""}{by_key}')
     if args.snapshot_mode:
-        log.info(f'Nothing is written before a snapshot is asked for: {_SNAPSHOT}')
+        how = _SNAPSHOT.format(args.node_name)
+        log.info(f'Nothing is written before a snapshot is asked for: {how}')
     if missing := recorder.missing():
         log.info(f'Waiting for {", ".join(missing)}{_hint(missing, graph)}')
     while True:
@@ -242,7 +244,7 @@ def _add_snapshots(parser: argparse.ArgumentParser) -> None:
         parser,
         {
             '--snapshot-mode': 'Keep the last messages in memory, and write them only when '
-            f'somebody asks: {_SNAPSHOT}.'
+            f'somebody asks: {_SNAPSHOT.format(_NODE_NAME)}.'
         },
     )
     parser.add_argument(
