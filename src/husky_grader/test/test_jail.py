@@ -409,3 +409,10 @@ def test_a_program_prints_what_the_grader_s_terminal_cannot(
     with jail_in(find_sandbox('none'), tmp_path) as jail:
         assert jail.run(python('print("größe ✓")'), log=log, within_sec=20.0) == 0
     assert log.read_text(encoding='utf-8') == 'größe ✓\n'
+
+
+def test_numpy_starts_no_thread_for_each_processor(tmp_path: Path) -> None:
+    log, show = tmp_path / 'log', 'import os, numpy; print(os.listdir("/proc/self/task"), numpy.e)'
+    with jail_in(find_sandbox('none'), tmp_path) as jail:
+        assert jail.run(python(show), log=log, within_sec=20.0) == 0
+    assert log.read_text().count("'") == 2, log.read_text()

@@ -143,6 +143,9 @@ def environment_for(folder: Path, given: Mapping[str, str]) -> dict[str, str]:
         allowed[name] = ':'.join(_without_own(allowed[name]))
     own = {'HOME': str(home_of(folder)), 'USER': 'student', 'LOGNAME': 'student'}
     own['PYTHONUTF8'] = '1'  # that of the grader's terminal is nothing to a student's program
+    # Or numpy starts a thread for each processor in every program: on a large server more than
+    # the limit of tasks, and they spin for a while.
+    own['OPENBLAS_NUM_THREADS'] = '1'
     return {**allowed, **own, **given}
 
 
