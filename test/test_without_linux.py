@@ -12,7 +12,6 @@ from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 from husky_grader.run.in_process import drive_route
-from husky_runtime.processors import usable_processors
 from playpen_testing import without_linux
 import pytest
 
@@ -114,15 +113,3 @@ def test_the_camera_says_what_is_missing(elsewhere: dict[str, str]) -> None:
     )
     assert 'no picture can be drawn here' in said
     assert 'set render_mode to None' in said
-
-
-def test_processors_are_counted_with_and_without_affinity(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(os, 'sched_getaffinity', lambda _: {3, 5, 8})
-    assert usable_processors() == 3
-    monkeypatch.delattr(os, 'sched_getaffinity')
-    monkeypatch.setattr(os, 'cpu_count', lambda: 6)
-    assert usable_processors() == 6
-    monkeypatch.setattr(os, 'cpu_count', lambda: None)
-    assert usable_processors() == 1
