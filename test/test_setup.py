@@ -362,6 +362,18 @@ def test_a_full_disk_is_said_before_anything_is_made(clone: Path, tmp_path: Path
     assert not (clone / '.venv').exists()
 
 
+def test_a_folder_without_links_or_programs_is_refused(clone: Path, tmp_path: Path) -> None:
+    path = program(tmp_path / 'bin', 'ln', 'echo "ln: Operation not permitted" >&2; exit 1')
+    refused(lab(clone, 'exec', 'true', PATH=path), 'no symbolic links in', 'into your home')
+    stick = 'mkdir "$1" && mount -t tmpfs -o noexec none "$1" && cp -r "$0" "$1"/clone && exec '
+    stick += 'bash "$1"/clone/lab exec true'
+    command = ['unshare', '--map-root-user', '--mount', 'bash', '-c', stick, str(clone)]
+    command.append(str(tmp_path / 'stick'))
+    done = subprocess.run(command, env=plain_environment(), capture_output=True, text=True)
+    refused(done, 'no program may run in', 'into your home')
+    assert not (clone / '.venv').exists()
+
+
 def test_a_terminal_with_few_letters_is_no_matter_to_a_set_up(clone: Path, tmp_path: Path) -> None:
     told = tmp_path / 'told'
     folder = tmp_path / 'bin'
