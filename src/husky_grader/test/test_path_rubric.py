@@ -104,6 +104,15 @@ def test_points_count_in_their_order(tmp_path: Path, course: str, points: float)
     assert json.loads((report / 'lab.json').read_text())['score'] == pytest.approx(points)
 
 
+def test_what_a_drive_did_is_told_once(tmp_path: Path) -> None:
+    (course := tmp_path / 'ann.yaml').write_text('waypoints: [[0, 0], [6, 0]]')
+    command = ['--lab', str(course), '--rubric', str(RUBRIC)]
+    assert grade([*command, '--report', str(tmp_path / 'report')]) == 1
+    why = json.loads((tmp_path / 'report' / 'lab.json').read_text())['steps'][0]['why']
+    assert why.startswith('1 collision, 0 are allowed; the path leaves out (4.1, -3.2): ')
+    assert why.count('touched jersey_barrier_15') == 1, why
+
+
 def test_a_path_almost_near_enough_is_told_by_how_much(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -41,7 +41,9 @@ def path_step(
     why = '; '.join(report['reasons']) or passed(
         report['course'], {part['why']: part['cost_points'] for part in report['parts']}
     )
-    defects = {name: f'{told}; {why}' for name, told in defects.items()}
+    if defects:
+        last = list(defects)[-1]
+        defects[last] = f'{defects[last]}; {why}'  # once, of however many there are
     return Finding(why, score=report['score'], defects=defects)
 
 
