@@ -6,7 +6,6 @@ from collections.abc import Iterator
 import os
 from pathlib import Path
 import re
-from shutil import copy
 import signal
 import subprocess
 import sys
@@ -143,7 +142,9 @@ def test_a_world_and_a_record_are_named_by_absolute_paths(
     home, here = tmp_path / 'home', tmp_path / 'here'
     for folder in (home, here):
         folder.mkdir()
-    world = Path(copy(worlds / 'empty.xml', here / 'my_world.xml'))
+    world = here / 'my_world.xml'
+    crate = '<body name="crate" pos="3 0 1"><geom size=".1"/></body></worldbody>'
+    world.write_text((worlds / 'empty.xml').read_text().replace('</worldbody>', crate))
     process = run_process(
         *('-p', 'world:=my_world.xml', '-p', 'record:=~/run.record'),
         cwd=here,
@@ -151,7 +152,7 @@ def test_a_world_and_a_record_are_named_by_absolute_paths(
     )
     assert process.stderr is not None
     try:
-        find_line(process.stderr, f'{world}: 0 obstacles')
+        find_line(process.stderr, f'{world}: 1 obstacle, husky;')
     finally:
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20.0)

@@ -118,7 +118,7 @@ class SimulatorNode(SettingsNode):
         self.add_on_set_parameters_callback(self._on_set_parameters)
         obstacles = len(self.simulation.world.names) - len(config.robots)
         self.get_logger().info(
-            f'{self._run.world}: {obstacles} obstacles, '
+            f'{self._run.world}: {obstacles} obstacle{"" if obstacles == 1 else "s"}, '
             f'{", ".join(robot.name for robot in config.robots)}; '
             f'{self._pace}'
         )

@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plays a recorded run in the browser. Needs no ROS."""
+"""Play a recorded run in the browser. Needs no ROS."""
 
 from collections.abc import Sequence
 import os
@@ -113,7 +113,7 @@ def main(args: Sequence[str] | None = None) -> int:
         'record',
         nargs='?',
         default='report',
-        help="the record of a run, or the folder of its report's (default: %(default)s)",
+        help='the record of a run, or the folder of its report (default: %(default)s)',
     )
     parser.add_argument('--host', default='127.0.0.1', help='address to serve the page at')
     parser.add_argument('--port', type=int, default=8080, help='port; the next free one if taken')
