@@ -18,7 +18,7 @@ from rtps_graph.graph import Graph, Node
 class CommandLine:
     """A program that runs.
 
-    :param file: the program, as it was called.
+    :param file: the program, as it was called; of a module (`python3 -m`) its name.
     :param folder: the one that it was started in.
     :param words: what stands behind the program.
     :param nodes: those of a graph that it holds, one at least.
@@ -54,10 +54,20 @@ def with_nodes_in(graph: Graph) -> Iterator[CommandLine]:
             nodes = tuple(node for node in graph.nodes if node.port in ports)
             if nodes:
                 if 'python' in Path(words[0]).name:
-                    del words[0]
+                    words = _behind_python(words)
                 yield CommandLine(
                     file=Path(words[0]),
                     folder=(process / 'cwd').readlink(),
                     words=tuple(words[1:]),
                     nodes=nodes,
                 )
+
+
+def _behind_python(words: list[str]) -> list[str]:
+    """Return the words without those of Python: program or module come first."""
+    at = 1
+    while at < len(words) - 1 and words[at].startswith('-') and words[at] != '-c':
+        at += 2 if words[at] in ('-W', '-X') else 1
+        if words[at - 1] == '-m':
+            break
+    return words[at:]

@@ -134,6 +134,11 @@ def test_options_that_set_and_rename_nothing(
     # This one has the parameter of that name, and the file is for it, too.
     processes.node('parameters', 'owner', '--ros-args', '--params-file', str(file))
     processes.node('count', 'counter', '--ros-args', '-r', 'count:=total')
+    # As the programs of the wheels' ROS are started.
+    module = ('-u', '-m', 'demo_nodes_py.topics.talker')
+    processes.start(
+        sys.executable, *module, '--ros-args', '-r', 'chater:=said', ready='Publishing'
+    )
     answer = ros2('doctor')
     found = [line for line in answer.lines if ' (parameters): ' in line]
     assert found == [
@@ -158,6 +163,8 @@ def test_options_that_set_and_rename_nothing(
         'mend the name; there is /cmd_vel',
         'problem (remappings): nodes.py -r cmd_vl:=speeds: renames nothing: /husky has no '
         "/cmd_vl; mend the name; did you mean '/cmd_vel'?",
+        'problem (remappings): demo_nodes_py.topics.talker -r chater:=said: renames nothing: '
+        "/talker has no /chater; mend the name; did you mean '/chatter'?",
         'problem (remappings): nodes.py -r count:=total: renames nothing: /count of /counter is '
         'an action, of which Jazzy renames parts alone; name each part, as `-r '
         '/count/_action/send_goal:=NEW/_action/send_goal`, and so cancel_goal, get_result, '
