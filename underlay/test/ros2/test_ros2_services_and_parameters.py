@@ -246,6 +246,8 @@ def test_descriptions_show_ranges(ros2: Callable[..., Any]) -> None:
         '  Constraints:',
         '    Read only: true',
     ]
+    missed = ros2('param', 'describe', '/owner', 'speed', 'fixd')
+    assert missed.err == "Parameter not set: fixd; did you mean 'fixed'?\n", missed
 
 
 @pytest.mark.usefixtures('world')

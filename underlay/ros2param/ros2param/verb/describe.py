@@ -4,8 +4,12 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
+import sys
+from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor
+from ros2_diagnosis import nearest
 from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
@@ -25,8 +29,18 @@ class DescribeVerb(VerbExtension):
             response = api.call_describe_parameters(
                 node=node, node_name=node_name, parameter_names=args.parameter_names
             )
+            # rclpy describes none where one of them is missing, and does not say so.
+            if len(response.descriptors) < len(args.parameter_names):
+                _tell_missing(node, node_name, args.parameter_names)
         for descriptor in response.descriptors:
             _print(descriptor)
+
+
+def _tell_missing(node: Any, node_name: str, asked: Sequence[str]) -> None:
+    names = api.list_names(node=node, node_name=node_name)
+    for name in asked:
+        if name not in names:
+            print(f'Parameter not set: {name}{nearest.hint(name, names)}', file=sys.stderr)
 
 
 def _print(descriptor: ParameterDescriptor) -> None:
