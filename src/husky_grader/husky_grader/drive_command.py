@@ -70,7 +70,7 @@ def _parser() -> Parser:
         metavar='DIR',
         type=given_name,
         default='report',
-        help='where the report goes',
+        help='where the report goes (%(default)s)',
     )
     return parser
 

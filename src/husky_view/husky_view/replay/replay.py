@@ -115,8 +115,15 @@ def main(args: Sequence[str] | None = None) -> int:
         default='report',
         help='the record of a run, or the folder of its report (default: %(default)s)',
     )
-    parser.add_argument('--host', default='127.0.0.1', help='address to serve the page at')
-    parser.add_argument('--port', type=int, default=8080, help='port; the next free one if taken')
+    parser.add_argument(
+        '--host', default='127.0.0.1', help='address to serve the page at (default: %(default)s)'
+    )
+    parser.add_argument(
+        '--port',
+        type=int,
+        default=8080,
+        help='port; the next free one if taken (default: %(default)s)',
+    )
     parser.add_argument(
         '--names', nargs='+', default=(), help='more names under which the page may be asked for'
     )
