@@ -28,7 +28,8 @@ MANY = 40_000
 def bag(tmp_path: Path) -> Path:
     """Return a bag with 12 messages of four topics, in two files."""
     writer = opened_writer(tmp_path / 'bag', '/chatter', '/other', '/_hidden')
-    writer.create_topic(TopicMetadata(0, EVENTS, 'example_interfaces/srv/AddTwoInts_Event', 'cdr'))
+    event = ('example_interfaces/srv/AddTwoInts_Event', 'cdr', [], 'RIHS01_events')
+    writer.create_topic(TopicMetadata(0, EVENTS, *event))
     for number in range(12):
         topic = ('/chatter', '/other', '/_hidden', EVENTS)[number % 4]
         writer.write(topic, string(number), 1000 + number, 900 + number)
@@ -85,6 +86,7 @@ def test_each_storage_becomes_each(bag: Path, tmp_path: Path, source: str, stora
     for topic in old.get_all_topics_and_types():
         assert topics[topic.name].type == topic.type
         assert topics[topic.name].type_description_hash == topic.type_description_hash
+    assert topics[EVENTS].type_description_hash == 'RIHS01_events'
 
 
 def test_a_message_keeps_the_time_of_its_publication(bag: Path, tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ import tracemalloc
 from typing import Any
 
 from playpen_testing.bags import opened_reader, opened_writer, rest_of, times_of
+from playpen_testing.waiting import wait_until
 import pytest
 import rosbag2_py
 from rosbag2_py import bag_files, ReadOrder, ReadOrderSortBy, StorageFilter, StorageOptions
@@ -229,10 +230,12 @@ def test_a_bag_is_read_while_it_is_recorded(tmp_path: Path) -> None:
     writer = opened_writer(tmp_path / 'bag', 'n', storage_id='sqlite3')
     for number in range(3000):
         writer.write('n', bytes(1000), number)
-    reader = opened_reader(tmp_path / 'bag')
-    read = times_of(reader)
-    assert read == list(range(len(read)))
-    assert rosbag2_py.Info().read_metadata(str(tmp_path / 'bag'), '').bag_size > len(read) * 1000
+    wait_until(
+        lambda: times_of(opened_reader(tmp_path / 'bag')) == list(range(3000)),
+        timeout_sec=20.0,
+        what='all that was written, in a bag that is not closed',
+    )
+    assert rosbag2_py.Info().read_metadata(str(tmp_path / 'bag'), '').bag_size > 3000 * 1000
     writer.close()
     assert len(times_of(opened_reader(tmp_path / 'bag'))) == 3000
 
