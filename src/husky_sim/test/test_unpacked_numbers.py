@@ -7,7 +7,7 @@ import struct
 
 from geometry_msgs.msg import Twist
 from husky_sim.messages.unpacked_numbers import reader_of
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
@@ -48,8 +48,16 @@ def test_less_than_a_header_is_refused(count: int) -> None:
         READ(bytes(count))
 
 
-@given(data=st.binary(min_size=4, max_size=60))
-def test_what_the_middleware_refuses_is_refused(data: bytes) -> None:
+HEADERS = st.sampled_from([b'\0\0\0\0', b'\0\1\0\0', b'\0\1\0\3'])
+
+
+@given(header=HEADERS | st.binary(min_size=4, max_size=4), body=st.binary(max_size=60))
+@example(header=b'\0\0\0\0', body=bytes(range(48)))
+@example(header=b'\0\1\0\0', body=bytes(range(48)))
+@example(header=b'\0\1\0\0', body=bytes(range(49)))
+@example(header=b'\0\1\0\0', body=bytes(range(47)))
+def test_what_the_middleware_refuses_is_refused(header: bytes, body: bytes) -> None:
+    data = header + body
     try:
         message = deserialize_message(data, Twist)
     except RuntimeError:
