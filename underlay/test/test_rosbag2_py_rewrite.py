@@ -28,8 +28,10 @@ MANY = 40_000
 def bag(tmp_path: Path) -> Path:
     """Return a bag with 12 messages of four topics, in two files."""
     writer = opened_writer(tmp_path / 'bag', '/chatter', '/other', '/_hidden')
-    event = ('example_interfaces/srv/AddTwoInts_Event', 'cdr', [], 'RIHS01_events')
-    writer.create_topic(TopicMetadata(0, EVENTS, *event))
+    kind = 'example_interfaces/srv/AddTwoInts_Event'
+    writer.create_topic(
+        TopicMetadata(0, EVENTS, kind, 'cdr', type_description_hash='RIHS01_events')
+    )
     for number in range(12):
         topic = ('/chatter', '/other', '/_hidden', EVENTS)[number % 4]
         writer.write(topic, string(number), 1000 + number, 900 + number)
