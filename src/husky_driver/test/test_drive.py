@@ -136,11 +136,22 @@ def test_the_way_to_a_first_waypoint_with_reverse_is_driven_backwards(
     assert max(abs(o.yaw_rad) for o in run.track) < 0.05  # it does not turn round
 
 
-def test_sharp_corners_are_turned_on_the_spot(drive_to_end: Callable[..., Any]) -> None:
-    course = parse_course('corners: sharp\nwaypoints: [[0, 0], [2, 0], [2, 2]]')
-    run = drive_to_end(drive_of(course))
-    for odometry in run.track:
-        assert min(abs(odometry.y_m), abs(odometry.x_m - 2.0)) < 0.02
+@pytest.mark.parametrize('end_y_m', [2, -2])
+def test_sharp_corners_are_turned_on_the_spot(make_plant: Any, end_y_m: int) -> None:
+    course = parse_course(f'corners: sharp\nwaypoints: [[0, 0], [2, 0], [2, {end_y_m}]]')
+    drive, plant = drive_of(course), make_plant()
+    left_m, turning_m = list[float](), list[float]()
+    while (command := drive.step(plant.now)) is not None:
+        left_m.append(drive.remaining_m)
+        assert min(abs(plant.now.y_m), abs(plant.now.x_m - 2.0)) < 0.02
+        if 0.1 < abs(plant.now.yaw_rad) < 1.4:
+            assert abs(command.speed_m_s) < 0.1, f'it drives while it turns: {plant.now}'
+            turning_m.append(drive.remaining_m)
+        plant.advance(command)
+    assert turning_m, 'it has not turned'
+    assert (left_m[5], turning_m[0]) == pytest.approx((4.0, 2.0), abs=0.05), 'both legs count'
+    assert drive.reached == 3
+    assert drive.remaining_m == pytest.approx(0.0, abs=0.01)
 
 
 @pytest.mark.parametrize('forward', [True, False])
@@ -148,12 +159,17 @@ def test_a_distance_is_driven_from_any_start_pose(
     drive_to_end: Callable[..., Any], make_plant: Any, forward: bool
 ) -> None:
     start = Odometry(3.0, 1.0, 2.0, 0.7, 0.0, 0.0)
-    run = drive_to_end(DistanceDrive(0.6, 2.5, forward=forward), make_plant(now=start))
+    moves = DistanceDrive(0.6, 2.5, forward=forward, limits=A200_LIMITS)
+    run = drive_to_end(moves, make_plant(now=start))
     end = run.track[-1]
     sign = 1.0 if forward else -1.0
     assert end.x_m - start.x_m == pytest.approx(sign * 2.5 * math.cos(0.7), abs=0.01)
     assert end.y_m - start.y_m == pytest.approx(sign * 2.5 * math.sin(0.7), abs=0.01)
     assert max(abs(o.speed_m_s) for o in run.track) == pytest.approx(0.6, abs=0.02)
+    assert run.drive.elapsed_sec == end.time_sec - start.time_sec
+    assert max(abs(o.yaw_rad - 0.7) for o in run.track) < 0.02, 'it does not turn round'
+    for before, after in pairwise(run.commands):
+        assert abs(after.speed_m_s - before.speed_m_s) <= 1.0 * 0.02 + 1e-9
 
 
 @pytest.mark.parametrize(
@@ -223,6 +239,21 @@ def test_one_that_gave_up_is_stopped_until_it_stays_at_rest() -> None:
     assert ended < 8 + 0.6 / 0.02
 
 
+@pytest.mark.parametrize('gives_up', [True, False])
+def test_a_robot_that_rolls_on_is_not_stopped_for_ever(gives_up: bool) -> None:
+    drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
+    moves, period = [False], 0
+    while not any(moves):
+        command = drive.step(Odometry(period * 0.02, 0.004 * period, 0.0, 0.0, 0.2, 0.0))
+        if gives_up:
+            drive.give_up('enough')
+        moves.append(command is None or command.speed_m_s > 0.0)
+        period += 1
+        assert period < 250, f'told to stand for 5 s: {drive.failure}'
+    assert drive.finished is gives_up
+    assert period * 0.02 > 3.0
+
+
 def test_one_that_gave_up_ends_soon_also_where_the_simulation_is_reset() -> None:
     drive = drive_of(parse_course('waypoints: [[0, 0], [2, 0]]'))
     drive.step(Odometry(100.0, 0.0, 0.0, 0.0, 0.0, 0.0))
@@ -236,15 +267,16 @@ def test_one_that_gave_up_ends_soon_also_where_the_simulation_is_reset() -> None
 def test_a_waypoint_passed_too_far_away_counts_as_missed(
     drive_to_end: Callable[..., Any], make_plant: Any
 ) -> None:
-    drive = drive_of(parse_course('tolerance: 0.05\nwaypoints: [[0, 0], [2, 0], [4, 0]]'))
-    plant = make_plant()
+    course = 'tolerance: 0.05\nwaypoints: [[-1, 0], {x: 0, y: 0, dwell: 0.1}, [2, 0], [4, 0]]'
+    drive = drive_of(parse_course(course))
+    plant = make_plant(now=Odometry(0.0, -1.0, 0.0, 0.0, 0.0, 0.0))
     while plant.now.x_m < 1.9:
         command = drive.step(plant.now)
         assert command is not None
         plant.advance(command)
     plant.now = plant.now._replace(y_m=0.2)  # somebody pushes the robot aside
     run = drive_to_end(drive, plant)
-    assert (run.drive.reached, run.drive.total) == (2, 3)
+    assert (run.drive.reached, run.drive.total) == (3, 4)
 
 
 def test_a_reset_of_the_simulator_begins_the_course_again(
@@ -375,6 +407,14 @@ def test_a_robot_that_moves_but_gets_no_nearer_is_given_up(make_plant: Any) -> N
         assert plant.now.time_sec < 60.0
     assert drive.failure.startswith('it came no nearer to its goal for 30 s; it is at (')
     assert drive.failure.endswith(' m of path are left')
+
+
+def test_a_slow_drive_that_comes_nearer_is_not_given_up(
+    drive_to_end: Callable[..., Any],
+) -> None:
+    run = drive_to_end(drive_of(parse_course('speed: 0.1\nwaypoints: [[0, 0], [4, 0]]')))
+    assert (run.drive.failure, run.drive.reached) == ('', 2)
+    assert run.drive.elapsed_sec > 40.0
 
 
 def test_a_drive_that_is_held_for_an_hour_goes_on(
