@@ -127,6 +127,28 @@ def test_seeking_goes_through_all_files(bag: Path) -> None:
     assert len(rest_of(reader)) == 15
 
 
+@pytest.mark.timeout(20)
+@pytest.mark.parametrize('storage_id', ['mcap', 'sqlite3'])
+def test_a_time_between_two_files_is_sought(tmp_path: Path, storage_id: str) -> None:
+    writer = opened_writer(tmp_path / 'bag', '/a', storage_id=storage_id)
+    times = (10, 20, 100, 110)
+    for time in times:
+        if time == 100:
+            writer.split_bagfile()  # and a file without messages
+            writer.split_bagfile()
+        writer.write('/a', string(time), time)
+    writer.close()
+    reader = opened_reader(tmp_path / 'bag')
+    for reverse in (False, True):
+        assert reader.set_read_order(ReadOrder(ReadOrderSortBy.ReceivedTimestamp, reverse))
+        for sought in (50, 105, 15, 99, 20, 200, 100, 5):
+            reader.seek(sought)
+            if reverse:
+                assert times_of(reader) == [t for t in times[::-1] if t <= sought], sought
+            else:
+                assert times_of(reader) == [t for t in times if t >= sought], sought
+
+
 def test_a_bag_is_read_backwards(bag: Path) -> None:
     reader = opened_reader(bag)
     assert reader.set_read_order(ReadOrder(ReadOrderSortBy.ReceivedTimestamp, reverse=True))

@@ -133,13 +133,11 @@ class SequentialReader:
         """
         file = self._opened()
         timestamp = self._sought_ns = nanoseconds_of(timestamp)
-        while True:
-            if self._number > 0 and timestamp < file.contents.span.start_ns:
-                file = self._load(self._number - 1)
-            elif self._number + 1 < len(self._files) and timestamp > file.contents.span.end_ns:
-                file = self._load(self._number + 1)
-            else:
-                break
+        # First back, then on: a time between two files would lead to and fro.
+        while self._number > 0 and file.contents.span.begins_after(timestamp):
+            file = self._load(self._number - 1)
+        while self._number + 1 < len(self._files) and timestamp > file.contents.span.end_ns:
+            file = self._load(self._number + 1)
         if not (file.seek_goes_on and self._is_by_time and timestamp == self._time_ns):
             self._key = None
         self._time_ns = timestamp

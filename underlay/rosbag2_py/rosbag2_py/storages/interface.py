@@ -55,6 +55,10 @@ class Span:
             self.end_ns = max(self.end_ns, other.end_ns) if self.count else other.end_ns
             self.count += other.count
 
+    def begins_after(self, time_ns: int) -> bool:
+        """Return whether no message is as early; so it is where there is none."""
+        return not self.count or time_ns < self.start_ns
+
     @property
     def start(self) -> Nanoseconds:
         return Nanoseconds(self.start_ns)
