@@ -110,6 +110,10 @@ def test_a_filter_keeps_the_place(bag: Path) -> None:
     reader.set_filter(StorageFilter(regex='ev'))  # must match the whole name
     reader.seek(0)
     assert not reader.has_next()
+    for regex, times in (('/ev.*', range(1, 30, 2)), ('ev', range(30))):
+        reader.set_filter(StorageFilter(regex_to_exclude=regex))
+        reader.seek(0)
+        assert times_of(reader) == list(times), regex
 
 
 def test_seeking_goes_through_all_files(bag: Path) -> None:

@@ -23,6 +23,7 @@ from tf2_py import (
     LookupException,
     TransformException,
 )
+import yaml
 
 
 def x_of(buffer: BufferCore, target: str, source: str, time: Any = LATEST) -> float:
@@ -51,8 +52,17 @@ def test_a_message_of_a_time_and_any_time_of_rclpy_are_taken() -> None:
         x_of(buffer, 'a', 'b', 2.0)
     with pytest.raises(TypeError, match=r'^duration must have sec and nanosec, or nanosec'):
         BufferCore(10.0)
-    with pytest.raises(TypeError, match=r'^argument 2 must be str, not NoneType$'):
-        buffer.lookup_transform_core('a', None, LATEST)  # type: ignore[arg-type]
+    nothing: Any = None
+    for call, *arguments in (
+        (buffer.lookup_transform_core, LATEST),
+        (buffer.can_transform_core, LATEST),
+        (buffer.get_latest_common_time,),
+    ):
+        with pytest.raises(TypeError, match=r'^argument 2 must be str, not NoneType$'):
+            call('a', nothing, *arguments)
+    for full in (buffer.lookup_transform_full_core, buffer.can_transform_full_core):
+        with pytest.raises(TypeError, match=r'^argument 3 must be str, not NoneType$'):
+            full('a', LATEST, 'b', LATEST, nothing)
 
 
 def test_the_latest_is_the_newest_time_that_all_have() -> None:
@@ -179,6 +189,8 @@ def test_a_frame_becomes_static_and_moves_again() -> None:
     buffer = buffer_of(transform('a', 'b', 1.0, (1.0, 0.0, 0.0)))
     buffer.set_transform_static(transform('a', 'b', 9.0, (2.0, 0.0, 0.0)), 'test')
     assert x_of(buffer, 'a', 'b', seconds(500.0)) == 2.0
+    buffer.set_transform_static(transform('a', 'b', 1.0, (2.5, 0.0, 0.0)), 'test')
+    assert x_of(buffer, 'a', 'b', seconds(500.0)) == 2.5
     buffer.set_transform(transform('a', 'b', 3.0, (3.0, 0.0, 0.0)), 'test')
     assert x_of(buffer, 'a', 'b', seconds(3.0)) == 3.0
     assert buffer.can_transform_core('a', 'b', seconds(500.0))[0] == 0
@@ -198,10 +210,16 @@ def test_travel_in_time_goes_by_a_fixed_frame() -> None:
     late = ('robot', seconds(4.0), 'ball', seconds(9.0), 'world')
     possible, why = buffer.can_transform_full_core(*late)
     assert (possible, 'into the future' in why) == (0, True)
-    with pytest.raises(
-        LookupException, match='"w" passed to lookupTransform argument fixed_frame'
-    ):
-        buffer.lookup_transform_full_core(*asked[:4], 'w')
+    early = ('robot', seconds(9.0), 'ball', seconds(2.0), 'world')
+    assert buffer.can_transform_full_core(*early)[0] == 0
+    for place, role in ((0, 'target'), (2, 'source'), (4, 'fixed')):
+        wrong = [*asked]
+        wrong[place] = 'w'
+        said = f'"w" passed to lookupTransform argument {role}_frame does not exist'
+        with pytest.raises(LookupException, match=said):
+            buffer.lookup_transform_full_core(*wrong)
+        why = f'Invalid frame ID "w" passed to canTransform argument {role}_frame - frame does '
+        assert buffer.can_transform_full_core(*wrong) == (0, f'{why}not exist')
 
 
 # ---- trees ------------------------------------------------------------------------------------
@@ -347,9 +365,13 @@ def test_the_list_of_frames_is_that_of_tf2() -> None:
 
 def test_a_name_that_yaml_would_take_for_more_is_quoted() -> None:
     buffer = buffer_of(transform("o'\tx", 'x: y', 1.0), transform('base link', 'tag36h11:0', 1.0))
+    for parent in ("o'x", 'o\tx'):
+        buffer.set_transform(transform(parent, parent.upper(), 1.0), 'test')
     lines = buffer.all_frames_as_yaml().splitlines()
     assert lines[:2] == ["'x: y': ", '  parent: "o\'\\U00000009x"']
     assert lines[7:9] == ['tag36h11:0: ', "  parent: 'base link'"]
+    assert yaml.safe_load('\n'.join(lines))["O'X"]['parent'] == "o'x"
+    assert yaml.safe_load('\n'.join(lines))['O\tX']['parent'] == 'o\tx'
 
 
 def test_to_clear_forgets_what_moves_and_keeps_what_is_static() -> None:
@@ -362,7 +384,7 @@ def test_to_clear_forgets_what_moves_and_keeps_what_is_static() -> None:
     with pytest.raises(ConnectivityException):
         buffer.lookup_transform_core('a', 'c', LATEST)
     buffer.set_transform(transform('a', 'b', 0.5), 'test')  # older than what was forgotten
-    assert x_of(buffer, 'a', 'c', seconds(0.5)) == 1.0
+    assert x_of(buffer, 'a', 'c', seconds(0.5)) == x_of(buffer, 'a', 'c') == 1.0
 
 
 def test_a_chain_goes_by_the_nearest_common_parent() -> None:
@@ -371,6 +393,8 @@ def test_a_chain_goes_by_the_nearest_common_parent() -> None:
     asked = (LATEST, 'hand', LATEST, 'base')
     assert buffer._chain('leg', *asked) == ['hand', 'arm', 'base', 'leg']
     assert buffer._chain('base', *asked) == ['hand', 'arm', 'base']
+    to_leg = buffer._chain('arm', LATEST, 'leg', LATEST, 'arm')
+    assert to_leg == ['leg', 'base', 'arm']
 
 
 @pytest.mark.timeout(60)
