@@ -134,7 +134,6 @@ def test_each_odometry_of_a_whole_course_gets_one_command(
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 0, output
     assert 'done: 3 of 3 waypoints' in output
-    assert '50 %:' in output or '60 %:' in output or '100 %:' in output or 'done:' in output
     end = plant_node.plant.now
     assert (end.x_m, end.y_m) == pytest.approx((4.0, 0.0), abs=0.02)
     assert end.is_standing
