@@ -148,6 +148,9 @@ def test_names_in_an_old_metadata_begin_with_the_folder(bag: Path) -> None:
     (folder / 'metadata.yaml').write_text(text)
     assert numbers(opened_reader(folder)) == IN_ORDER
     assert bag_files.describe(folder).relative_file_paths == ['old.db3']
+    newer = text.replace('version: 3', 'version: 4').replace('old/old.db3', 'old.db3')
+    (folder / 'metadata.yaml').write_text(newer)
+    assert numbers(opened_reader(folder)) == IN_ORDER
     packed = text.replace('relative_file', 'compression_mode: MESSAGE\n  relative_file')
     (folder / 'metadata.yaml').write_text(packed)
     with pytest.raises(RuntimeError, match=r"'.*old\.db3' has a message that cannot be decompr"):
