@@ -29,7 +29,7 @@ NEAR_M = 0.3
 NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9_-]{0,60}')
 SAME_M = 1e-6
 EVERY = 5  # of the driver's samples, 2 cm apart
-_EMPTY = Course(name='', waypoints=())
+EMPTY = Course(name='', waypoints=())
 
 
 class CourseRefused(Exception):
@@ -40,7 +40,7 @@ class CourseRefused(Exception):
 class EditableCourse:
     """A course with a selected waypoint, whose changes can be undone."""
 
-    course: Course = _EMPTY
+    course: Course = EMPTY
     selected: int | None = None
     _past: list[Course] = field(default_factory=list)
 

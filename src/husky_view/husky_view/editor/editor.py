@@ -28,7 +28,7 @@ from husky_view.picture.page import ON_TOP
 from husky_view.picture.scene import ABOVE_GROUND_M
 from husky_view.server import ActionQueue
 
-NEW = '(new)'
+NEW, NEW_NAME = '(new)', 'my_path'
 UNDO, DELETE, CLEAR = 'Undo', 'Delete', 'Clear'
 DRIVE = 'Save and drive it'
 EDIT = 'Edit: click on the ground'
@@ -129,7 +129,7 @@ class Editor:
         self._speed.on_update(in_order(lambda event: event.client and later(self._on_speed)))
         self._loop.on_update(in_order(lambda event: event.client and later(self._on_loop)))
         self._verdict = gui.add_html(f'<div style="{_ROOM}"></div>')
-        self._name = gui.add_text('Save as', 'my_path')
+        self._name = gui.add_text('Save as', NEW_NAME)
         gui.add_button('Save').on_click(in_order(lambda _: later(self._save)))
         drive = gui.add_button(DRIVE, color='green')
         drive.on_click(in_order(lambda _: later(self._save_and_drive)))
@@ -196,8 +196,10 @@ class Editor:
     def _open(self, name: str) -> None:
         self._dragged.clear()
         if name == NEW:
-            self._edited.clear()
+            self._edited.load(course.EMPTY)
+            self._name.value = NEW_NAME
             self._stands_in = None
+            self._seen.clear()  # no file has what is edited now
         elif self._read(self._folder / f'{name}.yaml'):
             self._name.value = name
         else:
@@ -320,10 +322,11 @@ class Editor:
         now = course.stamp(file)
         if now is None or now == self._seen.get(file):
             return
+        was_here = file in self._seen
         self._seen[file] = now
+        how = 'not as it was opened or saved here' if was_here else 'there already'
         raise course.CourseRefused(
-            f'{file.name} is not as it was opened or saved here: save again to replace it, or '
-            'take another name'
+            f'{file.name} is {how}: save again to replace it, or take another name'
         )
 
     def look_for_files(self) -> None:
