@@ -162,6 +162,24 @@ def test_letters_with_marks_hide_no_export(tmp_path: Path, as_zip: bool) -> None
 
 
 @AS_ZIP
+def test_a_number_for_a_name_on_canvas_is_nobody_elses(tmp_path: Path, as_zip: bool) -> None:
+    files = {
+        'degrootann_5101_90001_ws.zip': packed('ann'),
+        '5101_5102_90002_ws.zip': packed('one who has taken her number for a name'),
+        'x_5101_y_5103_90003_2_ws.zip': packed('one who has it in a name'),
+        '_5104_90004_ws.zip': packed('one whose name has no letter'),
+    }
+    found = find_submissions([str(export(tmp_path / 'submissions', files, as_zip=as_zip))])
+    assert sorted((one.user, one.name, one.attempt) for one in found) == [
+        ('5101', 'degrootann', 90001),
+        ('5102', '5101', 90002),
+        ('5103', 'x_5101_y', 90003),
+        ('5104', '', 90004),
+    ]
+    assert {whose(one, tmp_path / 'out') for one in found if one.user == '5101'} == {'ann'}
+
+
+@AS_ZIP
 def test_several_files_of_one_canvas_user_stay_together(tmp_path: Path, as_zip: bool) -> None:
     files = {
         'degrootann_5101_90001_package.xml': b'<package/>',
@@ -183,6 +201,7 @@ def test_several_files_of_one_canvas_user_stay_together(tmp_path: Path, as_zip: 
         [f'lab2_461_{group}_{name}' for group, name in enumerate(('ann', 'bob'), 1)],
         [f'2026_{number}_{name}' for number, name in enumerate(('ann', 'bob'), 1)],
         [f'{5100 + number}_{number}_{name}' for number, name in enumerate(('ann', 'bob'), 1)],
+        [f'461_{section}_{group}_ws' for section, group in ((7, 3), (7, 5), (8, 4))],
         [f'{name}_2026_{number}_{name}' for number, name in enumerate(('ann', 'bob'), 1)],
     ],
 )

@@ -66,26 +66,36 @@ def _are_users(listing: Listing, by_user: Mapping[str, Sequence[_File]]) -> bool
     """
     Tell users from numbers in the names that people give: years, sections of a course.
 
-    Each has one name, and somebody has one. Only one, with several archives, is rather a class.
-    None of this is in the hands of a student who would hide the export of a class.
+    Each has one name, and somebody has one that is no number. Only one, with several archives, is
+    rather a class. Little of this is in the hands of a student who would hide a class's export.
     """
     names = {user: {file.name for file in files} for user, files in by_user.items()}
     if any(len(each) > 1 for each in names.values()):
         return False
-    if not any(each != {''} or user.startswith(_ANONYMOUSLY) for user, each in names.items()):
+    if not any(_is_named(*each) or user.startswith(_ANONYMOUSLY) for user, each in names.items()):
         return False
     first, *others = by_user.values()
     return bool(others) or sum(_is_archive(listing, file) for file in first) <= 1
 
 
+def _is_named(name: str) -> bool:
+    return name != '' and not name.isdecimal()
+
+
 def _parse(top: str) -> _File | None:
-    """Return what a name says; None where it is not of Canvas."""
+    """
+    Return what a name says; None where it is not of Canvas.
+
+    A student may have a number for a name, or one in it: the user's stands behind it.
+    """
     words = top.split('_')
     for at, word in enumerate(words):
         anonymous = word == _ANONYMOUSLY and _ANONYMOUS.fullmatch(''.join(words[at + 1 : at + 2]))
-        if anonymous or _NUMBER.fullmatch(word):
+        if anonymous or (at > 0 and _NUMBER.fullmatch(word)):
             after = at + 2 if anonymous else at + 1
-            return _parsed(top, words[:at], '_'.join(words[at:after]), words[after:])
+            file = _parsed(top, words[:at], '_'.join(words[at:after]), words[after:])
+            if file is not None:
+                return file
     return None
 
 
