@@ -3,8 +3,9 @@
 """What an archive or a folder holds, one entry after the other, and what is never taken of it."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+import errno
 import lzma
 import os
 from pathlib import Path
@@ -100,32 +101,70 @@ def read_chunks(
 
 def file_entry(file: Path, path: str, meter: Meter) -> Entry:
     """Return the entry of a file on the disk; a link is not followed."""
-    with refusing_what_is_broken(path):
-        mode = file.lstat().st_mode
-
-    def chunks() -> Iterator[bytes]:
-        return read_chunks(lambda: file.open('rb'), meter, path)
-
-    return Entry(path, what_is(mode), chunks, bool(mode & stat.S_IXUSR))
+    return _entry_at(Path(os.path.realpath(file.parent), file.name), path, meter)
 
 
 def folder_entries(folder: Path, meter: Meter) -> Iterator[Entry]:
     """Yield all that a folder holds, in a fixed order; links are not followed."""
-    waiting = [(folder, '')]
+    waiting = [(Path(os.path.realpath(folder)), '')]
     while waiting:
         path, given = waiting.pop()
         for name in _names_in(path, given, meter):
-            entry = file_entry(path / name, f'{given}{name}', meter)
+            entry = _entry_at(path / name, f'{given}{name}', meter)
             yield entry
             if entry.what == FOLDER:
                 waiting.append((path / name, f'{given}{name}/'))
 
 
+def _entry_at(place: Path, path: str, meter: Meter) -> Entry:
+    with refusing_what_is_broken(path):
+        mode = place.lstat().st_mode
+
+    def chunks() -> Iterator[bytes]:
+        return read_chunks(lambda: os.fdopen(_opened(place, path), 'rb'), meter, path)
+
+    return Entry(path, what_is(mode), chunks, bool(mode & stat.S_IXUSR))
+
+
 def _names_in(folder: Path, given: str, meter: Meter) -> list[str]:
     names = []
-    with refusing_what_is_broken(given.rstrip('/')), os.scandir(folder) as found:
-        for each in found:
-            meter.add_entry()
-            if not is_left_out(each.name):
-                names.append(each.name)
+    path = given.rstrip('/')
+    with refusing_what_is_broken(path):
+        opened = _opened(folder, path or folder.name, stat.S_IFDIR)
+        try:
+            with os.scandir(opened) as found:
+                for each in found:
+                    meter.add_entry()
+                    if not is_left_out(each.name):
+                        names.append(each.name)
+        finally:
+            os.close(opened)
     return sorted(names)
+
+
+def _opened(place: Path, path: str, kind: int = stat.S_IFREG) -> int:
+    """
+    Open what was found at a real path, a file or a folder, and nothing that lies there by now.
+
+    Where students can write, one may put a link there, to a file that only the grader may read,
+    or a pipe, which to open could take for ever.
+
+    :raises Refused: when it is another.
+    """
+    changed = f'{path} changed while it was read; grade a copy that nobody else can write'
+    try:
+        opened = os.open(place, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError as error:
+        if error.errno in (errno.ELOOP, errno.ENOENT, errno.ENOTDIR, errno.ENXIO):
+            raise Refused(changed) from None
+        raise
+    try:
+        here = place
+        with suppress(FileNotFoundError):  # where there is no /proc
+            here = Path(f'/proc/self/fd/{opened}').readlink()  # folders above may be others, too
+        if here != place or stat.S_IFMT(os.fstat(opened).st_mode) != kind:
+            raise Refused(changed)
+    except BaseException:
+        os.close(opened)
+        raise
+    return opened
