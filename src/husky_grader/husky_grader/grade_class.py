@@ -10,6 +10,7 @@ import json
 import os
 from pathlib import Path
 import sys
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, TypeVar
 
 from husky_course.printable import printable
@@ -68,7 +69,7 @@ def grade_files(options: argparse.Namespace) -> int:
     from husky_grader.file_job import FileJob
 
     folder = Path(options.report)
-    folder.mkdir(parents=True, exist_ok=True)
+    _make_folder(folder)
     files = _places(options.files, options)
     every = [
         FileJob(file, name, options.world)
@@ -245,7 +246,7 @@ def _grade_labs(
     from husky_grader.outputs import write_outputs
 
     folder = Path(options.report)
-    folder.mkdir(parents=True, exist_ok=True)
+    _make_folder(folder)
     name = '' if rubric.is_of_files else sandbox.name if sandbox else options.sandbox
     every = [LabJob(each, each.id, rubric, name, options.real_time_factor) for each in submissions]
     jobs = parse_shard(options.shard or '1/1').of(every)
@@ -331,6 +332,22 @@ def _tell_not_taken(names: Sequence[str]) -> None:
         'were sealed with another HUSKY_GRADING_SECRET, or for other submissions, another rubric, '
         'lab, Python, MuJoCo or numpy'
     )
+
+
+def _make_folder(folder: Path) -> None:
+    """
+    Make the folder of a report.
+
+    :raises ValueError: if nothing can be written there, for which all would be graded in vain.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise ValueError(
+            f'{folder}: nothing can be written there ({error.strerror}); name another folder with '
+            '--report DIR'
+        ) from None
 
 
 def _places(given: Sequence[str], options: argparse.Namespace) -> list[str]:

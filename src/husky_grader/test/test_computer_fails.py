@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 from pathlib import Path
+import re
 import resource
 import shutil
 import subprocess
@@ -16,10 +17,12 @@ from husky_grader.jail import find_sandbox, Jail
 from husky_grader.lab.build_step import build_step, ColconMissing
 from husky_grader.lab.lab import grade_lab
 from husky_grader.lab.room import check_room
+from husky_grader.playpen import config_folder
 from husky_grader.rubric.rubric_file import load_rubric, parse_rubric
 from husky_grader.rubric.steps import Step
 import pytest
 
+PATH_RUBRIC = config_folder() / 'rubrics' / 'path.yaml'
 RUBRIC = parse_rubric('title: T\nsteps:\n  - {kind: build, points: 10}\n')
 MANIFEST = """<package format="3">
   <name>p</name>
@@ -109,6 +112,22 @@ def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
         2,
         f'{tmp_path}/report/r: no program can run on this file system, which is mounted with '
         'noexec; name another folder with --report DIR\n',
+    )
+
+
+@pytest.mark.parametrize('given', [[], ['--rubric', str(PATH_RUBRIC), '--lab']])
+def test_a_class_is_not_graded_where_nothing_can_be_written(
+    given: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ('ann', 'bob'):
+        (tmp_path / f'{name}.yaml').write_text('waypoints: [[0, 0], [-1, 0]]\n')
+    files = [str(tmp_path / f'{name}.yaml') for name in ('ann', 'bob')]
+    assert grade([*given, *files, '--report', '/proc/self']) == 2  # nor can root
+    told = capsys.readouterr()
+    assert told.out == ''
+    name_another = 'name another folder with --report DIR\n'
+    assert re.fullmatch(
+        rf'/proc/self: nothing can be written there \(.*\); {name_another}', told.err
     )
 
 
