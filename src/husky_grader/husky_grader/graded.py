@@ -38,6 +38,7 @@ class Graded:
     most: float  # points that the rubric has
     steps: Sequence[StepGrade] = ()
     refused: str = ''
+    undone: bool = False  # refused for what this computer lacked: no fault of the submission
     sandbox: str = ''  # in which it was built and run
     notes: Sequence[str] = ()  # what a person should know of how it was found and unpacked
 
@@ -49,6 +50,11 @@ class Graded:
     def is_full(self) -> bool:
         """Whether every step got all of its points."""
         return not self.refused and all(step.is_full for step in self.steps)
+
+    @property
+    def instead_of_points(self) -> str:
+        """The word for one that has no points."""
+        return 'not graded' if self.undone else 'refused' if self.refused else ''
 
     def entry(self) -> dict[str, Any]:
         """Return it as JSON has it."""
@@ -65,12 +71,14 @@ class Graded:
 
     def said(self) -> str:
         """Return it as progress tells it."""
-        return f'{self.submission.id} ' + ('refused' if self.refused else f'{self.points:.1f}')
+        return f'{self.submission.id} {self.instead_of_points or f"{self.points:.1f}"}'
 
     def line(self, width: int) -> str:
         """Return the line of a table: the name, the points and the first thing to do better."""
         if self.refused:
-            return printable(f'{self.submission.id:<{width}}  refused  {self.refused}')
+            return printable(
+                f'{self.submission.id:<{width}}  {self.instead_of_points}  {self.refused}'
+            )
         lacking = next((f'{s.name}: {s.why}' for s in self.steps if not s.is_full), '')
         sum_of = f'{self.points:6.1f} of {self.most:g}'
         return printable(f'{self.submission.id:<{width}}  {sum_of}  {lacking}').rstrip()

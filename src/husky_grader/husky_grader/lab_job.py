@@ -82,7 +82,13 @@ class LabJob:
         """Return an outcome as what the submission got."""
         if outcome.content is None:
             notes = self.submission.notes
-            return Graded(self.submission, self.rubric.points, (), outcome.refused, notes=notes)
+            return Graded(
+                self.submission,
+                self.rubric.points,
+                refused=outcome.refused,
+                undone=outcome.undone,
+                notes=notes,
+            )
         return from_result(self.submission, outcome.content)
 
 

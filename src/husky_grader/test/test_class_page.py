@@ -9,12 +9,17 @@ import re
 from urllib.parse import unquote
 
 from husky_course.printable import printable
+from husky_grader.batch.job import Outcome
 from husky_grader.graded import Graded, StepGrade
 from husky_grader.lab.drive_step import FOR_STAFF
+from husky_grader.lab_job import LabJob
 from husky_grader.outputs import write_outputs, write_student_page
+from husky_grader.outputs.canvas import _as_text
 from husky_grader.outputs.class_page import class_page
 from husky_grader.outputs.class_summary import summarize, without_names
 from husky_grader.outputs.histogram import histogram
+from husky_grader.outputs.moodle import comment
+from husky_grader.rubric.steps import Rubric
 from husky_grader.submission import find_submissions, Refused, Submission, unpack
 from husky_grader.submission.limits import BUILT, COPY
 from playpen_testing.graded_class import a_class, full, HOSTILE, MOST, partial, refused, submission
@@ -112,6 +117,21 @@ def test_who_was_refused_counts_only_as_that() -> None:
     assert summary.quartiles == [85.0, 90.0, 95.0]
     build = next(step for step in summary.steps if step.name == 'build')
     assert (build.mean, build.full, build.zero, build.lost) == (10.0, 1, 1, 20.0)
+
+
+def test_nobody_is_called_refused_for_what_the_computer_lacked(tmp_path: Path) -> None:
+    why = 'its report cannot be written: No space left on device'
+    one = LabJob(submission(1), 'student 1', Rubric(title='T', steps=()), 'none').graded(
+        Outcome(None, why, undone=True)
+    )
+    assert one.line(9) == f'student 1  not graded  {why}'
+    assert one.said() == 'student 1 not graded'
+    page = write_student_page(tmp_path, one).read_text(encoding='utf-8')
+    told_of_class = class_page([one], title='T')
+    for text in (Page(page).text, Page(told_of_class).text, comment(one), _as_text(one)):
+        assert 'not graded' in text.casefold()
+        assert 'refused' not in text.casefold()
+    assert '2 not graded or refused' in class_page([one, refused(submission(2))], title='T')
 
 
 def test_each_student_is_in_one_bar() -> None:

@@ -184,7 +184,7 @@ def _file(one: Graded, folder: Path) -> tuple[str, bytes]:
 def _as_text(one: Graded) -> str:
     """Return the points and reasons for whoever has handed in no archive."""
     if one.refused:
-        return printable(f'refused: {why_refused(one)}') + '\n'
+        return printable(f'{one.instead_of_points}: {why_refused(one)}') + '\n'
     steps = (
         f'{step.name}, {as_points(step.points)} of {as_points(step.most)}: {step.why}'
         for step in one.steps

@@ -194,7 +194,7 @@ def moodle_worksheet(sheet: Sheet) -> MoodleWorksheet | None:
 def comment(one: Graded) -> str:
     """Return the points and reasons as HTML, which Moodle takes comments for."""
     if one.refused:
-        return f'{_OURS}refused</p><p>{_html(why_refused(one))}</p>'
+        return f'{_OURS}{one.instead_of_points}</p><p>{_html(why_refused(one))}</p>'
     steps = (
         f'<li>{_html(step.name)}, {as_points(step.points)} of {as_points(step.most)}: '
         f'{_html(step.why)}</li>'
