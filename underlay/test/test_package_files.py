@@ -78,6 +78,9 @@ def replace(path: Path, old: str, new: str) -> None:
 
 
 def test_nothing_is_wrong_with_what_builds(folder: Path) -> None:
+    two_groups = "={\n        'talk.plugin': ['hello = talk.hello:Plugin'],"
+    replace(folder / 'setup.py', '={', two_groups)
+    assert package_files.why_refused(folder) == []
     for encoded in (lambda text: '\ufeff' + text, lambda text: text.replace('\n', '\r\n')):
         for name in ('package.xml', 'setup.py'):
             (folder / name).write_bytes(encoded(FILES[name]).encode())
@@ -135,6 +138,7 @@ def test_another_encoding_is_named(folder: Path, name: str, encoding: str, reaso
         ('setup.py', "'hello =", "'hello:", "setup.py:14: 'hello: talk.hello:main' is no entry p"),
         ('setup.py', ':main', ':main()', "'hello = talk.hello:main()' is no entry point: write"),
         ('setup.py', "main',", "main'\n 'b = talk.b:main',", 'is there no comma behind the line'),
+        ('setup.py', "main',", "main',\n 'hello = talk.b:main',", "'hello' is the name of an ent"),
         ('setup.py', "['package.xml']", "glob('*.xml')", 'is `from glob import glob` missing abo'),
         ('setup.py', "['package.xml']", 'os.listdir()', 'os is not defined: is `import os` miss'),
         ('setup.py', "['package.xml']", "'package.xml'", 'in data_files: write a list, ['),

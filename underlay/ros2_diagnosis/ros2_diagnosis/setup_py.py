@@ -52,6 +52,7 @@ def faults(folder: Path) -> Iterator[str]:
                 f'setup.py:{node.lineno}: {text!r} is no entry point: write '
                 f"'NAME = PACKAGE.MODULE:FUNCTION'{comma}"
             )
+    yield from _names_given_twice(call, values)
     if _called(tree) <= _MAKING_NO_FILES and _argument(call, 'cmdclass') is None:
         yield from _missing_files(call, values, folder)
 
@@ -200,6 +201,22 @@ def _scripts(call: ast.Call | None, values: dict[str, str]) -> Iterator[tuple[as
                 text = _text(line, values)
                 if text is not None:
                     yield line, text
+
+
+def _names_given_twice(call: ast.Call, values: dict[str, str]) -> Iterator[str]:
+    groups = _argument(call, 'entry_points')
+    for lines in groups.values if isinstance(groups, ast.Dict) else []:
+        names: set[str] = set()
+        for line in getattr(lines, 'elts', []):
+            entry = _ENTRY_POINT.fullmatch(_text(line, values) or '')
+            if entry is None:
+                continue
+            if entry[1] in names:
+                yield (
+                    f'setup.py:{line.lineno}: {entry[1]!r} is the name of an entry point above, '
+                    'too; give each another name, or take one away'
+                )
+            names.add(entry[1])
 
 
 def _missing_files(call: ast.Call, values: dict[str, str], folder: Path) -> Iterator[str]:
