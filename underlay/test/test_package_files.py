@@ -210,6 +210,34 @@ def test_a_package_without_init_is_told(folder: Path) -> None:
     assert 'talk/__init__.py is missing, without which its folder is not installed' in told
 
 
+def test_modules_that_no_build_copies_have_not_changed(folder: Path, tmp_path: Path) -> None:
+    prefix = tmp_path / 'install' / 'talk'
+    copy = prefix / 'lib' / 'python3.11' / 'site-packages' / 'talk'
+    (folder / 'talk' / 'hello.py').write_text('from talk.parts import arm\ndef main(): pass\n')
+    shutil.copytree(folder / 'talk', copy)
+    for name in ('parts', 'notes'):  # the one is imported, the other is not
+        (folder / 'talk' / name).mkdir()
+        (folder / 'talk' / name / 'arm.py').touch()
+    parts = folder / 'talk' / 'parts'
+    left = f'talk: {parts} is imported, but not installed; '
+    build = f', then run `colcon build --packages-select talk` in {tmp_path}'
+    (told,) = workspaces.check_changed('talk', prefix)
+    assert str(told) == f'{left}make an empty {parts / "__init__.py"}{build}'
+
+    setup = folder / 'setup.py'
+    replace(setup, "find_packages(exclude=['test'])", '[package_name]')
+    (parts / '__init__.py').touch()
+    (told,) = workspaces.check_changed('talk', prefix)
+    found = f"packages=find_packages(exclude=['test']) in {setup}"
+    assert str(told) == f'{left}write {found}{build}'
+
+    replace(setup, '[package_name]', "[package_name, 'talk.parts']")
+    (told,) = workspaces.check_changed('talk', prefix)
+    assert str(told).startswith(f'talk: {parts}/__init__.py has changed since the package was bu')
+    shutil.copytree(parts, copy / 'parts')
+    assert list(workspaces.check_changed('talk', prefix)) == []
+
+
 def test_a_program_that_is_installed_elsewhere_is_told(folder: Path) -> None:
     assert package_files.why_not_run(folder, 'talk') is None
     replace(folder / 'setup.cfg', 'install_scripts', 'install-scripts')

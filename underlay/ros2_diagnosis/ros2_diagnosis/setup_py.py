@@ -77,6 +77,37 @@ def broken_programs(folder: Path, package: str) -> Iterator[tuple[str, str]]:
         )
 
 
+def left_out(folder: Path, package: str) -> dict[Path, str]:
+    """Map the folders of modules below that of a package which no build copies to what to do.
+
+    Without those of which that is not certain.
+    """
+    try:
+        tree = _parsed(folder / 'setup.py')
+    except (OSError, SyntaxError, ValueError):
+        return {}
+    packages = _argument(_call_of_setup(tree), 'packages')
+    finds = isinstance(packages, ast.Call) and _name_of(packages) == 'find_packages'
+    values = _constants(tree)
+    named = [_text(each, values) for each in getattr(packages, 'elts', [])]
+    found: dict[Path, str] = {}
+    top = folder / package
+    for below in sorted({path.parent for path in top.rglob('*.py')} - {top}):
+        chain = [below, *below.parents]
+        without = [
+            each for each in chain[: chain.index(top)] if not (each / '__init__.py').exists()
+        ]
+        if finds and without:
+            found[below] = f'make an empty {without[-1] / "__init__.py"}'
+        elif (
+            named and None not in named and '.'.join(below.relative_to(folder).parts) not in named
+        ):
+            found[below] = (
+                f"write packages=find_packages(exclude=['test']) in {folder / 'setup.py'}"
+            )
+    return found
+
+
 def _why_broken(folder: Path, package: str, module: str, function: str | None) -> str | None:
     top = module.partition('.')[0]
     if not (folder / top).is_dir():

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+import re
 import sys
 
 from ros2_diagnosis import package_files, packages, programs, setup_py
@@ -169,6 +170,7 @@ def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
             f'{program} of setup.py cannot start: {why}',
             f'then run `colcon build --packages-select {package}` in {workspace}',
         )
+    yield from _check_left_out(package, prefix, source, workspace)
     changed = changed_file(package, prefix, source, workspace / 'build' / package)
     if changed is not None:
         yield Finding(
@@ -176,6 +178,30 @@ def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
             f'{changed} has changed since the package was built, so that the old one runs',
             f'run `colcon build --packages-select {package}` in {workspace}',
         )
+
+
+def _check_left_out(
+    package: str, prefix: Path, source: Path, workspace: Path
+) -> Iterator[Finding]:
+    """Name the folders of modules that a build does not copy, but that the package imports."""
+    modules = source / package
+    texts = [path.read_text(encoding='utf-8', errors='replace') for path in modules.rglob('*.py')]
+    copies = list(prefix.glob(f'lib/python3*/site-packages/{package}'))
+    for folder, remedy in setup_py.left_out(source, package).items():
+        below = folder.relative_to(modules)
+        name = re.escape('.'.join(below.parts))
+        imported = re.compile(
+            rf'import {package}\.{name}\b|from (?:{package})?\.{name}\b'
+            rf'|from (?:{package}|\.) import .*\b{name}\b'
+        )
+        if any(not (copy / below).exists() for copy in copies) and any(
+            map(imported.search, texts)
+        ):
+            yield Finding(
+                package,
+                f'{folder} is imported, but not installed',
+                f'{remedy}, then run `colcon build --packages-select {package}` in {workspace}',
+            )
 
 
 def _check_orphaned(package: str, prefix: Path, workspace: Path) -> Iterator[Finding]:
@@ -194,9 +220,10 @@ def _check_orphaned(package: str, prefix: Path, workspace: Path) -> Iterator[Fin
 
 def changed_file(package: str, prefix: Path, source: Path, build: Path) -> Path | None:
     """Return the first file that differs from its installed copy; None where all is current."""
+    left_out = setup_py.left_out(source, package)
     for folder, target in _copied_folders(package, prefix, source):
         for path in sorted(folder.rglob('*')):
-            if not path.is_file() or '__pycache__' in path.parts:
+            if not path.is_file() or '__pycache__' in path.parts or path.parent in left_out:
                 continue
             copy = target / path.relative_to(folder)
             if copy.is_file():
