@@ -148,7 +148,7 @@ def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make
         report = judge(read_run(make_record([(0.0, 0.0)] * 50)), course)
         assert report.score == 0.0
         assert not report.completed
-        assert 'no command but zero arrived' in report.reasons[0]
+        assert 'no command that moves it arrived' in report.reasons[0]
 
 
 @pytest.mark.parametrize(

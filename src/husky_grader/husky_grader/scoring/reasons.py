@@ -95,8 +95,9 @@ def _moved(run: Run) -> bool:
 def _why_still(run: Run) -> str:
     if not run.command_speed_m_s.any() and not run.command_yaw_rate_rad_s.any():
         return (
-            'it never moved: no command but zero arrived on husky_velocity_controller/cmd_vel; '
-            'check the topic name and the message type, and that the node spins'
+            'it never moved: no command that moves it arrived on '
+            'husky_velocity_controller/cmd_vel; check the topic name, the message type and the '
+            'values, and that the node spins'
         )
     if not run.command_speed_m_s.any():
         return 'it never moved from its place: it was only told to turn (linear.x was always 0)'
