@@ -133,10 +133,25 @@ def why_silent(graph: Graph, topic: str, silent_sec: float) -> list[Finding]:
     if silent_sec < _SILENCE_SEC:
         return []
     names = sorted({graph.node_of(endpoint).full_name for endpoint in publishers})
+    what = f'{", ".join(names)} has sent nothing for {_SILENCE_SEC:g} s'
+    ours = [
+        endpoint
+        for endpoint in graph.with_role(Role.SUBSCRIPTION, topic)
+        if nodes.shown_name(graph.node_of(endpoint)) == nodes.COMMAND
+    ]
+    kept = all(endpoint.qos.transient_local for endpoint in publishers)
+    if kept and ours and not any(endpoint.qos.transient_local for endpoint in ours):
+        return [
+            Finding(
+                topic,
+                f'{what}, and what it sent before goes to who asks for TRANSIENT_LOCAL alone',
+                f'`ros2 topic echo {topic} --qos-durability transient_local` does',
+            )
+        ]
     return [
         Finding(
             topic,
-            f'{", ".join(names)} has sent nothing for {_SILENCE_SEC:g} s',
+            what,
             'it may wait for something itself: look at its terminal, or run `ros2 doctor`',
         )
     ]

@@ -29,6 +29,7 @@ from ros2topic import printing, qos, silence
 from rosgraph_msgs.msg import Clock
 from rtps_graph.graph import Endpoint, Graph, Qos, Role
 from rtps_graph.graph import Node as GraphNode
+from rtps_graph.names import COMMAND_NODE
 from std_msgs.msg import String
 
 
@@ -272,6 +273,29 @@ def test_a_publisher_that_has_just_begun_is_not_called_silent(
     told = capsys.readouterr().err
     assert ('/late has sent nothing for 2 s' in told) == (told_at_sec < math.inf)
     assert now_sec >= min(sent_at_sec, told_at_sec)
+
+
+@pytest.mark.parametrize('asked', [True, False])
+def test_what_was_sent_before_is_told_to_be_kept(asked: bool) -> None:
+    def endpoint(key: bytes, role: Role, transient_local: bool) -> Endpoint:
+        qos = Qos(True, transient_local, None, None, False, None)
+        return Endpoint(key, role, '/map', 'std_msgs/msg/String', '', qos)
+
+    offers = endpoint(b'1', Role.PUBLISHER, True)
+    command = endpoint(b'2', Role.SUBSCRIPTION, asked)
+    other = endpoint(b'3', Role.SUBSCRIPTION, not asked)
+    graph = Graph(
+        [
+            GraphNode('server', '/', [offers]),
+            GraphNode(f'{COMMAND_NODE}1', '/', [command]),
+            GraphNode('other', '/', [other]),
+        ],
+        [offers, command, other],
+    )
+    (told,) = silence.why_silent(graph, '/map', 2.0)
+    assert str(told).startswith('/map: /server has sent nothing for 2 s')
+    remedy = '`ros2 topic echo /map --qos-durability transient_local` does'
+    assert str(told).endswith(remedy) == (not asked), told
 
 
 def test_bw_and_delay_measure_too(world: Any) -> None:
