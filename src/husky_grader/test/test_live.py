@@ -189,3 +189,13 @@ def test_one_that_answers_late_has_an_end(
     run = drive_in_jail(ANSWERS_LATE, course, tmp_path / 'run')
     assert run.ending == 'it took 5 s on the clock'
     assert 0.0 < run.record.duration_sec < 1.0
+
+
+def test_one_that_chooses_its_own_domain_is_told(
+    course: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr('husky_grader.run.live.WALL_SEC', 5.0)
+    away = NODE.replace('rclpy.init()', 'rclpy.init(domain_id=77)') + 'rclpy.spin(node)\n'
+    run = drive_in_jail(away, course, tmp_path / 'run', sandbox='kernel')
+    (note,) = run.notes
+    assert note.startswith('it is in domain 77, where nobody hears it'), run.notes

@@ -29,6 +29,14 @@ rclpy.spin(node)
 STEPS = load_rubric(default_rubric()).steps
 (PUBLISHES,) = (replace(s, within_sec=3.0) for s in STEPS if isinstance(s, PublisherStep))
 (LISTENS,) = (replace(s, within_sec=3.0) for s in STEPS if isinstance(s, SubscriberStep))
+TARES = ServiceStep(
+    points=10.0,
+    package='sensor',
+    executable='sensor',
+    service='/tare',
+    type='std_srvs/srv/Trigger',
+    within_sec=3.0,
+)
 PUBLISHER = """#!%s
 import time, rclpy
 from std_msgs.msg import String
@@ -65,7 +73,7 @@ def graph(courses: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('FASTRTPS_DEFAULT_PROFILES_FILE', str(courses.parent / 'fastdds.xml'))
 
 
-def found_of(step: ProgramStep, folder: Path, program: str) -> Finding:
+def found_of(step: ProgramStep, folder: Path, program: str, sandbox: str = 'none') -> Finding:
     """Run a program as that of a step, and return what is found out about it."""
     package = folder / 'workspace' / 'src' / step.package
     package.mkdir(parents=True)
@@ -75,7 +83,8 @@ def found_of(step: ProgramStep, folder: Path, program: str) -> Finding:
     file.parent.mkdir(parents=True)
     file.write_text(program)
     file.chmod(0o755)
-    programs = Programs(folder / 'workspace', built, os.environ, find_sandbox('none'))
+    environment = {name: value for name, value in os.environ.items() if name != 'HOME'}
+    programs = Programs(folder / 'workspace', built, environment, find_sandbox(sandbox))
     return live_step(step, programs, folder / 'log')
 
 
@@ -131,16 +140,32 @@ def test_a_subscriber_that_does_not_hear_is_told_why(
     assert found.why.startswith(why), found.why
 
 
+@pytest.mark.parametrize(
+    ('step', 'program', 'says'),
+    [
+        (PUBLISHES, PUBLISHER % (sys.executable, 'topic_test', 0), 'nothing came on /topic_test'),
+        (LISTENS, SUBSCRIBER % (sys.executable, 'm.data'), ''),
+        (TARES, WAITS % sys.executable, ''),
+    ],
+    ids=['publisher', 'subscriber', 'service'],
+)
+def test_a_program_that_chooses_its_own_domain_is_told(
+    tmp_path: Path, step: ProgramStep, program: str, says: str
+) -> None:
+    program = program.replace('rclpy.init()', 'rclpy.init(domain_id=77)')
+    found = found_of(step, tmp_path, program, 'kernel')
+    assert found.score == 0.0
+    assert found.why.startswith(says)
+    assert found.why.endswith(
+        'it is in domain 77, where nobody hears it: leave ROS_DOMAIN_ID and domain_id to who '
+        'starts it'
+    ), found.why
+    # In a network that others use, too, it could be theirs.
+    assert 'domain' not in found_of(step, tmp_path / 'shared', program).why
+
+
 def test_a_service_that_does_not_answer_is_told_what_may_keep_it(tmp_path: Path) -> None:
-    step = ServiceStep(
-        points=10.0,
-        package='sensor',
-        executable='sensor',
-        service='/tare',
-        type='std_srvs/srv/Trigger',
-        within_sec=3.0,
-    )
-    found = found_of(step, tmp_path, WAITS % sys.executable)
+    found = found_of(TARES, tmp_path, WAITS % sys.executable)
     assert found.score == 0.0
     assert found.why == (
         '/tare did not answer within 3 s: does its callback return a response, and wait for no '

@@ -44,7 +44,7 @@ from husky_grader.rubric.steps import (
     ServiceStep,
     SubscriberStep,
 )
-from husky_grader.run.diagnosis import Graph, nearest, silence, unheard_topics
+from husky_grader.run.diagnosis import Graph, in_domain, nearest, silence, unheard_topics
 from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import printed_lines
 from husky_grader.run.trusted import limit_memory
@@ -293,6 +293,8 @@ def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding
 
 def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
     listening = [each for each in graph.subscriptions if each.topic == step.topic]
+    if graph.elsewhere is not None:
+        return in_domain(graph.elsewhere)
     if not graph.subscriptions:
         return f'it listens to nothing; {asked(step.topic)}'
     wrong = unheard_topics(replace(graph, subscriptions=listening or graph.subscriptions))
@@ -322,6 +324,9 @@ def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Obs
     client = observer.node.create_client(kind, call.service)
     observer.spin_until(client.service_is_ready, step.within_sec)
     if not client.service_is_ready():
+        elsewhere = read_graph(observer.node, (NAME, *OTHERS)).elsewhere
+        if elsewhere is not None:
+            return nothing(in_domain(elsewhere))
         return nothing(_why_no_service(call, dict(observer.node.get_service_names_and_types())))
     future = client.call_async(filled(kind.Request(), call.request))
     observer.spin_until(future.done, step.within_sec)

@@ -71,11 +71,16 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class Graph:
-    """What the program publishes and listens to, and what all others do."""
+    """
+    What the program publishes and listens to, and what all others do.
+
+    :param elsewhere: the domain that the program is in, where it is in another one.
+    """
 
     publishers: Sequence[Endpoint] = ()
     subscriptions: Sequence[Endpoint] = ()
     other_publishers: Sequence[Endpoint] = ()
+    elsewhere: int | None = None
 
 
 def reasons(
@@ -283,6 +288,9 @@ def unheard_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
 def unsent_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
     """Yield what stops a program that could be heard, and has never sent a command."""
     taken = TAKEN[interface]
+    if graph.elsewhere is not None:
+        yield in_domain(graph.elsewhere)
+        return
     for each in graph.publishers:
         if taken.get(each.topic) == each.type and each.reliable:
             yield f'it has a publisher on {each.topic}, and never sent a command: {_SPINS}'
@@ -293,6 +301,13 @@ def unsent_commands(graph: Graph, interface: str = 'lab') -> Iterator[str]:
         )
 
 
+def in_domain(elsewhere: int) -> str:
+    return (
+        f'it is in domain {elsewhere}, where nobody hears it: leave ROS_DOMAIN_ID and domain_id '
+        'to who starts it'
+    )
+
+
 def silence(graph: Graph, topic: str) -> Iterator[str]:
     """Yield why nothing comes on a topic that a program is to publish."""
     own = sorted({each.topic for each in graph.publishers}.difference(EVERYWHERE))
@@ -301,6 +316,8 @@ def silence(graph: Graph, topic: str) -> Iterator[str]:
         yield 'its clock is that of /clock (use_sim_time), which nobody publishes here'
     elif topic in own:
         yield f'it has a publisher there: does it publish again and again, {_SPINS}'
+    elif graph.elsewhere is not None:
+        yield in_domain(graph.elsewhere)
     elif own:
         yield f'it has publishers on {" and ".join(own)} alone'
     else:

@@ -12,6 +12,7 @@ from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 from rclpy.type_hash import TypeHash
 
 from husky_grader.run.diagnosis import Endpoint, Graph
+from husky_grader.run.elsewhere import domain_elsewhere
 
 _NEVER_NS = 2**31 * 10**9  # DDS counts seconds in 32 bits, and has the largest for never
 _NO_HASH = str(TypeHash())  # of a publisher whose DDS tells none
@@ -32,7 +33,9 @@ def read_graph(node: Node, ours: Collection[str]) -> Graph:
         for info in node.get_subscriptions_info_by_topic(topic):
             if info.node_name not in ours:
                 subscriptions.append(_endpoint(topic, info))
-    return Graph(tuple(publishers), tuple(subscriptions), tuple(others))
+    is_here = publishers or subscriptions
+    elsewhere = None if is_here else domain_elsewhere(node.context.get_domain_id())
+    return Graph(tuple(publishers), tuple(subscriptions), tuple(others), elsewhere)
 
 
 def has_other_fields(node: Node, topic: str, type_name: str) -> bool:

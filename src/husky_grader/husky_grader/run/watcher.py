@@ -34,6 +34,8 @@ class GraphWatcher:
         """
         graph = read_graph(self._node, ours=(self._node.get_name(),))
         before, self._there = self._there, _program_in(graph)
+        if graph.elsewhere is not None:
+            self.unsent = list(unsent_commands(graph, self._interface))
         if not self._there or self._there < before:
             return
         self.reasons = reasons_of_graph(graph, self._interface)
