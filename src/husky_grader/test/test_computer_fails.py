@@ -8,6 +8,7 @@ import os
 from pathlib import Path
 import re
 import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -113,6 +114,32 @@ def test_a_place_where_no_program_runs_is_refused(tmp_path: Path) -> None:
         f'{tmp_path}/report/r: no program can run on this file system, which is mounted with '
         'noexec; name another folder with --report DIR\n',
     )
+
+
+def test_a_disk_that_is_full_amid_a_drive_is_told(tmp_path: Path, courses: Path) -> None:
+    (tmp_path / 'report').mkdir()
+    (tmp_path / 'driver.py').write_text(
+        'import time\nfrom geometry_msgs.msg import Twist\nimport rclpy\nrclpy.init()\n'
+        "publisher = rclpy.create_node('driver').create_publisher(\n"
+        "    Twist, 'husky_velocity_controller/cmd_vel', 10)\n"
+        'while True:\n    publisher.publish(Twist())\n    time.sleep(0.1)\n'
+    )
+    mount = f'mount -t tmpfs -o size=32k tmpfs {tmp_path}/report'
+    words = [sys.executable, '-m', 'husky_grader.grade', '--report', f'{tmp_path}/report/r']
+    words += ['--controller', f'{sys.executable} {tmp_path}/driver.py']
+    words += ['--waypoints', str(courses / 'straight.yaml')]
+    graded = subprocess.run(
+        [
+            *('unshare', '--map-root-user', '--mount', 'bash', '-c'),
+            f'{mount} && exec {shlex.join(words)}',
+        ],
+        capture_output=True,
+        text=True,
+    )
+    assert graded.returncode == 2, graded
+    assert graded.stderr.startswith('the simulator died: '), graded.stderr
+    assert 'No space left on device' in graded.stderr
+    assert graded.stderr.endswith('; see r/simulator.log\n')
 
 
 @pytest.mark.parametrize('given', [[], ['--rubric', str(PATH_RUBRIC), '--lab']])

@@ -20,7 +20,7 @@ from husky_runtime.children import ChildProcess, tail_of
 from husky_runtime.shared_memory import clean_shared_memory
 
 from husky_grader.jail import Jail, JailedProcess
-from husky_grader.run.diagnosis import how_it_ended, reasons
+from husky_grader.run.diagnosis import crash, how_it_ended, reasons
 from husky_grader.run.printed import read_printed, shown, without_machine
 from husky_grader.run.rest import tell_first
 from husky_grader.run.told import listen, Told
@@ -121,7 +121,7 @@ def drive_live(
     first.unlink(missing_ok=True)
     clean_shared_memory()
     if not record.is_file():
-        raise LiveRunFailed(f'the simulator left no record; see {folder.name}/simulator.log')
+        raise LiveRunFailed(f'the simulator left no record{_why_in(folder)}')
     printed = read_printed(printed_in, without=without)
     whole = read_record(record)
     unsent = last.unsent
@@ -190,5 +190,12 @@ def _watch(
             break
     last = listen(told)
     if last is None or not last.ending:
-        raise LiveRunFailed(f'the simulator died; see {told.parent.name}/simulator.log')
+        raise LiveRunFailed(f'the simulator died{_why_in(told.parent)}')
     return replace(last, ending=f'it took {WALL_SEC:g} s on the clock') if late else last
+
+
+def _why_in(folder: Path) -> str:
+    """Return what the simulator's log says of its end, such as a full disk, and where it is."""
+    log = folder / 'simulator.log'
+    said = crash(read_printed(log))
+    return f'{": " if said else ""}{said}; see {folder.name}/{log.name}'
