@@ -6,6 +6,7 @@ from collections.abc import Callable
 import logging
 from pathlib import Path
 import re
+import tempfile
 from typing import Any
 
 from launch import LaunchDescription, LaunchService
@@ -47,9 +48,12 @@ def test_a_log_folder_that_is_a_file_is_replaced(
 ) -> None:
     (tmp_path / 'file').touch()
     monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'file'))
+    monkeypatch.setattr(tempfile, 'tempdir', str(tmp_path))
     reset()
     with pytest.warns(UserWarning, match='cannot write logs below'):
-        assert Path(launch_config.log_dir).is_dir()
+        folder = Path(launch_config.log_dir)
+    assert folder.is_dir()
+    assert folder.is_relative_to(tmp_path)
 
 
 def test_formats_may_come_from_the_environment(

@@ -191,7 +191,7 @@ def test_a_class_that_is_killed_hard_leaves_no_worker(tmp_path: Path) -> None:
         file.write_text('waypoints:\n  - [0, 0]\n' + HOURS)
     command = [sys.executable, '-m', 'husky_grader.grade', *map(str, files), '--jobs', '2']
     command += ['--report', str(tmp_path / 'report')]
-    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path), 'TMPDIR': str(tmp_path)}
     with subprocess.Popen(command, env=environment, start_new_session=True) as running:
         records = (tmp_path / 'report' / f'student_{number}' / 'run.record' for number in (0, 1))
         for record in records:

@@ -239,7 +239,8 @@ def test_a_grader_killed_at_ten_moments_comes_to_the_same_table(
 ) -> None:
     command = [sys.executable, '-m', 'husky_grader.grade', *serial.files, '--jobs', '2']
     command += ['--report', str(tmp_path / 'killed')]
-    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    # What it leaves when it is killed goes with the test.
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path), 'TMPDIR': str(tmp_path)}
     chance = random.Random(2026)
     for _ in range(10):
         with subprocess.Popen(
@@ -255,9 +256,9 @@ def test_a_grader_killed_at_ten_moments_comes_to_the_same_table(
 @pytest.fixture
 def dask() -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
     """Yield the address of a Dask scheduler, and two workers of its."""
-    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
     with ExitStack() as stack:
         folder = Path(stack.enter_context(TemporaryDirectory()))
+        environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path), 'TMPDIR': str(folder)}
         file = folder / 'scheduler.json'
 
         def start(*words: str) -> subprocess.Popen[bytes]:
