@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+import shutil
 import tempfile
 from typing import Any
 
@@ -17,12 +18,15 @@ from rosbag2_py import (
     CompressionMode,
     CompressionOptions,
     ConverterOptions,
+    MetadataIo,
     Reindexer,
     SequentialCompressionReader,
     SequentialCompressionWriter,
     StorageOptions,
     TopicMetadata,
 )
+from rosbag2_py.bag_writer import BagWriter
+from rosbag2_py.storages import storage_of
 import yaml
 import zstandard
 
@@ -91,6 +95,49 @@ def test_of_a_killed_recording_the_last_file_is_not_compressed(
     metadata = yaml.safe_load((folder / 'metadata.yaml').read_text())
     told = metadata['rosbag2_bagfile_information']
     assert (told['compression_format'], told['compression_mode']) == ('zstd', 'FILE')
+
+
+@STORAGES
+def test_of_a_killed_recording_the_files_before_tell_the_rest(
+    tmp_path: Path, storage: str
+) -> None:
+    kept, told = tmp_path / 'killed', {'robot': 'husky'}
+    with BagWriter(
+        tmp_path / 'bag',
+        storage_of(storage),
+        compress=CompressionMode.MESSAGE,
+        custom_data=told,
+    ) as writer:
+        writer.add_topic(TopicMetadata(0, 'n', 'std_msgs/msg/String', 'cdr'))
+        writer.write('n', string(0), 0, 0)
+        writer.split()
+        writer.write('n', string(1), 1, 1)
+        writer.flush()
+        shutil.copytree(tmp_path / 'bag', kept)  # what a kill leaves
+    Reindexer().reindex(StorageOptions(str(kept)))
+    bag = MetadataIo().read_metadata(str(kept))
+    assert len(bag.relative_file_paths) == 2
+    assert (bag.custom_data, bag.ros_distro) == (told, 'jazzy')
+    # Without these upstream hands out the messages as they are stored.
+    assert (bag.compression_format, bag.compression_mode) == ('zstd', 'MESSAGE')
+
+
+@STORAGES
+def test_a_file_not_yet_compressed_is_not_said_to_be(tmp_path: Path, storage: str) -> None:
+    folder = tmp_path / 'bag'
+    options = CompressionOptions('zstd', CompressionMode.FILE)
+    writer = SequentialCompressionWriter(options)
+    writer.open(StorageOptions(str(folder), storage), ConverterOptions('', ''))
+    writer.close()
+    (packed,) = folder.glob('*.zstd')
+    packed.with_suffix('').write_bytes(
+        zstandard.ZstdDecompressor().decompress(packed.read_bytes())
+    )
+    packed.unlink()
+    Reindexer().reindex(StorageOptions(str(folder)))
+    bag = MetadataIo().read_metadata(str(folder))
+    assert bag.relative_file_paths == [packed.stem]
+    assert (bag.compression_format, bag.compression_mode) == ('', '')
 
 
 @STORAGES

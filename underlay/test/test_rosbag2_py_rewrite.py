@@ -16,7 +16,14 @@ from mcap.writer import Writer
 from playpen_testing.bags import numbers_in, opened_reader, opened_writer, rest_of, string
 import pytest
 from rclpy.serialization import serialize_message
-from rosbag2_py import bag_files, bag_rewrite, MetadataIo, StorageOptions, TopicMetadata
+from rosbag2_py import (
+    bag_files,
+    bag_rewrite,
+    MetadataIo,
+    Reindexer,
+    StorageOptions,
+    TopicMetadata,
+)
 from rosbag2_py.errors import BagError
 from std_msgs.msg import String
 
@@ -275,3 +282,23 @@ def test_the_commands_convert_and_reindex(bag: Path, tmp_path: Path) -> None:
     assert MetadataIo().read_metadata(str(tmp_path / 'new')).message_count == 6
     refused = ros2('reindex', 'none')
     assert "'none' is no folder of a bag" in refused.stderr
+
+
+@pytest.mark.parametrize('storage', ['mcap', 'sqlite3'])
+def test_to_reindex_in_vain_leaves_the_metadata(tmp_path: Path, storage: str) -> None:
+    folder, told = tmp_path / 'bag', {'robot': 'husky'}
+    writer = opened_writer(folder, '/chatter', storage_id=storage, custom_data=told)
+    writer.split_bagfile()
+    writer.close()
+    before = (folder / 'metadata.yaml').read_bytes()
+    (last,) = folder.glob('bag_1.*')
+    last.write_bytes(b'no file of a bag')
+    with pytest.raises(BagError, match=r'bag_1.* cannot be read as'):
+        Reindexer().reindex(StorageOptions(str(folder)))
+    assert (folder / 'metadata.yaml').read_bytes() == before
+
+    # A file that metadata.yaml does not name, or names in vain, does not matter.
+    last.unlink()
+    Reindexer().reindex(StorageOptions(str(folder)))
+    bag = MetadataIo().read_metadata(str(folder))
+    assert (len(bag.relative_file_paths), bag.custom_data) == (1, told)

@@ -19,11 +19,12 @@ class Reindexer:
         """
         Write the metadata.yaml of a folder.
 
-        :raises BagError: it has no files of a bag, or one of them is damaged.
+        :raises BagError: it has no files of a bag, or one of them is damaged; a metadata.yaml
+            that is there stays then.
         """
         folder = Path(storage_options.uri)
         if not folder.is_dir():
             raise BagError(f"'{folder}' is no folder of a bag")
+        bag = bag_files.describe(folder, storage_options.storage_id, as_named=False)
         (folder / FILE_NAME).unlink(missing_ok=True)
-        bag = bag_files.describe(folder, storage_options.storage_id)
         MetadataIo().write_metadata(str(folder), bag)

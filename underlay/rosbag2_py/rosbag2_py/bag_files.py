@@ -26,11 +26,12 @@ class Files(NamedTuple):
     paths: list[Path]
 
 
-def find(path: Path, storage_id: str = '') -> Files:
+def find(path: Path, storage_id: str = '', *, as_named: bool = True) -> Files:
     """
     List the files of a bag, given as its folder or as one file.
 
     :param storage_id: how it is stored, or '' to find that out.
+    :param as_named: those that metadata.yaml names, where there is one.
     :raises BagError: there is no bag, or it is stored in another way.
     """
     asked = storage_of(storage_id) if storage_id else None
@@ -40,12 +41,13 @@ def find(path: Path, storage_id: str = '') -> Files:
         return Files(asked or _storage_of_file(path), [path])
     if not path.is_dir():
         raise BagError(f"Bag path '{path}' does not exist!")
-    list_files = _named if (path / FILE_NAME).is_file() else _lying_about
-    files = list_files(path, asked)
+    are_named = as_named and (path / FILE_NAME).is_file()
+    files = (_named if are_named else _lying_about)(path, asked)
     for file in files.paths:
         if not file.is_file():
             what = 'is no file' if file.exists() else 'does not exist'
-            raise BagError(f"'{file}', named in {path / FILE_NAME}, {what}")
+            where = f', named in {path / FILE_NAME},' * are_named
+            raise BagError(f"'{file}'{where} {what}")
     return files
 
 
@@ -63,24 +65,27 @@ def read_metadata(path: Path, storage_id: str = '') -> BagMetadata:
     return describe(path, storage_id)
 
 
-def describe(path: Path, storage_id: str = '') -> BagMetadata:
+def describe(path: Path, storage_id: str = '', *, as_named: bool = True) -> BagMetadata:
     """
     Tell what a bag holds from its files alone, whatever its metadata.yaml says.
 
+    :param as_named: of the files that metadata.yaml names, where there is one.
     :raises BagError: there is no bag, or a file of it is damaged or stored in another way.
     """
-    storage, paths = find(path, storage_id)
+    storage, paths = find(path, storage_id, as_named=as_named)
     contents = []
     for name in paths:
         with compression.read(storage, name) as file:
             contents.append(file.contents)
-    bag, names = contents[-1].told, [_inside(name, path) for name in paths]
+    bag, names = _told(contents), [_inside(name, path) for name in paths]
     bag.version = VERSION
     bag.storage_identifier = storage.id
     bag.bag_size = sum(each.size for each in contents)
     bag.relative_file_paths = names
     if any(file.suffix == compression.SUFFIX for file in paths):
         bag.compression_format, bag.compression_mode = 'zstd', 'FILE'
+    elif bag.compression_mode == 'FILE':  # killed before any was compressed
+        bag.compression_format = bag.compression_mode = ''
     bag.files = [
         FileInformation(name, each.span.start, each.span.duration, each.span.count)
         for name, each in zip(names, contents, strict=True)
@@ -151,6 +156,17 @@ def _lying_about(folder: Path, asked: Storage | None) -> Files:
 
 def _inside(file: Path, bag: Path) -> str:
     return str(file.relative_to(bag)) if file.is_relative_to(bag) and file != bag else str(file)
+
+
+def _told(contents: list[Contents]) -> BagMetadata:
+    """Return what the last file tells; what it does not, as where it was killed, those before."""
+    bag = contents[-1].told
+    for before in reversed(contents[:-1]):
+        bag.custom_data = bag.custom_data or before.told.custom_data
+        bag.ros_distro = bag.ros_distro or before.told.ros_distro
+        bag.compression_format = bag.compression_format or before.told.compression_format
+        bag.compression_mode = bag.compression_mode or before.told.compression_mode
+    return bag
 
 
 def _topics(contents: Iterable[Contents]) -> list[TopicInformation]:
