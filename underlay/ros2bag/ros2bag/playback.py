@@ -19,6 +19,7 @@ from rtps_graph import names
 from ros2bag import split_events
 
 _SERVE_SEC = 0.01  # keys and services are served so often
+_LAST_NS = 2**63 - 1  # no bag lasts longer
 
 
 class PlaybackClock:
@@ -88,7 +89,8 @@ class Playback:
         self._clock_publisher = clock_publisher
         self._tell_split = split_events.of_player(node)
         self._clock_topics = _clock_topics(args, publishers)
-        self._first_ns = bag.starting_time.nanoseconds + int(args.start_offset * 1e9)
+        start_ns = bag.starting_time.nanoseconds + _nanoseconds(args.start_offset)
+        self._first_ns = min(start_ns, _LAST_NS)
         self._end_ns = _end_ns(args, self._first_ns)
         self._clock = PlaybackClock(args.rate, is_paused=args.start_paused)
         self._messages: Iterator[tuple[str, bytes, int]] = iter(())
@@ -288,15 +290,19 @@ def _messages(
             yield message
 
 
+def _nanoseconds(seconds: float) -> int:
+    return int(min(seconds * 1e9, _LAST_NS))
+
+
 def _end_ns(args: argparse.Namespace, first_ns: int) -> int | None:
     """Return the time in the bag after which nothing is played; None for no such time."""
     ends = []
     if args.playback_duration > 0.0:
-        ends.append(first_ns + int(args.playback_duration * 1e9))
+        ends.append(first_ns + _nanoseconds(args.playback_duration))
     elif args.playback_duration == 0.0:  # as upstream, not even what comes at the start
         ends.append(-1)
     if args.playback_until_sec >= 0.0:
-        ends.append(int(args.playback_until_sec * 1e9))
+        ends.append(_nanoseconds(args.playback_until_sec))
     if args.playback_until_nsec >= 0:
         ends.append(args.playback_until_nsec)
     return max(ends, default=None)

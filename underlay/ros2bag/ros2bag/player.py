@@ -28,13 +28,16 @@ def publishers_of(
     topics: list[rosbag2_py.TopicMetadata],
     remaps: dict[str, str],
     overrides: dict[str, QoSProfile],
+    *,
+    are_all: bool,
 ) -> dict[str, Any]:
     """
     Return a publisher for each topic whose type is installed; say which are left out.
 
     So is one with a name that ROS 2 does not take, as bags have that were made of those of ROS 1.
 
-    :raises CommandError: there are topics, but all are left out.
+    :param are_all: whether nothing is played but these.
+    :raises CommandError: there are topics, but all are left out, and nothing is played.
     """
     publishers, reasons = {}, []
     for topic in topics:
@@ -52,7 +55,7 @@ def publishers_of(
                 'digits and _ between /, no digit behind /; '
                 f"--remap '{full_name}:=/NAME' gives it one"
             )
-    if reasons and not publishers:
+    if reasons and not publishers and are_all:
         raise CommandError('; '.join(reasons))
     for reason in reasons:
         node.node.get_logger().warning(reason)

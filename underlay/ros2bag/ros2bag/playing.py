@@ -43,7 +43,7 @@ def play(args: argparse.Namespace, *, burst: int | None = None) -> None:
         node_options.set_log_level(node, args.log_level)
         requests = service_requests.players_of(node, args, chosen, remaps)
         topics = [topic for topic in chosen if topic.name not in requests]
-        publishers = player.publishers_of(node, topics, remaps, overrides)
+        publishers = player.publishers_of(node, topics, remaps, overrides, are_all=not requests)
         players = {**publishers, **requests}
         asks_for_clock = args.clock or args.clock_topics or args.clock_topics_all
         clock = node.node.create_publisher(Clock, '/clock', 10) if asks_for_clock else None

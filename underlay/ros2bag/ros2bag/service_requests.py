@@ -9,6 +9,7 @@ from typing import Any
 
 from rclpy.serialization import deserialize_message
 from ros2cli import arguments, interfaces
+from ros2cli.errors import CommandError
 from ros2cli.node.direct import CommandNode
 import rosbag2_py
 from rosbag2_py.selection import EVENTS
@@ -84,14 +85,21 @@ def players_of(
     topics: list[rosbag2_py.TopicMetadata],
     remaps: dict[str, str],
 ) -> dict[str, RequestPlayer]:
-    """Return one for each service in the bag, ready where the service runs; {} if not wanted."""
+    """
+    Return one for each service in the bag, ready where the service runs; {} if not wanted.
+
+    Services whose type is not installed are left out.
+    """
     if not args.publish_service_requests:
         return {}
     players = {}
     for topic in topics:
         if topic.name.endswith(EVENTS) and topic.type.endswith('_Event'):
             service = names.expand(topic.name.removesuffix(EVENTS))
-            service_class = interfaces.service(topic.type.removesuffix('_Event'))
+            try:
+                service_class = interfaces.service(topic.type.removesuffix('_Event'))
+            except CommandError:
+                continue  # nor can its events be published, of which it is said
             event = _SOURCES[args.service_requests_source]
             name = remaps.get(service, service)
             players[topic.name] = RequestPlayer(node, name, service_class, event)

@@ -45,6 +45,7 @@ STRING = 'std_msgs/msg/String'
 EVENT = 'example_interfaces/srv/AddTwoInts_Event'
 SUMS = '/add_two_ints/_service_event'
 UNKNOWN = 'not_installed_msgs/msg/Strange'
+UNKNOWN_EVENT = 'not_installed_msgs/srv/Strange_Event'
 
 
 @pytest.fixture
@@ -93,7 +94,14 @@ def test_a_bag_of_unknown_types_is_refused(
     assert "'/stranger' is left out: " in played.err
 
 
-@pytest.mark.parametrize(('count', 'words'), [(0, ()), (6, ('--start-offset', '100'))])
+@pytest.mark.parametrize(
+    ('count', 'words'),
+    [
+        (0, ()),
+        (6, ('--start-offset', '100')),
+        (6, ('--start-offset', '10000000000', '--playback-until-sec', '1e300')),
+    ],
+)
 def test_what_has_nothing_to_play_is_not_played_again_and_again(
     write_bag: Callable[..., Path],
     domain: int,
@@ -102,7 +110,8 @@ def test_what_has_nothing_to_play_is_not_played_again_and_again(
     words: tuple[str, ...],
 ) -> None:
     bag = write_bag({'/chatter': STRING}, count)
-    assert ros2('bag', 'play', str(bag), '--loop', *words).status == 0
+    played = ros2('bag', 'play', str(bag), '--loop', *words)
+    assert (played.status, played.err.count('\n')) == (0, 1), played.err
 
 
 def test_a_file_sets_the_quality_of_service(
@@ -230,6 +239,8 @@ def test_recorded_requests_are_sent_again(
 
     writer = opened_writer(tmp_path / 'bag')
     writer.create_topic(TopicMetadata(0, SUMS, EVENT, 'cdr'))
+    writer.create_topic(TopicMetadata(0, '/strange/_service_event', UNKNOWN_EVENT, 'cdr'))
+    writer.write('/strange/_service_event', b'', 0)
     for number in range(8):  # four calls: what the client sent, what the service received
         event = AddTwoInts.Event()
         sent = (ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED)
@@ -246,7 +257,8 @@ def test_recorded_requests_are_sent_again(
         node.create_service(AddTwoInts, 'add_two_ints', add)
         node.create_subscription(AddTwoInts.Event, SUMS, events.append, 10)
         played = ros2(*command)
-    assert (played.status, played.err.count('\n')) == (0, 2)
+    assert (played.status, played.err.count('\n')) == (0, 3), played.err
+    assert "Topic '/strange/_service_event' is left out: " in played.err
     assert "Service '/add_two_ints': the bag has only metadata of its calls" in played.err
     assert asked == [(first, 10) for first in ((0, 2, 4) if source else (1, 3, 5))]
     assert events == []
