@@ -212,6 +212,16 @@ def test_a_bag_has_the_tables_of_jazzy(tmp_path: Path) -> None:
     assert times_of(opened_reader(tmp_path / 'bag')) == [7]
 
 
+def test_what_a_removed_topic_had_is_not_given_to_the_next(tmp_path: Path) -> None:
+    writer = opened_writer(tmp_path / 'bag', '/a', '/b', storage_id='sqlite3')
+    writer.write('/b', b'of b', 7)
+    writer.remove_topic(rosbag2_py.TopicMetadata(0, '/b', 'std_msgs/msg/String', 'cdr'))
+    writer.create_topic(rosbag2_py.TopicMetadata(0, '/c', 'std_msgs/msg/Bool', 'cdr'))
+    writer.write('/c', b'of c', 8)
+    writer.close()
+    assert rest_of(opened_reader(tmp_path / 'bag')) == [('/c', b'of c', 8)]
+
+
 def test_new_files_are_begun_by_size(tmp_path: Path) -> None:
     writer = opened_writer(
         tmp_path / 'bag',

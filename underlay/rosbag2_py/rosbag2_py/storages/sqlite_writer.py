@@ -49,6 +49,7 @@ class SqliteWriter(FileWriter):
     def __init__(self, path: Path, preset: str) -> None:
         self._path = path
         self._topics: dict[str, int] = {}
+        self._topic_count = 0  # also of those removed, whose numbers SQLite would give again
         self._types: set[str] = set()
         self._waiting = 0
         self._is_open = True
@@ -70,10 +71,18 @@ class SqliteWriter(FileWriter):
     def add_topic(self, topic: TopicMetadata, definition: MessageDefinition) -> None:
         qos = dump(_qos.to_dicts(topic.offered_qos_profiles))
         type_hash = topic.type_description_hash
+        self._topic_count += 1
         with self._in_words():
-            self._topics[topic.name] = self._insert(
-                'topics', topic.name, topic.type, topic.serialization_format, qos, type_hash
+            self._execute(
+                'INSERT INTO topics VALUES (?, ?, ?, ?, ?, ?)',
+                self._topic_count,
+                topic.name,
+                topic.type,
+                topic.serialization_format,
+                qos,
+                type_hash,
             )
+            self._topics[topic.name] = self._topic_count
             if definition.topic_type not in self._types:
                 self._types.add(definition.topic_type)
                 text = definition.encoded_message_definition
@@ -144,11 +153,9 @@ class SqliteWriter(FileWriter):
         self._execute('COMMIT')
         self._count_pages()
 
-    def _insert(self, table: str, *row: Any) -> int:
+    def _insert(self, table: str, *row: Any) -> None:
         marks = ', '.join('?' * len(row))
         self._execute(f'INSERT INTO {table} VALUES (NULL, {marks})', *row)
-        (number,) = self._connection.execute('SELECT last_insert_rowid()').fetchone()
-        return int(number)
 
     def _execute(self, query: str, *values: Any) -> None:
         self._connection.execute(query, values).close()
