@@ -98,8 +98,9 @@ def test_of_a_killed_recording_the_last_file_is_not_compressed(
 
 
 @STORAGES
+@pytest.mark.parametrize('is_flushed', [False, True])
 def test_of_a_killed_recording_the_files_before_tell_the_rest(
-    tmp_path: Path, storage: str
+    tmp_path: Path, storage: str, is_flushed: bool
 ) -> None:
     kept, told = tmp_path / 'killed', {'robot': 'husky'}
     with BagWriter(
@@ -112,11 +113,13 @@ def test_of_a_killed_recording_the_files_before_tell_the_rest(
         writer.write('n', string(0), 0, 0)
         writer.split()
         writer.write('n', string(1), 1, 1)
-        writer.flush()
+        if is_flushed:
+            writer.flush()
         shutil.copytree(tmp_path / 'bag', kept)  # what a kill leaves
     Reindexer().reindex(StorageOptions(str(kept)))
     bag = MetadataIo().read_metadata(str(kept))
     assert len(bag.relative_file_paths) == 2
+    assert bag.message_count >= 1
     assert (bag.custom_data, bag.ros_distro) == (told, 'jazzy')
     # Without these upstream hands out the messages as they are stored.
     assert (bag.compression_format, bag.compression_mode) == ('zstd', 'MESSAGE')

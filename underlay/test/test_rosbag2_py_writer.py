@@ -31,6 +31,8 @@ from rosbag2_py import (
     StorageOptions,
     TopicMetadata,
 )
+from rosbag2_py.bag_writer import BagWriter
+from rosbag2_py.storages import storage_of
 import yaml
 
 
@@ -257,3 +259,14 @@ def test_an_unknown_type_is_written_without_definition(
     writer.close()
     assert "Unknown package 'no_such_msgs'" in capfd.readouterr().err
     assert rest_of(opened_reader(tmp_path / 'bag')) == [('n', b'1234', 1)]
+
+
+def test_a_file_that_cannot_be_begun_is_no_part_of_the_bag(tmp_path: Path) -> None:
+    folder = tmp_path / 'bag'
+    with BagWriter(folder, storage_of('mcap')) as writer:
+        writer.add_topic(TopicMetadata(0, 'n', 'std_msgs/msg/String', 'cdr'))
+        writer.write('n', string(0), 7, 7)
+        (folder / 'bag_1.mcap').symlink_to('/dev/full')
+        with pytest.raises(RuntimeError, match="bag' cannot be written: No space left on device"):
+            writer.split()
+    assert times_of(opened_reader(folder)) == [7]

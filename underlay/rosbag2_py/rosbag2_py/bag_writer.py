@@ -239,9 +239,9 @@ class BagWriter:
 
     def _begin_file(self) -> None:
         stem = f'{self.folder.name or self.folder.resolve().name}_{len(self._files)}'
-        name = f'{stem}{self._storage.suffix}'
-        self._files.append(_File(self.folder / name, Span()))
-        self._file = self._storage.write(self.folder / name, self._preset)
+        path = self.folder / f'{stem}{self._storage.suffix}'
+        self._file = self._storage.write(path, self._preset)
+        self._files.append(_File(path, Span()))  # where the disk is full, the bag has none
         for topic in self._topics.values():
             self._file.add_topic(topic.metadata, topic.definition)
 

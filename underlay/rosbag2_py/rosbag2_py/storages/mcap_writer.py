@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from mcap.writer import CompressionType, Writer
@@ -23,6 +24,13 @@ class McapWriter(FileWriter):
         compression = CompressionType.ZSTD if is_compressed else CompressionType.NONE
         self._writer = Writer(self._file, compression=compression)
         self._writer.start(profile='ros2', library='husky playpen lab rosbag2_py')
+        try:
+            # Who is killed soon leaves a file without messages, not one of 0 bytes.
+            self._file.flush()
+        except BaseException:
+            with suppress(OSError):
+                self._file.close()
+            raise
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
 
