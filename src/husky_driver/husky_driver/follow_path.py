@@ -50,7 +50,7 @@ def _make_node(argv: list[str], file: str | None) -> FollowPath:
         with SignalsHeldBack() as signals:
             # Our own handlers: rclpy's would take the publisher away before the robot has stopped.
             rclpy.init(args=argv, signal_handler_options=SignalHandlerOptions.NO)
-            return FollowPath(partial(_choose_drive, signals, file))
+            return FollowPath(partial(_choose_drive, signals, file), _check)
     except _Refused:
         raise
     except Exception as error:  # rcl raises many types for wrong arguments
@@ -80,8 +80,7 @@ def _choose_drive(
 
 def _drive_of(file: str, settings: Settings, warn: Callable[[str], object]) -> Drive:
     route = plan_route(load_course(file))
-    if settings.check != 'off':
-        _check(route, settings, warn)
+    _check(route, settings, warn)
     return Drive(route, slip=settings.has_slip, limits=settings.drive_limits)
 
 
@@ -91,6 +90,8 @@ def _check(route: Route, settings: Settings, warn: Callable[[str], object]) -> N
 
     :raises ValueError: when the settings say that it must not be driven.
     """
+    if settings.check == 'off':
+        return
     with SignalsHeldBack():
         from husky_driver.route_check import near_passes
     near = near_passes(route, world=settings.world, start=settings.start_pose)

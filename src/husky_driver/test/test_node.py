@@ -38,6 +38,10 @@ pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"
 
 NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
+WORLD = """<mujoco><option timestep="0.004"/><worldbody>
+<geom name="ground" type="plane" size="9 9 1"/>
+<body name="crate" pos="0 -3 0.2"><geom type="box" size="0.2 0.2 0.2"/></body>
+</worldbody></mujoco>"""
 
 
 class PlantNode(Node):
@@ -167,12 +171,17 @@ def test_the_answered_distance_is_driven(plant_node: PlantNode, follow_path: Any
 
 
 def on_its_way(
-    plant_node: PlantNode, follow_path: Any, course: Path, *, timeout_sec: float = 10.0
+    plant_node: PlantNode,
+    follow_path: Any,
+    course: Path,
+    *parameters: str,
+    timeout_sec: float = 10.0,
 ) -> Any:
     """Return a driver that has driven for some time, and waits for odometry."""
     plant_node.answered = 80
-    timeout = ('--ros-args', '-p', f'odometry_timeout_sec:={timeout_sec}')
-    process = follow_path('--waypoints', course, *timeout)
+    given = (f'odometry_timeout_sec:={timeout_sec}', *parameters)
+    arguments = [word for each in given for word in ('-p', each)]
+    process = follow_path('--waypoints', course, '--ros-args', *arguments)
     wait_until(lambda: len(plant_node.received) >= 80, timeout_sec=15, what='80 commands')
     return process
 
@@ -263,7 +272,8 @@ def test_a_signal_that_comes_while_one_is_told_is_not_told(
 ) -> None:
     context = rclpy.Context()
     rclpy.init(context=context, domain_id=domain)
-    node = FollowPath(lambda *_: Drive(plan_route(load_course(course))), context=context)
+    drive = Drive(plan_route(load_course(course)))
+    node = FollowPath(lambda *_: drive, lambda *_: None, context=context)
     told = list[str]()
 
     def error(text: str) -> None:
@@ -304,13 +314,18 @@ def test_a_drive_can_be_paused_and_goes_on(
     assert plant_node.plant.now.x_m == pytest.approx(4.0, abs=0.02)
 
 
-def test_a_new_file_takes_over_and_a_broken_one_is_refused(
+def test_a_new_file_takes_over_and_a_bad_one_is_refused(
     plant_node: PlantNode, follow_path: Any, course: Path
 ) -> None:
-    process = on_its_way(plant_node, follow_path, course)
+    world = course.with_name('world.xml')
+    world.write_text(WORLD)
+    careful = ('check:=refuse', f'world:={world}')
+    process = on_its_way(plant_node, follow_path, course, *careful)
     other, broken = course.with_name('other.yaml'), course.with_name('broken.yaml')
+    through = course.with_name('through.yaml')
     other.write_text('speed: 0.8\nwaypoints: [[1, 1], [2, 2]]\n')
     broken.write_text('speed: fast\n')
+    through.write_text('waypoints: [[0, 0], [0, -4]]\n')
 
     def set_waypoints(path: Path) -> Any:
         value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=str(path))
@@ -322,11 +337,15 @@ def test_a_new_file_takes_over_and_a_broken_one_is_refused(
     refused = set_waypoints(broken)
     assert not refused.successful
     assert 'broken.yaml: line 1' in refused.reason
+    refused = set_waypoints(through)
+    assert not refused.successful
+    assert refused.reason.endswith('not driven, it passes too near to obstacles')
     assert set_waypoints(other).successful
     plant_node.go_on()
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 0, output
     assert 'done: 2 of 2 waypoints' in output
+    assert 'through.yaml: line 1: on the way to waypoint 2 the robot touches crate' in output
     end = plant_node.plant.now
     assert (end.x_m, end.y_m) == pytest.approx((2.0, 2.0), abs=0.02)
 

@@ -7,7 +7,7 @@ from functools import partial
 import time
 from typing import Any
 
-from husky_course.route import plan_route
+from husky_course.route import plan_route, Route
 from husky_course.waypoints import load_course
 from husky_runtime.parameters import declare_settings
 from husky_runtime.settings import names_of, refuse_unknown
@@ -54,18 +54,24 @@ DONE, GAVE_UP, INTERRUPTED, TERMINATED = 0, 1, 130, 143
 SENSOR = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
 RELIABLE = QoSProfile(depth=50)
 
-ChooseDrive = Callable[[Settings, Callable[[str], object]], Drive]
+Warn = Callable[[str], object]
+ChooseDrive = Callable[[Settings, Warn], Drive]
+CheckRoute = Callable[[Route, Settings, Warn], object]
+"""Raises a ValueError when the settings say that a route must not be driven."""
 
 
 class FollowPath(Node):
     """Drives the Husky; `finished` becomes done with the exit code of the process."""
 
-    def __init__(self, choose_drive: ChooseDrive, **arguments: Any) -> None:
+    def __init__(
+        self, choose_drive: ChooseDrive, check_route: CheckRoute, **arguments: Any
+    ) -> None:
         """
         Read the parameters, choose the drive, and begin to listen to odometry.
 
         :param choose_drive: returns what to drive; it is given the settings, and a function
             that logs a warning. What it raises goes through.
+        :param check_route: looks at the route of another file that is set on the way.
         :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
         :raises ValueError: for a parameter that does not exist or a value that is not allowed.
         """
@@ -74,6 +80,7 @@ class FollowPath(Node):
         refuse_unknown(self.get_parameters_by_prefix(''), names_of(Settings))
         self.settings = declare_settings(self, Settings, refuse, files=('waypoints', 'world'))
         self.finished: Future[int] = Future()
+        self._check_route = check_route
         self._drive = choose_drive(self.settings, self.get_logger().warning)
         self._display = DriveDisplay(self, self._drive)
         self._progress = make_progress(self.settings.progress, self.get_logger().info)
@@ -172,6 +179,8 @@ class FollowPath(Node):
             if parameter.name == 'waypoints':
                 try:
                     route = plan_route(load_course(str(parameter.value)))
+                    self._progress.close()  # a warning has a line of its own
+                    self._check_route(route, self.settings, self.get_logger().warning)
                 except ValueError as error:
                     return SetParametersResult(successful=False, reason=str(error))
                 self._drive = Drive(
