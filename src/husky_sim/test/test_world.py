@@ -280,6 +280,28 @@ def test_a_broken_world_is_refused_with_file_and_reason(
     assert '\n' not in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    ('part', 'reason'),
+    [
+        ('<geom typ="box"/>', r"attribute: 'typ' Element 'geom', line 2 of part\.xml$"),
+        ('<geom mesh="x" type="mesh"/>', r"mesh 'x' not found .* id 1, line 2 of part\.xml$"),
+        ('<geom type="box"/>', r"size 0 must be positive in geom Element name '', id 1$"),
+        ('<include file="no.xml"/>', r"opening file '.*no\.xml' Element 'include'$"),
+        (
+            '<body name="crate"><geom size="0.3"/></body>',
+            r'would start inside crate \(.*world\.xml, line 2 of part\.xml\); start',
+        ),
+    ],
+)
+def test_a_fault_in_an_included_file_has_its_file_and_line(
+    write: Callable[[str], str], tmp_path: Path, part: str, reason: str
+) -> None:
+    (tmp_path / 'part.xml').write_text(f'<mujocoinclude>\n{part}\n</mujocoinclude>\n')
+    path = write(mjcf(FLOOR + '<include file="part.xml"/>'))
+    with pytest.raises((WorldError, StartPoseError), match=reason):
+        load_world(path, [RobotStart()])
+
+
 def test_names_in_another_encoding_are_refused(tmp_path: Path) -> None:
     path = tmp_path / 'world.xml'
     door = '<body name="Tür" pos="3 0 1"><geom size="0.1"/></body>'

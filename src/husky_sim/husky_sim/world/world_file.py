@@ -19,6 +19,8 @@ _NUMBERS = ('pos', 'quat', 'size', 'friction', 'mass', 'inertia', 'ipos', 'axis'
 
 _HAS_LINE = re.compile(r'\bline\b', re.IGNORECASE)
 _QUOTED = re.compile(r"'([^']+)'")
+_NO_LINE = re.compile(r',? line 0\b')  # what MuJoCo says of all that stands in an included file
+_INCLUDE = re.compile(r'<include\s[^>]*?file\s*=\s*["\']([^"\']+)["\']')
 
 
 def refused(path: str, reason: str | Exception, *, word: str = '') -> WorldError:
@@ -29,23 +31,42 @@ def refused(path: str, reason: str | Exception, *, word: str = '') -> WorldError
         default what the reason quotes.
     """
     text = ' '.join(str(reason).split())
+    included, text = _NO_LINE.search(text) is not None, _NO_LINE.sub('', text)
     if not _HAS_LINE.search(text):
         quoted = _QUOTED.search(text)
-        text += line_of(path, word or (quoted.group(1) if quoted else ''))
+        word = word or (quoted.group(1) if quoted else '')
+        text += line_of(path, word, only_included=included)
     return WorldError(f'world={path!r}: {text}')
 
 
-def line_of(path: str, word: str) -> str:
-    """Return ', line N' for the first line of a file with a word in quotes, or bare; or ''."""
-    try:
-        lines = Path(path).read_text(encoding='utf-8', errors='replace').splitlines()
-    except OSError:
-        return ''
+def line_of(path: str, word: str, *, only_included: bool = False) -> str:
+    """
+    Return ', line N' for the first line of a file with a word in quotes, or bare; or ''.
+
+    :param only_included: look only into the files that it includes; otherwise these come second.
+    """
+    texts = _texts(path)
+    if only_included:
+        del texts[0]
     for wanted in (f'"{word}"', word):
-        for number, line in enumerate(lines, start=1):
-            if word and wanted in line:
-                return f', line {number}'
+        for name, text in texts:
+            for number, line in enumerate(text.splitlines(), start=1):
+                if word and wanted in line:
+                    return f', line {number}' + (f' of {name}' if name else '')
     return ''
+
+
+def _texts(path: str) -> list[tuple[str, str]]:
+    """Return the text of a file, and by their names those of the files that it includes."""
+    folder, names, texts = Path(path).parent, [''], list[tuple[str, str]]()
+    for name in names:  # grows on the way
+        try:
+            text = (folder / name if name else Path(path)).read_text('utf-8', errors='replace')
+        except OSError:
+            text = ''
+        texts.append((name, text))
+        names += [each for each in _INCLUDE.findall(text) if each not in names]
+    return texts
 
 
 def steps_per_period(path: str, timestep_sec: float) -> int:
