@@ -1,5 +1,7 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
+import math
+
 from husky_course.route import A200_LIMITS, LIMITS
 from husky_driver.ros.settings import Settings
 from husky_runtime.settings import refuse_unknown
@@ -23,6 +25,8 @@ def test_a_value_that_is_not_offered_is_refused_with_what_is() -> None:
         Settings(imu_ahead_m=3)  # whole, as it is where somebody writes no decimal point
     with pytest.raises(ValueError, match=r'start: 2 numbers; write \[x, y, yaw\]'):
         Settings(start=(0.0, 1.0))
+    with pytest.raises(ValueError, match=r'start must be of numbers, as \[0.0, 0.0, 0.0\]'):
+        Settings(start=(0.0, math.nan, 0.0))  # else the odometry is blamed for it
 
 
 def test_an_unknown_parameter_is_refused_with_a_suggestion() -> None:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields
 from difflib import get_close_matches
+import math
 from typing import Any
 
 NODE_PARAMETERS = ('use_sim_time', 'start_type_description_service')  # rclpy's own
@@ -56,7 +57,7 @@ class Setting:
         if given is False and 'off' in self.choices:
             return 'off'  # YAML reads a bare off as false
         if isinstance(self.default, tuple):
-            if not isinstance(given, Iterable) or not all(map(_is_number, given)):
+            if not isinstance(given, Iterable) or not all(map(_is_finite, given)):
                 raise refuse(self, given)
             return tuple(map(float, given))
         if self.has_range and not (_is_number(given) and self._is_in_range(given)):
@@ -126,3 +127,7 @@ def refuse_unknown(given: Iterable[str], settings: Iterable[str]) -> None:
 
 def _is_number(given: Any) -> bool:
     return isinstance(given, (int, float)) and not isinstance(given, bool)
+
+
+def _is_finite(given: Any) -> bool:
+    return _is_number(given) and math.isfinite(given)
