@@ -215,6 +215,8 @@ def _grade_lab(
     from husky_grader.outputs import write_student_page
 
     folder = Path(options.report)
+    for note in submission.notes:
+        _tell(f'{submission.id}: {note}')
     graded = grade_submission(
         submission,
         rubric,

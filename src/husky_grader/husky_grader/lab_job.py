@@ -93,12 +93,16 @@ class LabJob:
 
 
 def write_result(graded: Graded, rubric: Rubric, folder: Path) -> dict[str, Any]:
-    """Write lab.json, whole or not at all; return what it holds."""
+    """
+    Write lab.json, whole or not at all; return what it holds.
+
+    How the submission was found is not in it: the next call may find the same one elsewhere.
+    """
     content: dict[str, Any] = {
         'rubric': rubric.title,
         'sandbox': graded.sandbox,
         'versions': versions(),
-        'notes': list(graded.notes),
+        'notes': [note for note in graded.notes if note not in graded.submission.notes],
         'score': graded.points,
         'most': graded.most,
         'steps': [asdict(step) for step in graded.steps],
@@ -115,7 +119,7 @@ def from_result(submission: Submission, content: Mapping[str, Any]) -> Graded:
         content['most'],
         [StepGrade(**step) for step in content['steps']],
         sandbox=content['sandbox'],
-        notes=content['notes'],
+        notes=(*submission.notes, *content['notes']),
     )
 
 

@@ -202,3 +202,35 @@ def test_who_has_handed_in_is_found_again_beside_the_report(
         grade(['--lab', '.', '--rubric', str(rubric), '--shard', '1/1'])
         entries = json.loads((place / 'report' / 'grades.json').read_text())['submissions']
         assert [each['id'] for each in entries] == expected
+
+
+def test_what_a_later_call_finds_elsewhere_has_no_old_notes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / 'rubric.yaml').write_text(THERE_AND_BACK)
+    for export in ('monday', 'friday'):
+        for number in (101, 102):
+            folder = tmp_path / export / f'Ann {number}_{number}_assignsubmission_file'
+            folder.mkdir(parents=True)
+            (folder / 'p.yaml').write_text('waypoints: [[0, 0], [1, 0], [0, 0]]')
+    monkeypatch.chdir(tmp_path)
+    command = ['--rubric', 'rubric.yaml', '--jobs', '1', '--report', 'report', '--lab']
+    assert grade([*command, 'monday', 'friday']) == 0
+    assert 'replaces' in (tmp_path / 'report' / 'class.html').read_text()
+    for exports, places in (
+        ([str(tmp_path / 'monday'), 'friday'], [str(tmp_path / 'monday')]),
+        (['friday'], []),
+    ):
+        assert grade([*command, *exports]) == 0
+        entries = json.loads((tmp_path / 'report' / 'grades.json').read_text())['submissions']
+        for entry in entries:
+            name = f'{entry["name"]}_{entry["id"][-3:]}_assignsubmission_file'
+            told = [f'replaces one that was given before it: {each}/{name}' for each in places]
+            assert entry['notes'] == told
+            page = (tmp_path / 'report' / entry['id'] / 'index.html').read_text()
+            assert 'replaces' not in page  # a student sees no place of this machine
+    for export in ('monday', 'friday'):
+        shutil.rmtree(tmp_path / export / name)
+    capsys.readouterr()
+    assert grade([*command, 'monday', 'friday']) == 0
+    assert 'Ann 101_101: replaces one that was given before it: monday/' in capsys.readouterr().err
