@@ -77,10 +77,12 @@ def test_a_gradebook_gets_scores_in_the_column_of_the_lab(
 
 
 def test_who_was_refused_gets_no_score(tmp_path: Path, everyone: list[Graded]) -> None:
+    everyone[0] = replace(refused(everyone[0].submission), undone=True)  # killed, or no room
     everyone[1] = refused(everyone[1].submission)
     notes = outputs(tmp_path, everyone, GRADEBOOK).notes
     assert table(tmp_path / 'grades_for_canvas.csv')[4][-1] == '12.50'
     assert 'grades_for_canvas.csv: refused, so no score is written (1): ="=1+1"' in notes
+    assert 'grades_for_canvas.csv: not graded, so no score is written (1): de Groot, Ann' in notes
 
 
 def test_a_gradebook_with_semicolons_and_names_in_two_columns(

@@ -156,11 +156,13 @@ def test_who_was_refused_gets_a_comment_and_no_grade(
     tmp_path: Path, everyone: list[Graded]
 ) -> None:
     everyone[0] = refused(everyone[0].submission)
+    everyone[1] = replace(refused(everyone[1].submission), undone=True)  # killed, or no room
     notes = outputs(tmp_path, everyone, WORKSHEET).notes
     ann = table(tmp_path / 'grades_for_moodle.csv')[1]
     assert ann[4] == ''
     assert ann[-1] == ('<p>Graded by ./lab grade: refused</p><p>a RAR archive; hand in a zip</p>')
     assert any('refused, so no grade is written (1): Ann' in note for note in notes)
+    assert any('not graded, so no grade is written (1): Çem' in note for note in notes)
 
 
 def test_a_comment_holds_no_html_of_a_student(tmp_path: Path, everyone: list[Graded]) -> None:

@@ -24,7 +24,7 @@ from husky_course.printable import printable
 from husky_grader.graded import Graded
 from husky_grader.outputs.class_summary import as_points
 from husky_grader.outputs.feedback import as_tar_gz, as_zip, write_zip
-from husky_grader.outputs.matching import match, told
+from husky_grader.outputs.matching import match, told, told_instead
 from husky_grader.outputs.sheet import like, number_in, Sheet
 from husky_grader.outputs.student_page import feedback_files, why_refused
 from husky_grader.submission import Submission
@@ -70,13 +70,13 @@ class CanvasGradebook:
         names = {n: row[0] for n, row in enumerate(self.sheet.rows) if row[at].strip().isdigit()}
         matching = match(everyone, rows_of, names)
         rows = [list(row) for row in self.sheet.rows]
-        refused, decided, changed = [], [], []
+        instead, decided, changed = [], [], []
         for number, one in matching.graded.items():
             row, name = rows[number], names[number]
             before = row[self.assignment].strip()
             new = self._score(one)
             if one.refused:
-                refused.append(name)
+                instead.append((name, one))
             elif before in _DECIDED:
                 decided.append(f'{name} {before}')
             else:
@@ -92,7 +92,7 @@ class CanvasGradebook:
         )
         return filled, [
             *matching.notes,
-            *told('refused, so no score is written', refused),
+            *told_instead('so no score is written', instead),
             *told('excused or without the assignment, so no score is written', decided),
             *told('had another score', changed),
         ]

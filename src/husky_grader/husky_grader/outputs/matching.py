@@ -46,6 +46,19 @@ def match(
     return Matching(alone, notes)
 
 
+def told_instead(what: str, whom: Iterable[tuple[str, Graded]]) -> list[str]:
+    """
+    Return a line on those who were refused, and one on those who could not be graded here.
+
+    :param what: what that means for their rows.
+    :param whom: their names, and what they got.
+    """
+    by_word: dict[str, list[str]] = {}
+    for name, one in whom:
+        by_word.setdefault(one.instead_of_points, []).append(name)
+    return [line for word, names in by_word.items() for line in told(f'{word}, {what}', names)]
+
+
 def told(what: str, whom: Iterable[str]) -> list[str]:
     """Return a line on those whom something concerns; none where it is nobody."""
     names = list(whom)

@@ -26,7 +26,7 @@ from husky_course.printable import printable
 from husky_grader.graded import Graded
 from husky_grader.outputs.class_summary import as_points
 from husky_grader.outputs.feedback import write_zip
-from husky_grader.outputs.matching import match, Matching, told
+from husky_grader.outputs.matching import match, Matching, told, told_instead
 from husky_grader.outputs.sheet import like, number_in, Sheet
 from husky_grader.outputs.student_page import feedback_files, why_refused
 from husky_grader.submission import Submission
@@ -124,7 +124,7 @@ class MoodleWorksheet:
         """
         matching, names = self.matching(everyone), self._names()
         rows = [list(row) for row in self.sheet.rows]
-        refused, locked, changed, commented = [], [], [], []
+        instead, locked, changed, commented = [], [], [], []
         for number, one in matching.graded.items():
             row, name = rows[number], names[number]
             if self.comments is not None:
@@ -133,7 +133,7 @@ class MoodleWorksheet:
                 else:
                     row[self.comments] = comment(one)
             if one.refused:
-                refused.append(name)
+                instead.append((name, one))
             elif self.changeable is not None and self._is_locked(row[self.changeable]):
                 locked.append(name)
             else:
@@ -143,7 +143,7 @@ class MoodleWorksheet:
                 row[self.most - 1] = new
         notes = [
             *matching.notes,
-            *told('refused, so no grade is written', refused),
+            *told_instead('so no grade is written', instead),
             *told('locked in Moodle, so no grade is written', locked),
             *told('had another grade', changed),
             *told('has a comment already, which stays', commented),
