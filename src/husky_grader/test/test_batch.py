@@ -308,7 +308,7 @@ def test_a_full_disk_gives_one_line_and_the_table(
     assert done.returncode == 2
     assert 'Traceback' not in done.stderr
     table = done.stdout.splitlines()
-    assert table[0].startswith('ann_path    0.0  undone      its report cannot be written: File')
+    assert table[0].startswith('ann_path    0.0  not graded  its report cannot be written: File')
     assert table[1].startswith('bob_path    0.0  refused')
     (line,) = (line for line in done.stderr.splitlines() if 'make room, on the disk' in line)
     assert 'its report cannot be written: File too large' in line

@@ -36,7 +36,7 @@ def table(names: Sequence[str], grades: Sequence[Grade]) -> str:
         refused = [line.removeprefix(f'{file}: ') for line in grade.refused.splitlines()]
         reasons = refused or (grade.report or {})['reasons']
         verdict = 'passed' if grade.passed else 'refused' if grade.refused else 'not passed'
-        verdict = 'undone' if grade.undone else verdict
+        verdict = 'not graded' if grade.undone else verdict
         more = f' (and {len(reasons) - 1} more)' if len(reasons) > 1 else ''
         reason = reasons[0] + more if reasons else ''
         lines.append(f'{name:<{width}}  {grade.score:5.1f}  {verdict:<10}  {reason}'.rstrip())
