@@ -332,7 +332,7 @@ def _tell_not_taken(names: Sequence[str]) -> None:
     _tell(
         f'--collect: not taken, and graded here again ({len(names)}): {shown}: their results '
         'were sealed with another HUSKY_GRADING_SECRET, or for other submissions, another rubric, '
-        'lab, Python, MuJoCo or numpy'
+        'lab, Python, MuJoCo or numpy, or have been changed since'
     )
 
 

@@ -164,7 +164,9 @@ def tables(report: Path) -> str:
     return (report / 'grades.csv').read_text()
 
 
-def test_a_forged_shard_is_graded_again(serial: Serial, tmp_path: Path) -> None:
+def test_a_forged_shard_is_graded_again(
+    serial: Serial, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     shard, files = tmp_path / 'shard', serial.files
     grade([*files[:2], *ONE, '--report', str(shard)])
     report = shard / 's0' / 'report.json'
@@ -173,6 +175,7 @@ def test_a_forged_shard_is_graded_again(serial: Serial, tmp_path: Path) -> None:
     everything = ['--report', str(tmp_path / 'all'), '--collect', str(shard)]
     grade([*files[:2], *ONE, *everything])
     assert ',101.0,' not in tables(tmp_path / 'all')
+    assert 'MuJoCo or numpy, or have been changed since' in capsys.readouterr().err
 
 
 @pytest.mark.parametrize('text', ['0/3', '4/3', '1', '1/0', '1/-3', '1/3/3', 'a/b', '1.0/3', ''])
