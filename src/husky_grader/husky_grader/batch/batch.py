@@ -75,6 +75,7 @@ class Batch:
         Do what has not been done before; return all outcomes in the order of the jobs.
 
         :raises ClusterFails: when the cluster cannot be used.
+        :raises ValueError: if the report of another call cannot be copied.
         """
         for folder in self._how.collect:
             for report in folder.iterdir():
@@ -145,10 +146,22 @@ class Batch:
 
 
 def _copy_report(there: Path, own: Path) -> None:
-    """Copy a report to where files of a person may lie; its seal last, as one is written."""
+    """
+    Copy a report to where files of a person may lie; its seal last, as one is written.
+
+    :raises ValueError: if it cannot be copied, as where the disk is full.
+    """
 
     def seal(folder: str, _names: Sequence[str]) -> list[str]:
         return [SEAL_FILE] if Path(folder) == there else []
 
-    shutil.copytree(there, own, symlinks=True, ignore=seal, dirs_exist_ok=True)
-    shutil.copyfile(there / SEAL_FILE, own / SEAL_FILE)
+    try:
+        shutil.copytree(there, own, symlinks=True, ignore=seal, dirs_exist_ok=True)
+        shutil.copyfile(there / SEAL_FILE, own / SEAL_FILE)
+    except OSError as error:
+        # One of shutil has a list: of each file whence, whereto and why not.
+        why = error.args[0][0][-1] if isinstance(error, shutil.Error) else error.strerror
+        raise ValueError(
+            f'--collect: {there} cannot be copied to {own}: {why}; mend that, then the same '
+            'command goes on'
+        ) from None
