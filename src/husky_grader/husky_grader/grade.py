@@ -29,6 +29,7 @@ from husky_grader.file_grading import Grade, grade_file
 from husky_grader.grade_class import (
     grade_files,
     grade_labs,
+    is_of_a_class,
     NOT_PASSED,
     PASSED,
     wrong_of_class,
@@ -229,7 +230,7 @@ def _grade(options: argparse.Namespace) -> int:
         return _grade_controller(options)
     if options.lab:
         return grade_labs(options)
-    if len(options.files) == 1:
+    if len(options.files) == 1 and not is_of_a_class(options):
         file, folder = options.files[0], Path(options.report)
         return _show_one(grade_file(file, folder, world=options.world), options)
     return grade_files(options)

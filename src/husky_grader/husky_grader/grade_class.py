@@ -63,6 +63,11 @@ def wrong_of_class(options: argparse.Namespace) -> str:
     return ''
 
 
+def is_of_a_class(options: argparse.Namespace) -> bool:
+    """Tell whether options are given that only a class has, and be it a class of one."""
+    return bool(options.shard or options.collect or options.executor or options.gradebook)
+
+
 def grade_files(options: argparse.Namespace) -> int:
     """Grade waypoint files; return the exit code."""
     from husky_grader.batch.tables import names_of, table, write_csv
@@ -172,8 +177,7 @@ def _is_taken(folder: Path, source: Path) -> bool:
 
 def _is_alone(submissions: Sequence[Submission], options: argparse.Namespace) -> bool:
     """Tell whether there is one submission, and no class."""
-    of_a_class = options.shard or options.collect or options.executor or options.gradebook
-    return len(submissions) == 1 and not of_a_class
+    return len(submissions) == 1 and not is_of_a_class(options)
 
 
 def _check_programs_run(folder: Path) -> None:

@@ -136,6 +136,21 @@ def test_a_collected_report_takes_nothing_of_a_person(serial: Serial, tmp_path: 
     assert {path.name for path in own.iterdir()} == {*collected, 'notes.txt'}
 
 
+def test_a_report_that_cannot_be_copied_is_told_in_a_line(
+    serial: Serial, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shard, report = tmp_path / 'shard', tmp_path / 'all'
+    grade([*serial.files[:2], *ONE, '--report', str(shard)])
+    os.mkfifo(shard / 's0' / 'pipe')
+    command = [*serial.files[:2], *ONE, '--report', str(report), '--collect', str(shard)]
+    capsys.readouterr()
+    assert grade(command) == 2
+    told = f'--collect: {shard / "s0"} cannot be copied to {report / "s0"}: `{shard}/s0/pipe` is a'
+    assert capsys.readouterr().err.splitlines()[-1].startswith(told)
+    (shard / 's0' / 'pipe').unlink()
+    assert grade(command) == 0
+
+
 @pytest.mark.timeout(60)
 def test_to_collect_what_was_graded_takes_no_sandbox(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -193,6 +208,13 @@ def test_a_shard_may_be_empty(serial: Serial, tmp_path: Path) -> None:
     assert grade([*command, '8/9']) == 0
     rubric = ['--rubric', str(config_folder() / 'rubrics' / 'path.yaml')]
     assert grade(['--lab', serial.files[0], *rubric, *command[-3:], '2/2']) == 0
+    assert 'Nobody is in this share' in (tmp_path / 'report' / 'class.html').read_text()
+    # The only file of a class is in its first share alone, and has a folder as in any class.
+    for number, folders in ((2, []), (1, ['s0'])):
+        report = tmp_path / f'share {number}'
+        assert grade([serial.files[0], '--report', str(report), '--shard', f'{number}/2']) == 0
+        assert [path.name for path in report.iterdir() if path.is_dir()] == folders
+        assert len(tables(report).splitlines()) == 1 + len(folders)
 
 
 @pytest.mark.parametrize('count', [1, 2, 7, 12, 30])
