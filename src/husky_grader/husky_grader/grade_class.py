@@ -216,7 +216,7 @@ def _grade_lab(
     from husky_grader.lab.lab import table as lab_table
     from husky_grader.lab_grading import grade_submission
     from husky_grader.lab_job import write_result
-    from husky_grader.outputs import write_student_page
+    from husky_grader.outputs import left_by_earlier, write_student_page
 
     folder = Path(options.report)
     for note in submission.notes:
@@ -230,6 +230,8 @@ def _grade_lab(
         done=lambda step: _tell(f'{submission.id}: {step.name}: done'),
     )
     write_student_page(folder, graded)
+    for line in left_by_earlier(folder):
+        _tell(f'{folder}: {line}')
     if graded.refused:
         raise ValueError(graded.refused)
     write_result(graded, rubric, folder)

@@ -94,6 +94,11 @@ def test_a_worksheet_gets_grades_and_is_else_as_it_was(
     ]
     page = unescape((tmp_path / 'class.html').read_text())
     assert [note for note in notes if note not in page] == []
+    again = write_outputs(tmp_path, everyone[1:], title='Lab')  # without the worksheet
+    left = 'of an earlier call, and left as it was (1): grades_for_moodle.csv'
+    assert left in again.notes
+    assert left in (tmp_path / 'class.html').read_text()
+    assert table(tmp_path / 'grades_for_moodle.csv') == after
 
 
 def test_a_comment_of_the_grader_is_replaced_by_the_next(

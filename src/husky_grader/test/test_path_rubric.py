@@ -225,12 +225,15 @@ def test_what_a_later_call_finds_elsewhere_has_no_old_notes(
         entries = json.loads((tmp_path / 'report' / 'grades.json').read_text())['submissions']
         for entry in entries:
             name = f'{entry["name"]}_{entry["id"][-3:]}_assignsubmission_file'
-            told = [f'replaces one that was given before it: {each}/{name}' for each in places]
-            assert entry['notes'] == told
+            lines = [f'replaces one that was given before it: {each}/{name}' for each in places]
+            assert entry['notes'] == lines
             page = (tmp_path / 'report' / entry['id'] / 'index.html').read_text()
             assert 'replaces' not in page  # a student sees no place of this machine
     for export in ('monday', 'friday'):
         shutil.rmtree(tmp_path / export / name)
     capsys.readouterr()
     assert grade([*command, 'monday', 'friday']) == 0
-    assert 'Ann 101_101: replaces one that was given before it: monday/' in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert 'Ann 101_101: replaces one that was given before it: monday/' in told
+    left = 'of an earlier call, and left as it was (4): class.html, grades.csv, grades.json, feed'
+    assert f'report: {left}' in told  # which have both

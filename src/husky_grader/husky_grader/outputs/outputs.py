@@ -14,6 +14,7 @@ from husky_grader.outputs.class_page import class_page
 from husky_grader.outputs.gradebook import FILLED, Gradebook
 from husky_grader.outputs.grades_csv import write_grades_csv
 from husky_grader.outputs.grades_json import write_grades_json
+from husky_grader.outputs.matching import told
 from husky_grader.outputs.moodle import MoodleWorksheet, write_moodle_feedback
 from husky_grader.outputs.sheet import write_sheet
 from husky_grader.outputs.student_page import write_student_page
@@ -49,11 +50,11 @@ def write_outputs(
     write_grades_json(folder / JSON, everyone, title=title)
     names, notes = [CSV, JSON], []
     if gradebook is not None:
-        filled, told = gradebook.filled(everyone)
+        filled, about = gradebook.filled(everyone)
         name = FILLED[gradebook.lms]
         write_sheet(folder / name, filled)
         names.append(name)
-        notes += [f'{name}: {note}' for note in told]
+        notes += [f'{name}: {note}' for note in about]
     if of_moodle := [one for one in everyone if one.submission.lms == MoodleWorksheet.lms]:
         worksheet = gradebook if isinstance(gradebook, MoodleWorksheet) else None
         path = folder / MOODLE_FEEDBACK
@@ -62,8 +63,21 @@ def write_outputs(
     if of_canvas := [one for one in everyone if one.submission.lms == CanvasGradebook.lms]:
         notes += write_canvas_feedback(folder / CANVAS_FEEDBACK, of_canvas, folder)
         names.append(CANVAS_FEEDBACK)
+    notes += left_by_earlier(folder, [PAGE, *names])
     with replacing(folder / PAGE) as part:
         part.write_text(
             class_page(everyone, title=title, notes=notes, files=names), encoding='utf-8'
         )
     return Outputs([folder / name for name in (PAGE, *names)], notes)
+
+
+def left_by_earlier(folder: Path, written: Sequence[str] = ()) -> list[str]:
+    """
+    Return a line on tables, pages and archives that another call has left; none without any.
+
+    They are not removed, but may have other grades.
+
+    :param written: names of what the call at hand writes.
+    """
+    left = (name for name in OUTPUT_FILES if name not in written and (folder / name).exists())
+    return told('of an earlier call, and left as it was', left)
