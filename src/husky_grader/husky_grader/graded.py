@@ -12,6 +12,7 @@ from husky_grader.submission import Submission
 
 LAB_FILE = 'lab.json'  # of one, in the folder of its report
 RUN_WITH = 'it was run with'  # begins what is told beside the reasons of a step, and is none
+DRIVE_PASSED = ' passed'  # ends what is told of a course that was driven right, and is none either
 
 
 @dataclass(frozen=True)

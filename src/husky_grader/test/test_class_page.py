@@ -11,7 +11,7 @@ from urllib.parse import unquote
 from husky_course.printable import printable
 from husky_grader.batch.job import Outcome
 from husky_grader.graded import Graded, StepGrade
-from husky_grader.lab.drive_step import FOR_STAFF
+from husky_grader.lab.drive_step import FOR_STAFF, passed
 from husky_grader.lab_job import LabJob
 from husky_grader.outputs import write_outputs, write_student_page
 from husky_grader.outputs.canvas import _as_text
@@ -98,6 +98,17 @@ def test_what_the_same_students_were_told_is_one_mistake() -> None:
     (mistake,) = summarize([told(1, build=both), told(2, build=both)]).mistakes
     assert mistake.text == both
     assert mistake.lost == 20.0
+
+
+def test_a_course_that_was_passed_is_no_mistake() -> None:
+    everyone = [
+        Graded(submission(n), 40.0, [StepGrade('drive', 40.0, 38.4, told)])
+        for n in (1, 2)
+        for told in [passed('central_barrier', {f'0.{n} m RMS off the path': 4.0})]
+    ]
+    (mistake,) = summarize(everyone).mistakes
+    assert mistake.text == '0.1 m RMS off the path costs 4.0 points'
+    assert mistake.lost == pytest.approx(3.2)
 
 
 def test_what_cost_the_class_most_is_to_be_talked_about() -> None:

@@ -12,6 +12,7 @@ from husky_course.record import read_run
 from husky_course.route import plan_route
 from husky_course.waypoints import load_course
 
+from husky_grader.graded import DRIVE_PASSED
 from husky_grader.lab.finding import Finding
 from husky_grader.lab.hiding import hiding
 from husky_grader.lab.misplaced import misplaced
@@ -123,7 +124,7 @@ def passed(course: str, costs: Mapping[str, float]) -> str:
     :param costs: points that it lost, by the reasons.
     """
     lost = [f'{why} costs {points:.1f} points' for why, points in costs.items() if points > LEAST]
-    return '; '.join([f'{course} passed', *lost])
+    return '; '.join([f'{course}{DRIVE_PASSED}', *lost])
 
 
 def exceeded(

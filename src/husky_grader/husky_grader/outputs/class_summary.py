@@ -8,7 +8,7 @@ import re
 from statistics import fmean, quantiles
 from typing import NamedTuple
 
-from husky_grader.graded import Graded, RUN_WITH, StepGrade
+from husky_grader.graded import DRIVE_PASSED, Graded, RUN_WITH, StepGrade
 
 MOST_SENTENCES = 3  # each, on steps and on mistakes, to talk about
 BETWEEN = '; '  # the reasons of a step
@@ -148,7 +148,11 @@ def _reasons(one: Graded) -> Iterator[tuple[str, str, float]]:
     for step in one.steps:
         if not step.is_full:
             told = step.why.split(BETWEEN)
-            reasons = [each for each in told if not each.startswith(RUN_WITH)]
+            reasons = [
+                each
+                for each in told
+                if not (each.startswith(RUN_WITH) or each.endswith(DRIVE_PASSED))
+            ]
             for reason in reasons:
                 yield step.name, reason, (step.most - step.points) / len(reasons)
 
