@@ -201,6 +201,38 @@ def test_a_class_that_is_killed_hard_leaves_no_worker(tmp_path: Path) -> None:
         wait_until(lambda: not living(running.pid), what='their end', timeout_sec=3.0)
 
 
+def test_a_worker_of_a_dead_grader_does_nothing(tmp_path: Path) -> None:
+    (tmp_path / 'ann.yaml').write_text(SHORT)
+    # The kernel tells it only of an end that is yet to come.
+    (tmp_path / 'late.py').write_text(
+        'import multiprocessing, os, pathlib, time\n'
+        'from husky_grader.batch.workers import _serve\n'
+        'from husky_grader.file_job import FileJob\n'
+        'def late(pipe, place, grader):\n'
+        '    while os.getppid() == grader:\n'
+        '        time.sleep(0.001)\n'
+        '    _serve(pipe, place)\n'
+        'if __name__ == "__main__":\n'
+        '    spawn = multiprocessing.get_context("spawn")\n'
+        '    ours, its = spawn.Pipe()\n'
+        '    process = spawn.Process(target=late, args=(its, ".", os.getpid()))\n'
+        '    process.start()\n'
+        '    ours.send((FileJob("ann.yaml", "ann"), pathlib.Path("report"), 60.0))\n'
+        '    os._exit(0)\n'
+    )
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    done = subprocess.run(  # which waits for the worker, too: it has the same output
+        [sys.executable, 'late.py'],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=30.0,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, '', '')
+    assert not (tmp_path / 'report').exists()
+
+
 def living(session: int) -> list[str]:
     """Return the processes of a session that have not ended, as the kernel tells (proc(5))."""
     found = []

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 import multiprocessing
-from multiprocessing import resource_tracker
+from multiprocessing import parent_process, resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 import os
@@ -196,6 +196,9 @@ def _serve(pipe: Connection, place: str) -> None:
     # A Python of the lab unblocks it at its start: see interrupt_while_loading in underlay.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent(signal.SIGKILL)
+    parent = parent_process()
+    if parent is not None and parent.pid != os.getppid():
+        return  # it was killed before: nobody waits for the result, and the next call may be here
     tempfile.tempdir = place
     with suppress(EOFError):  # the other end is closed
         while True:
