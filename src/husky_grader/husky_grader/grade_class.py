@@ -316,6 +316,7 @@ def _done(
     """
     from husky_grader.batch.batch import Batch, How
 
+    _tell_empty(options.collect)
     options.remembers = True  # what is done, where it is interrupted
     tally = Tally(len(jobs), sys.stderr, 'the workers start', bar=sys.stderr.isatty())
     batch = Batch(
@@ -333,12 +334,31 @@ def _done(
         tally.close()
 
 
+def _tell_empty(collect: Sequence[str]) -> None:
+    """Tell of folders without results, as one with the reports in its folders."""
+    from husky_grader.batch.sealed import SEAL_FILE
+
+    empty = [
+        folder
+        for folder in collect
+        if not any((report / SEAL_FILE).exists() for report in Path(folder).iterdir())
+    ]
+    if empty:
+        _tell(
+            f'--collect: no result is in ({len(empty)}): {_few(empty)}; give what other calls had '
+            'as --report DIR'
+        )
+
+
+def _few(names: Sequence[str]) -> str:
+    return ', '.join([*names[:FEW_FILES], *(['...'] if len(names) > FEW_FILES else [])])
+
+
 def _tell_not_taken(names: Sequence[str]) -> None:
-    shown = ', '.join([*names[:FEW_FILES], *(['...'] if len(names) > FEW_FILES else [])])
     _tell(
-        f'--collect: not taken, and graded here again ({len(names)}): {shown}: their results '
-        'were sealed with another HUSKY_GRADING_SECRET, or for other submissions, another rubric, '
-        'lab, Python, MuJoCo or numpy, or have been changed since'
+        f'--collect: not taken, and graded here again ({len(names)}): {_few(names)}: their '
+        'results were sealed with another HUSKY_GRADING_SECRET, or for other submissions, another '
+        'rubric, lab, Python, MuJoCo or numpy, or have been changed since'
     )
 
 

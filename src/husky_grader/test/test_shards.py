@@ -118,7 +118,9 @@ def test_the_files_of_collected_shards_are_those_of_one_call(
         grade([*command, folders[number - 1], '--shard', f'{number}/3'])
     capsys.readouterr()
     assert grade([*command, str(tmp_path / 'all'), '--collect', *folders]) == 1
-    assert capsys.readouterr().out.splitlines()[:7] == serial.printed
+    told = capsys.readouterr()
+    assert told.out.splitlines()[:7] == serial.printed
+    assert f'--collect: no result is in (1): {folders[1]}; give what' in told.err
     assert tables(tmp_path / 'all') == serial.csv
     took = tmp_path / 'all' / 's0' / 'report.json'
     assert took.stat().st_mtime_ns == (tmp_path / 'shard_1/s0/report.json').stat().st_mtime_ns
