@@ -20,6 +20,7 @@ from typing import Any
 from husky_grader.batch.batch import Batch, How
 from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, MOST_BYTES
+from husky_grader.batch.sealed import _make_secret
 from husky_grader.batch.tables import names_of
 from husky_grader.batch.workers import workers
 from husky_grader.file_grading import Grade
@@ -305,6 +306,15 @@ def test_the_secret_is_only_the_users(files: list[str], tmp_path: Path, state: P
     assert second.score == first.score
     assert secret.read_bytes() != before
     assert secret.stat().st_mode & 0o777 == 0o600
+
+
+def test_graders_that_find_no_secret_at_once_have_one(tmp_path: Path) -> None:
+    file = tmp_path / 'state' / 'secret'
+    secrets = [_make_secret(file) for _ in range(2)]  # each has looked before
+    assert secrets == [file.read_bytes()] * 2
+    file.chmod(0o644)  # others can read it
+    assert _make_secret(file) != secrets[0]
+    assert list(file.parent.iterdir()) == [file]
 
 
 def test_where_no_secret_can_be_kept_everything_is_graded_again(

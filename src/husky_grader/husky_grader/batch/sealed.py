@@ -116,5 +116,13 @@ def _make_secret(file: Path) -> bytes:
     part = file.with_name(f'.{file.name}.{secrets.token_hex(4)}')
     with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), 'wb') as stream:
         stream.write(secrets.token_bytes(SECRET_BYTES))
-    part.replace(file)
+    try:
+        os.link(part, file)  # that of the first stays, where several have found none
+    except OSError:  # there is one, or this file system has no links
+        if found := _read_secret(file):
+            part.unlink()
+            return found
+        part.replace(file)
+    else:
+        part.unlink()
     return file.read_bytes()
