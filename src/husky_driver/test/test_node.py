@@ -273,7 +273,7 @@ def test_a_signal_that_comes_while_one_is_told_is_not_told(
     context = rclpy.Context()
     rclpy.init(context=context, domain_id=domain)
     drive = Drive(plan_route(load_course(course)))
-    node = FollowPath(lambda *_: drive, lambda *_: None, context=context)
+    node = FollowPath(lambda *_: drive, context=context)
     told = list[str]()
 
     def error(text: str) -> None:

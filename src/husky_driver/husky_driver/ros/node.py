@@ -60,18 +60,23 @@ CheckRoute = Callable[[Route, Settings, Warn], object]
 """Raises a ValueError when the settings say that a route must not be driven."""
 
 
+def _check_nothing(_route: Route, _settings: Settings, _warn: Warn) -> None:
+    pass
+
+
 class FollowPath(Node):
     """Drives the Husky; `finished` becomes done with the exit code of the process."""
 
     def __init__(
-        self, choose_drive: ChooseDrive, check_route: CheckRoute, **arguments: Any
+        self, choose_drive: ChooseDrive, check_route: CheckRoute = _check_nothing, **arguments: Any
     ) -> None:
         """
         Read the parameters, choose the drive, and begin to listen to odometry.
 
         :param choose_drive: returns what to drive; it is given the settings, and a function
             that logs a warning. What it raises goes through.
-        :param check_route: looks at the route of another file that is set on the way.
+        :param check_route: looks at the route of another file that is set on the way; when left
+            out, any is driven.
         :param arguments: what `rclpy.node.Node` takes: context, parameter_overrides, ...
         :raises ValueError: for a parameter that does not exist or a value that is not allowed.
         """
