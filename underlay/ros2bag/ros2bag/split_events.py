@@ -8,8 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from rclpy.duration import Duration
 from ros2cli.node.direct import CommandNode
 from rosbag2_interfaces.msg import ReadSplitEvent, WriteSplitEvent
+
+_ARRIVAL = Duration(seconds=0.5)  # a process that stands still acknowledges nothing
 
 Tell = Callable[[Path, Path | None], None]
 """Publishes which file was closed, and which was opened in its place."""
@@ -34,5 +37,7 @@ def _teller(node: CommandNode, kind: Any, topic: str) -> Tell:
         event.opened_file = str(opened or '')
         event.node_name = node.node.get_fully_qualified_name()
         publisher.publish(event)
+        if opened is None:  # the node ends soon, and with it what has not arrived
+            publisher.wait_for_all_acked(_ARRIVAL)
 
     return tell
