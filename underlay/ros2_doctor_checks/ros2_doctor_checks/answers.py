@@ -87,7 +87,7 @@ def _ask(node: CommandNode, names: Iterable[str]) -> tuple[dict[str, Any], dict[
     """Map each to its answer, or to why there is none; and those that answer to when, in s."""
     services = {f'{name}{_SERVICE}': ListParameters.Request() for name in sorted(names)}
     took_sec: dict[str, float] = {}
-    answers = calls.call_all(node, ListParameters, services, took_sec=took_sec)
+    answers = calls.call_all(node, ListParameters, services, only_asks=True, took_sec=took_sec)
     return (
         {name.removesuffix(_SERVICE): answer for name, answer in answers.items()},
         {name.removesuffix(_SERVICE): sec for name, sec in took_sec.items()},

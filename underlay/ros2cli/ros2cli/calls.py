@@ -22,17 +22,28 @@ _POLL_SEC = 0.02
 
 
 def call(
-    node: Any, service_class: Any, name: str, request: Any, *, may_take_long: bool = False
+    node: Any,
+    service_class: Any,
+    name: str,
+    request: Any,
+    *,
+    may_take_long: bool = False,
+    only_asks: bool = False,
 ) -> Any:
     """Call a service and return its response.
 
     :param node: what calls: a node of rclpy, or one of ros2cli, which has such a node.
     :param may_take_long: await the answer for as long as the service is there; after 5 s a hint
         on stderr says so.
+    :param only_asks: the request changes nothing, so it is sent once more where no answer comes.
     :raises CommandError: the service or its answer took longer than 5 s, or the call failed.
     """
     (answer,) = call_all(
-        node, service_class, {name: request}, may_take_long=may_take_long
+        node,
+        service_class,
+        {name: request},
+        may_take_long=may_take_long,
+        only_asks=only_asks,
     ).values()
     if isinstance(answer, Exception):
         raise answer
@@ -45,9 +56,13 @@ def call_all(
     requests: Mapping[str, Any],
     *,
     may_take_long: bool = False,
+    only_asks: bool = False,
     took_sec: dict[str, float] | None = None,
 ) -> dict[str, Any]:
     """Call services side by side; return for each name its response, or what `call` raises.
+
+    On a busy machine an answer can be lost: rmw_fastrtps drops it where the server has not found
+    a client, which has found it, within 100 ms of the answer ("client will not receive response").
 
     :param took_sec: is given how long each answer took that came.
     """
@@ -75,6 +90,8 @@ def call_all(
         waiting = [name for name, future in futures.items() if not future.done()]
         in_vain = why_unanswered(waiting) if waiting else {}
         awaited = [name for name in waiting if name not in in_vain]
+        if only_asks:
+            futures |= {name: clients[name].call_async(requests[name]) for name in awaited}
         _spin_until(node, lambda: have_answered(awaited), TIMEOUT_SEC - SOON_SEC)
         if may_take_long:
             late = [name for name in awaited if not futures[name].done()]

@@ -23,6 +23,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.service import Service
 from rclpy.service_introspection import ServiceIntrospectionState
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float32, String
@@ -226,6 +227,20 @@ def broadcaster(node: Node) -> None:
 
 def plain(node: Node) -> None:
     del node
+
+
+def loses_answers(node: Node) -> None:
+    """Lose the first answer of each service, as rmw_fastrtps does where a client is found late."""
+    node.declare_parameter('gain', 2.0)
+    node.create_service(SetBool, 'flip', lambda _, response: response)
+    lost: set[Service] = set()
+
+    def send_response(service: Service, response: Any, header: Any) -> None:
+        if service in lost:
+            really_send(service, response, header)
+        lost.add(service)
+
+    really_send, Service.send_response = Service.send_response, send_response
 
 
 managed = plain  # what is special of it is its class

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import re
 from typing import Any
 
@@ -85,3 +86,18 @@ def test_a_node_that_has_ended_is_not_called_busy(monkeypatch: pytest.MonkeyPatc
             calls.call(
                 EndingNode(), None, '/motor/change_state', None, may_take_long=may_take_long
             )
+
+
+def test_a_lost_answer_is_asked_for_again_where_asking_changes_nothing(
+    processes: Any, ros2: Callable[..., Any]
+) -> None:
+    processes.node('loses_answers', 'motor')
+    answer = ros2('param', 'get', '/motor', 'gain')
+    assert (answer.status, answer.out) == (0, 'Double value is: 2.0\n'), answer
+    answer = ros2('doctor')
+    assert 'All 20 checks passed' in answer.lines, answer
+    # To set what was set may do a second time what it did.
+    processes.ros2(
+        'param', 'set', '/motor', 'gain', '3.0', ready="hint: '/motor/set_parameters' gave no"
+    )
+    assert ros2('param', 'get', '/motor', 'gain').out == 'Double value is: 3.0\n'

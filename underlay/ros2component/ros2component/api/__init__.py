@@ -114,7 +114,8 @@ def get_components_in_containers(
     from ros2cli import calls
 
     names = {f'{name}/_container/list_nodes': name for name in remote_containers_node_names}
-    answers = calls.call_all(node, ListNodes, {name: ListNodes.Request() for name in names})
+    requests = {name: ListNodes.Request() for name in names}
+    answers = calls.call_all(node, ListNodes, requests, only_asks=True)
     found: dict[str, tuple[bool, list[ComponentInfo] | str]] = {}
     for name, answer in answers.items():
         if isinstance(answer, Exception):

@@ -80,7 +80,13 @@ def _ask(
 ) -> dict[str, Any]:
     """Call a service of each node; return one attribute of each response."""
     named = {f'{name}/{service}': request for name, request in requests.items()}
-    answers = calls.call_all(node, service_class, named, may_take_long=may_take_long).values()
+    answers = calls.call_all(
+        node,
+        service_class,
+        named,
+        may_take_long=may_take_long,
+        only_asks=service_class is not ChangeState,
+    ).values()
     return {
         name: answer if isinstance(answer, Exception) else getattr(answer, attribute)
         for name, answer in zip(requests, answers, strict=True)

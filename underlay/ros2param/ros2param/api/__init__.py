@@ -159,6 +159,7 @@ def _call(
         f'{node_name}/{service}',
         service_class.Request(**request),
         may_take_long=may_take_long,
+        only_asks=service_class is not SetParameters,
     )
 
 
