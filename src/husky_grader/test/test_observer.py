@@ -5,11 +5,13 @@
 from dataclasses import replace
 import os
 from pathlib import Path
+import subprocess
+import sys
 import time
 
 from husky_grader.lab.observer import observe
 from husky_grader.lab.patience import crowding
-from husky_grader.rubric.steps import SubscriberStep
+from husky_grader.rubric.steps import FieldCheck, ServiceStep, SubscriberStep
 from husky_grader.run.printed import MAX_AROUND, MAX_LINES, printed_lines
 from playpen_testing.busy import busy_machine
 from playpen_testing.waiting import wait_until
@@ -25,6 +27,38 @@ STEP = SubscriberStep(
     sent={'data': 'hello grader {token}'},
     printed='heard<text>hello grader {token}',
     within_sec=0.3,
+)
+
+# Its first answer is lost as on a busy machine, where rmw_fastrtps has found the client too late.
+LOSES_AN_ANSWER = """
+import sys
+import warnings
+
+import rclpy
+from rclpy.service import Service
+from std_srvs.srv import SetBool
+
+really_send, lost = Service.send_response, []
+
+def send_response(service, response, header):
+    if lost:
+        return really_send(service, response, header)
+    lost.append(response)
+    if sys.argv[1:]:
+        warnings.warn(sys.argv[1], RuntimeWarning)
+
+def answer(request, response):
+    response.success = request.data
+    return response
+
+Service.send_response = send_response
+rclpy.init()
+node = rclpy.create_node('motor')
+node.create_service(SetBool, '/flip', answer)
+rclpy.spin(node)
+"""
+WARNING = (
+    'failed to send response (timeout): client will not receive response, at rmw_response.cpp'
 )
 
 
@@ -68,3 +102,34 @@ def test_a_word_is_found_wherever_it_was_printed(tmp_path: Path) -> None:
     first, *others = printed_lines(log, str(TOKEN))
     assert len(first) == 2 * MAX_AROUND
     assert others == [str(TOKEN)] * (MAX_LINES - 1)
+
+
+@pytest.mark.parametrize(
+    ('warning', 'score', 'why'),
+    [((WARNING,), 100.0, ''), ((), 0.0, '/flip did not answer within 2 s: does its callback')],
+    ids=['lost', 'not sent'],
+)
+def test_a_response_that_the_machine_has_lost_is_asked_for_again(
+    warning: tuple[str, ...], score: float, why: str, tmp_path: Path
+) -> None:
+    log = tmp_path / 'log'
+    step = ServiceStep(
+        points=10.0,
+        package='zoo',
+        executable='motor',
+        service='/flip',
+        type='std_srvs/srv/SetBool',
+        request={'data': True},
+        response=(FieldCheck(field='success', equals=True),),
+        within_sec=2.0,
+    )
+    program = [sys.executable, '-c', LOSES_AN_ANSWER, *warning]
+    with (
+        log.open('w') as out,
+        subprocess.Popen(program, stdout=out, stderr=subprocess.STDOUT) as process,
+    ):
+        try:
+            found = observe(step, lambda: process.poll() is not None, log, tmp_path)
+        finally:
+            process.kill()
+    assert (found.score, found.why[: len(why)]) == (score, why), log.read_text()

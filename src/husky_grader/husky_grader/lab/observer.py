@@ -59,6 +59,8 @@ LISTEN_TIMES = 4  # at most, while a rate is unknown, or off by no more toleranc
 DOUBTFUL_TOLERANCES = 4.0
 TOKENS = (10_000_000, 2**24)  # any field of numbers but the smallest holds them exactly
 MAX_MESSAGES = 2000  # that are judged
+# What rclpy warns of, once, where on a busy machine the server has found the client too late.
+RESPONSE_LOST = 'client will not receive response'
 # It matches every publisher, and every subscription.
 HEARS_ALL = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 HEARD_BY_ALL = QoSProfile(
@@ -87,11 +89,11 @@ def observe(step: ProgramStep, over: Over, log: Path, folder: Path, world: str =
     """
     with _observer(over) as observer:
         if isinstance(step, PublisherStep):
-            return _publisher(step, observer, folder, world)
+            return _publisher(step, observer, log, folder, world)
         if isinstance(step, SubscriberStep):
             return _subscriber(step, observer, log)
         if isinstance(step, ServiceStep):
-            return _service(step, observer)
+            return _service(step, observer, log)
     raise TypeError(f'{step.kind}: nothing can be observed of such a step')
 
 
@@ -133,14 +135,18 @@ def _observer(over: Over) -> Iterator[_Observer]:
         rclpy.shutdown(context=context)
 
 
-def _publisher(step: PublisherStep, observer: _Observer, folder: Path, world: str) -> Finding:
+def _publisher(
+    step: PublisherStep, observer: _Observer, log: Path, folder: Path, world: str
+) -> Finding:
     if step.after_drive is None:
-        return _published(step, observer)
+        return _published(step, observer, log)
     with Robot(step.after_drive, folder, world) as robot:
-        return _published(step, observer, robot)
+        return _published(step, observer, log, robot)
 
 
-def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = None) -> Finding:
+def _published(
+    step: PublisherStep, observer: _Observer, log: Path, robot: Robot | None = None
+) -> Finding:
     times_sec: list[float] = []
     complaints: list[str] = []  # the first; no message is kept: a large one costs much memory
 
@@ -170,8 +176,10 @@ def _published(step: PublisherStep, observer: _Observer, robot: Robot | None = N
             return nothing('what it publishes is the same before the Husky has driven')
         if why := _driven(robot, observer):
             return nothing(f'the Husky beside it did not come to the end of its course: {why}')
-    if step.call is not None and isinstance(found := _called(step.call, step, observer), Finding):
-        return found
+    if step.call is not None:
+        found = _called(step.call, step, observer, log)
+        if isinstance(found, Finding):
+            return found
     if robot is not None or step.call is not None:
         observer.spin_for(SETTLED_SEC)
         times_sec.clear()
@@ -308,9 +316,9 @@ def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
     return next(wrong, f'it did not print what came on {step.topic}; {hint}')
 
 
-def _service(step: ServiceStep, observer: _Observer) -> Finding:
+def _service(step: ServiceStep, observer: _Observer, log: Path) -> Finding:
     call = ServiceCall(service=step.service, type=step.type, request=step.request)
-    response = _called(call, step, observer)
+    response = _called(call, step, observer, log)
     if isinstance(response, Finding):
         return response
     if wrong := complaint(response, step.response):
@@ -318,7 +326,9 @@ def _service(step: ServiceStep, observer: _Observer) -> Finding:
     return Finding(f'{step.service} answers, {step.type}')
 
 
-def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Observer) -> Any:
+def _called(
+    call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Observer, log: Path
+) -> Any:
     """Return the response of a service; a finding where there is none."""
     kind = get_service(call.type)
     client = observer.node.create_client(kind, call.service)
@@ -328,8 +338,14 @@ def _called(call: ServiceCall, step: PublisherStep | ServiceStep, observer: _Obs
         if elsewhere is not None:
             return nothing(in_domain(elsewhere))
         return nothing(_why_no_service(call, dict(observer.node.get_service_names_and_types())))
-    future = client.call_async(filled(kind.Request(), call.request))
-    observer.spin_until(future.done, step.within_sec)
+    request = filled(kind.Request(), call.request)
+    future = client.call_async(request)
+    observer.spin_until(
+        lambda: future.done() or printed_lines(log, RESPONSE_LOST), step.within_sec
+    )
+    if not future.done() and printed_lines(log, RESPONSE_LOST):
+        future = client.call_async(request)
+        observer.spin_until(future.done, step.within_sec)
     if not future.done():
         return nothing(
             f'{call.service} did not answer within {step.within_sec:g} s: does its callback '
