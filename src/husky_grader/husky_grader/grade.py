@@ -105,7 +105,8 @@ def _parser() -> Parser:
         metavar='F',
         type=float,
         default=1.0,
-        help='how fast time passes at most, up to 2, for one that does not just answer (1.0)',
+        help='how fast time passes at most (1.0), for one that does not just answer; above 2 a '
+        'computer may be too slow for it',
     )
     parser.add_argument(
         '--interface',
@@ -174,7 +175,7 @@ def main(args: Sequence[str] | None = None) -> int:
         )
     if options.record and not options.waypoints:
         parser.error('--record needs --waypoints FILE, the course that was driven')
-    if not options.real_time_factor > 0.0:
+    if not 0.0 < options.real_time_factor < math.inf:
         parser.error(f'--real-time-factor {options.real_time_factor:g}: give a number above 0')
     if options.wall_time is not None and not 0.0 <= options.wall_time < math.inf:
         parser.error(f'--wall-time {options.wall_time:g}: give a number of seconds from 0 on')
