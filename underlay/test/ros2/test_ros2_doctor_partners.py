@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+import pytest
 from ros2_diagnosis import partners
+from ros2cli import discovery
+from ros2doctor import api
 from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
 
 _USUAL = Qos(True, False, None, None, False, None)
@@ -120,3 +123,25 @@ def test_a_service_that_a_node_does_not_have_is_noted() -> None:
     assert str(found) == (
         '/talker: /asks calls change_state of this node, which does not offer it; ask another one'
     )
+
+
+def test_a_node_that_is_being_made_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = _graph(husky_sim=[(Role.SUBSCRIPTION, '/cmd_vel', 'geometry_msgs/msg/Twist')])
+    read = [Graph([], made.endpoints), made]
+    monkeypatch.setattr(discovery, 'read_graph', lambda **_: read.pop(0))
+    api.graph.cache_clear()
+    try:
+        assert api.graph() is made
+    finally:
+        api.graph.cache_clear()
+
+
+def test_a_program_without_ros_never_is_a_node(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = _graph(plain=[(Role.SUBSCRIPTION, '/cmd_vel', 'geometry_msgs/msg/Twist')])
+    monkeypatch.setattr(discovery, 'read_graph', lambda **_: Graph([], made.endpoints))
+    monkeypatch.setattr(api, '_MADE_WITHIN_SEC', 0.0)
+    api.graph.cache_clear()
+    try:
+        assert api.graph().endpoints == made.endpoints
+    finally:
+        api.graph.cache_clear()

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
+import time
 from typing import Any
 
 from entry_point_index import entry_points, load
@@ -18,6 +19,9 @@ from ros2cli.errors import UsageError
 from rtps_graph.graph import Graph
 
 from ros2doctor.api.format import doctor_warn
+
+_MADE_WITHIN_SEC = 2.0
+"""Programs with DDS but without ROS have topics and never a node."""
 
 
 @dataclass
@@ -100,8 +104,20 @@ def generate_reports(
 
 @cache
 def graph() -> Graph:
-    """Read the graph once for all checks, or all reports."""
-    return discovery.read_graph(quiet=True)
+    """Read the graph once for all checks, or all reports.
+
+    A node that is being made is waited for: for a moment others know its topics without its name.
+    """
+    end = time.monotonic() + _MADE_WITHIN_SEC
+    found = discovery.read_graph(quiet=True)
+    while not _names_all(found) and time.monotonic() < end:
+        found = discovery.read_graph(quiet=True)
+    return found
+
+
+def _names_all(found: Graph) -> bool:
+    of_nodes = {endpoint.guid for node in found.nodes for endpoint in node.endpoints}
+    return all(endpoint.guid in of_nodes for endpoint in found.endpoints)
 
 
 def get_topic_names(skip_topics: Iterable[str] = ()) -> list[str]:
