@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import contextlib
 import os
+import select
 import socket
 import struct
 import time
@@ -21,7 +22,9 @@ import time
 from rtps_graph import announcements, host, wire
 from rtps_graph.participant import Participant, Samples
 
-_RETRY_SEC = 0.03
+_RETRY_SEC = 0.03  # doubled each time: on a busy machine answers come late
+_RETRY_MOST_SEC = 0.24
+_UNREAD_SEC = 1.0  # so long, at most, what has come is read before more is asked for
 _LAST_PORT = 65535
 _LOOK_SEC = 0.5  # so long a participant may be silent before its process is looked at
 # The readers of the built-in writers; every other writer is that of the graph topic.
@@ -54,6 +57,7 @@ class Observer:
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
         self._socket.bind(('0.0.0.0' if subnet or static_peers else '127.0.0.1', 0))
         self._news_sec = 0.0
+        self._due: dict[tuple[bytes, bytes], None] = {}  # participants and writers to answer
 
     def __enter__(self) -> Observer:
         return self
@@ -83,14 +87,20 @@ class Observer:
         :param settle_sec: how long nothing new may come before other hosts count as complete.
         :param check: called every 0.03 s or sooner; what it raises ends the reading.
         """
-        start = self._news_sec = time.monotonic()
-        retry, look = 0.0, start + _LOOK_SEC
+        start = self._news_sec = asked = time.monotonic()
+        retry, wait_sec, look = start, _RETRY_SEC, start + _LOOK_SEC
+        expected: set[int] | None = None
         while (now := time.monotonic()) < start + timeout_sec:
             check()
-            if now >= retry:
-                expected = self._count()
-                self._ask_again(expected)
-                retry = now + _RETRY_SEC
+            # On a busy machine this process runs seldom. What it asks for that lies unread is sent
+            # again, and soon more comes than is read.
+            if not self._has_unread() or now >= asked + _UNREAD_SEC:
+                asked = now
+                self._acknowledge_due()
+                if now >= retry:
+                    expected = self._count()
+                    self._ask_again(expected)
+                    retry, wait_sec = now + wait_sec, min(2 * wait_sec, _RETRY_MOST_SEC)
             if self.unanswered and now >= look:
                 self._stopped = host.stopped_ports(self.unanswered)
                 look = now + _LOOK_SEC
@@ -99,6 +109,15 @@ class Observer:
                 return not self.unanswered
             self._receive(retry - time.monotonic())
         return False
+
+    def _has_unread(self) -> bool:
+        return bool(select.select([self._socket], (), (), 0.0)[0])
+
+    def _acknowledge_due(self) -> None:
+        for prefix, writer in self._due:
+            if (participant := self.participants.get(prefix)) is not None:
+                self._acknowledge(participant, writer)
+        self._due.clear()
 
     def _is_complete(self, expected: set[int] | None) -> bool:
         answered = {p.discovery_port for p in self.participants.values()}
@@ -211,7 +230,7 @@ class Observer:
                 message.writer_id == participant.graph_writer()
                 and message.reader_id != wire.UNKNOWN_ENTITY
             ):
-                self._acknowledge(participant, message.writer_id)
+                self._due[participant.prefix, message.writer_id] = None
         elif message.kind == wire.GAP:
             samples.pass_over(message.first, message.last)
             samples.add(*message.irrelevant)

@@ -11,12 +11,15 @@ import socket
 import struct
 import subprocess
 import sys
+import time
+from typing import Any
 
 from ament_index_python.packages import get_package_share_directory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import pytest
 from rtps_graph import announcements, graph, host, names, wire
+from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant, Samples
 
 PREFIX = bytes(range(12))
@@ -205,3 +208,20 @@ def test_no_port_is_missed_while_others_open_and_close_sockets() -> None:
             bound = host.bound_udp_ports()
             assert bound is not None
             assert ports - bound == set(), f'look {number} misses some'
+
+
+def test_on_a_busy_machine_what_has_come_is_read_before_more_is_asked_for(
+    processes: Any, domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    processes.node('plain', 'quiet')
+    look = host.bound_udp_ports
+
+    def late() -> set[int] | None:
+        time.sleep(0.1)  # as where others have the processor meanwhile
+        return look()
+
+    monkeypatch.setattr(host, 'bound_udp_ports', late)
+    with Observer(domain_id=domain) as observer:
+        assert observer.observe(timeout_sec=3.0), 'not all that the node announced was read'
+        found = graph.build(observer.participants.values())
+    assert [node.full_name for node in found.nodes] == ['/quiet']
