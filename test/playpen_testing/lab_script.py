@@ -12,16 +12,23 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def bare_clone(folder: Path) -> Path:
     """Make a folder with what the set-up reads of a fresh clone, and nothing set up."""
-    (folder / 'underlay').mkdir(parents=True)
+    folder.mkdir(parents=True)
     shutil.copy(ROOT / 'lab', folder)
-    shutil.copytree(ROOT / 'requirements', folder / 'requirements')
-    no_modules = shutil.ignore_patterns('src', 'test')
-    shutil.copytree(ROOT / 'underlay', folder / 'underlay', ignore=no_modules, dirs_exist_ok=True)
+    for name in ('requirements', 'underlay'):
+        shutil.copytree(ROOT / name, folder / name, ignore=_not_read)
     programs = Path('src', 'husky_runtime', 'husky_runtime')
     (folder / programs).mkdir(parents=True)
     for name in ('parent_death.py', 'set_up_progress.py'):
         shutil.copy(ROOT / programs / name, folder / programs)
     return folder
+
+
+def _not_read(folder: str, names: list[str]) -> list[str]:
+    """Name what the set-up reads late or never: most modules, tests, what Python compiles."""
+    path = Path(folder)
+    makes_key = path.name in ('colcon_rosidl_python', 'rosidl_typesupport_python')
+    modules = path.name if path.parent == ROOT / 'underlay' and not makes_key else ''
+    return [name for name in names if name in (modules, 'test', '__pycache__')]
 
 
 def plain_environment() -> dict[str, str]:
