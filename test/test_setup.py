@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `./lab` says when it cannot set up: one line, exit status 2, nothing broken."""
 
+from dataclasses import dataclass
 import os
 from pathlib import Path
 import shutil
@@ -23,6 +24,7 @@ NO_PROC = (
     'exec unshare --map-root-user --mount '
     'bash -c \'mount -t tmpfs none /proc; exec "$0" exec true\' "$0"'
 )
+PYTHON_CAN_BE_TOLD = sys.version_info >= (3, 11)  # to import nothing from where it is called
 NOBODY = 'http://127.0.0.1:9/simple'  # an index of packages that does not answer
 
 
@@ -214,7 +216,7 @@ def test_a_sourced_ros_gets_the_python_that_has_rclpy(
     (tmp_path / 'rclpy.py').write_text('' if has_rclpy else 'raise ImportError')
     here = tmp_path / 'here'  # a folder that somebody has handed in
     here.mkdir()
-    if sys.version_info >= (3, 11):  # that of Jazzy is 3.12
+    if PYTHON_CAN_BE_TOLD:  # that of Jazzy is 3.12
         (here / 'rclpy.py').write_text('raise ImportError')
     sourced = {'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': '/opt/ros/jazzy', 'PATH': path}
     offline = {'PIP_INDEX_URL': NOBODY, 'PIP_CONFIG_FILE': os.devnull}
@@ -382,25 +384,43 @@ def test_a_terminal_with_few_letters_is_no_matter_to_a_set_up(clone: Path, tmp_p
     assert told.read_text() == 'UTF-8\n'
 
 
-def test_no_network_is_said_also_after_an_interrupted_set_up(clone: Path) -> None:
+@dataclass(frozen=True)
+class InVain:
+    """What `./lab` said that was called in a folder with modules of pip's names."""
+
+    no_index: subprocess.CompletedProcess[str]
+    finds_nothing: subprocess.CompletedProcess[str]
+    ran: Path  # is there if one of the modules was run
+
+
+@pytest.fixture(scope='module')
+def set_up_in_vain(tmp_path_factory: pytest.TempPathFactory) -> InVain:
+    """Set up twice, the first time after an interrupted set-up, without packages to install."""
+    folder = tmp_path_factory.mktemp('in_vain')
+    clone, here = bare_clone(folder / 'clone'), folder / 'here'
     (clone / '.venv' / 'bin').mkdir(parents=True)
     (clone / '.venv' / 'bin' / 'python').symlink_to('/nonexistent/python')
-    done = lab(clone, 'exec', 'true', PIP_INDEX_URL=NOBODY, PIP_CONFIG_FILE=os.devnull)
-    refused(done, 'no network', 'call ./lab again')
-    done = lab(clone, 'exec', 'true', PIP_NO_INDEX='1', PIP_CONFIG_FILE=os.devnull)
-    refused(done, 'pip finds no ros-rclpy', 'PIP_INDEX_URL to one and PIP_NO_INDEX to 0')
-
-
-@pytest.mark.skipif(sys.version_info < (3, 11), reason='Python cannot be told before 3.11')
-def test_no_module_of_the_folder_it_is_called_from_is_run(clone: Path, tmp_path: Path) -> None:
-    here = tmp_path / 'here'
     here.mkdir()
-    for module in ('venv', 'pip', 'ensurepip', 'random'):
-        (here / f'{module}.py').write_text(f'open({str(tmp_path / "ran")!r}, "w")\n')
-    settings = {'PIP_NO_INDEX': '1', 'PIP_CONFIG_FILE': os.devnull}
-    done = lab(clone, 'exec', 'true', called_from=str(here), **settings)
-    refused(done, 'pip finds no ros-rclpy')
-    assert not (tmp_path / 'ran').exists()
+    if PYTHON_CAN_BE_TOLD:
+        for module in ('venv', 'pip', 'ensurepip', 'random'):
+            (here / f'{module}.py').write_text(f'open({str(folder / "ran")!r}, "w")\n')
+    no_index, finds_nothing = (
+        lab(clone, 'exec', 'true', called_from=str(here), PIP_CONFIG_FILE=os.devnull, **settings)
+        for settings in ({'PIP_INDEX_URL': NOBODY}, {'PIP_NO_INDEX': '1'})
+    )
+    return InVain(no_index, finds_nothing, folder / 'ran')
+
+
+def test_no_network_is_said_also_after_an_interrupted_set_up(set_up_in_vain: InVain) -> None:
+    refused(set_up_in_vain.no_index, 'no network', 'call ./lab again')
+    words = ('pip finds no ros-rclpy', 'PIP_INDEX_URL to one and PIP_NO_INDEX to 0')
+    refused(set_up_in_vain.finds_nothing, *words)
+
+
+@pytest.mark.skipif(not PYTHON_CAN_BE_TOLD, reason='Python cannot be told before 3.11')
+def test_no_module_of_the_folder_it_is_called_from_is_run(set_up_in_vain: InVain) -> None:
+    refused(set_up_in_vain.finds_nothing, 'pip finds no ros-rclpy')
+    assert not set_up_in_vain.ran.exists()
 
 
 @pytest.mark.parametrize(
