@@ -33,20 +33,29 @@ def clone(tmp_path: Path) -> Path:
     return bare_clone(tmp_path / 'clone')
 
 
+@pytest.fixture
+def script_alone(tmp_path: Path) -> Path:
+    """Return a folder with `./lab` alone, for what is refused before anything else is read."""
+    folder = tmp_path / 'script'
+    folder.mkdir()
+    shutil.copy(ROOT / 'lab', folder)
+    return folder
+
+
 @pytest.mark.parametrize('char', [':', ';', '=', '$', '{', '}', '\\'])
-def test_a_folder_that_no_tool_can_name_is_refused(clone: Path, char: str) -> None:
-    other = clone.rename(clone.with_name(f'a{char}b'))
+def test_a_folder_that_no_tool_can_name_is_refused(script_alone: Path, char: str) -> None:
+    other = script_alone.rename(script_alone.with_name(f'a{char}b'))
     refused(lab(other, 'exec', 'true'), f"a '{char}' in a folder's name", 'rename it')
 
 
-def test_a_folder_with_a_line_break_in_its_name_is_refused(clone: Path) -> None:
-    other = clone.rename(clone.with_name('a\nb'))
+def test_a_folder_with_a_line_break_in_its_name_is_refused(script_alone: Path) -> None:
+    other = script_alone.rename(script_alone.with_name('a\nb'))
     refused(lab(other, 'exec', 'true'), 'a\\nb: a line break in a folder', 'rename it')
 
 
 @pytest.mark.parametrize('char', ['"', '`', '*'])
-def test_a_folder_that_colcon_cannot_build_in_is_refused(clone: Path, char: str) -> None:
-    other = clone.rename(clone.with_name(f'a{char}b'))
+def test_a_folder_that_colcon_cannot_build_in_is_refused(script_alone: Path, char: str) -> None:
+    other = script_alone.rename(script_alone.with_name(f'a{char}b'))
     refused(lab(other, 'exec', 'true'), 'colcon cannot build in a folder with a "', 'rename it')
 
 
@@ -62,11 +71,11 @@ def test_a_folder_that_colcon_cannot_build_in_is_refused(clone: Path, char: str)
     ],
 )
 def test_a_terminal_in_which_no_program_can_run_is_refused(
-    clone: Path, tmp_path: Path, before: str, said: str
+    script_alone: Path, tmp_path: Path, before: str, said: str
 ) -> None:
     (tmp_path / 'here').mkdir()
     done = subprocess.run(
-        ['bash', '-c', f'{before}; exec "$0" exec true', clone / 'lab'],
+        ['bash', '-c', f'{before}; exec "$0" exec true', script_alone / 'lab'],
         cwd=tmp_path / 'here',
         env=plain_environment(),
         capture_output=True,
@@ -435,7 +444,7 @@ def test_no_module_of_the_folder_it_is_called_from_is_run(set_up_in_vain: InVain
     ],
 )
 def test_a_wrong_word_is_refused_before_anything_is_set_up(
-    clone: Path, words: list[str], said: str
+    script_alone: Path, words: list[str], said: str
 ) -> None:
-    refused(lab(clone, *words), said)
-    assert not (clone / '.venv').exists()
+    refused(lab(script_alone, *words), said)
+    assert not (script_alone / '.venv').exists()
