@@ -195,9 +195,9 @@ def test_the_same_file_gives_the_same_run_on_a_loaded_machine_or_edited_meanwhil
 ) -> None:
     course = tmp_path / 'short.yaml'
     course.write_bytes(short_course.read_bytes())
+    burners = [processes.start('bash', '-c', 'while :; do :; done') for _ in range(2)]
     run = drive(processes, tmp_path, '--fast', '--waypoints', str(course))
     run.wait_for_text('process started')
-    burners = [processes.start('bash', '-c', 'while :; do :; done') for _ in range(2)]
     course.write_text('what will be the next course')
     assert run.wait(timeout_sec=90.0) == 0, run.output
     for burner in burners:
