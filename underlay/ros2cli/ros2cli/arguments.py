@@ -8,10 +8,10 @@ import argparse
 from collections.abc import Callable, Iterable, Mapping
 import contextlib
 import math
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
-from ros2_diagnosis import packages
-from rtps_graph.graph import Graph
+if TYPE_CHECKING:  # what Tab offers is looked for when it is pressed
+    from rtps_graph.graph import Graph
 
 # A parser, or a group of its arguments.
 Parser = argparse._ActionsContainer
@@ -66,7 +66,12 @@ def add_completed(
 
 
 def add_package(parser: Parser, **options: Any) -> None:
-    add_completed(parser, 'package_name', lambda _: sorted(packages.installed()), **options)
+    def names(_: argparse.Namespace) -> list[str]:
+        from ros2_diagnosis import packages
+
+        return sorted(packages.installed())
+
+    add_completed(parser, 'package_name', names, **options)
 
 
 def add_topic(parser: Parser, name: str = 'topic_name', **options: Any) -> None:

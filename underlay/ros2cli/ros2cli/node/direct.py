@@ -16,7 +16,6 @@ import time
 from typing import Any
 
 import rclpy
-from rclpy.action import graph
 from rclpy.exceptions import InvalidNodeNameException, NotInitializedException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -168,21 +167,26 @@ class DirectNode(CommandNode):
     # What the node has not, because rclpy keeps actions apart.
 
     def get_action_names_and_types(self) -> list[tuple[str, list[str]]]:
-        return graph.get_action_names_and_types(self.node)
+        return _actions().get_action_names_and_types(self.node)
 
     def get_action_client_names_and_types_by_node(
         self, remote_node_name: str, remote_node_namespace: str
     ) -> list[tuple[str, list[str]]]:
-        return graph.get_action_client_names_and_types_by_node(
-            self.node, remote_node_name, remote_node_namespace
-        )
+        by_node = _actions().get_action_client_names_and_types_by_node
+        return by_node(self.node, remote_node_name, remote_node_namespace)
 
     def get_action_server_names_and_types_by_node(
         self, remote_node_name: str, remote_node_namespace: str
     ) -> list[tuple[str, list[str]]]:
-        return graph.get_action_server_names_and_types_by_node(
-            self.node, remote_node_name, remote_node_namespace
-        )
+        by_node = _actions().get_action_server_names_and_types_by_node
+        return by_node(self.node, remote_node_name, remote_node_namespace)
+
+
+def _actions() -> Any:
+    """Return rclpy's part for the graph of actions; it loads clients and servers of them, too."""
+    from rclpy.action import graph
+
+    return graph
 
 
 @contextmanager
