@@ -84,6 +84,20 @@ class Recorder:
         """Return the topics that were named, those of services as well, and are not there."""
         return sorted({*self._selection.topics, *self._selection.services} - self._seen)
 
+    def knows_new_topics(self) -> bool:
+        """Return whether its node has come to know of topics that are wanted: a look for itself.
+
+        To read the graph takes more time, and asks all others.
+        """
+        node = self._node.node
+        return any(
+            name not in self._seen
+            and any(self._wants(name, each) for each in types)
+            and (self._include_unpublished or node.count_publishers(name))
+            and (not self._ignore_leaves or node.count_subscribers(name))
+            for name, types in node.get_topic_names_and_types()
+        )
+
     def subscribe_to_new_topics(self, graph: Graph) -> None:
         for name, types in graph.topics().items():
             if name in self._seen or not self._wants(name, types[0]):

@@ -153,7 +153,7 @@ def _record(
     while True:
         node.spin_until(never, args.polling_interval * 1e-3)
         writer.flush()
-        if not args.no_discovery:
+        if not args.no_discovery and recorder.knows_new_topics():
             recorder.subscribe_to_new_topics(discovery.read_graph(quiet=True))
 
 
