@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass
+import gc
 import os
 from pathlib import Path
 import re
@@ -187,6 +188,32 @@ def ros2() -> Ros2:
             pytest.fail(f'ros2 {" ".join(words)} did not end; it printed:\n{out}{err}')
         assert 'Traceback' not in err, err
         return Answer(process.returncode, _SHARED_MEMORY_RACE.sub('', out), err)
+
+    return run
+
+
+@pytest.fixture
+def ros2_here(capfd: pytest.CaptureFixture[str]) -> Ros2:
+    """
+    Return a function that runs the command to its end in this process, which has loaded ROS.
+
+    Its node is a real one, in the domain of the test; what it costs to start is left out.
+    """
+    from ros2cli.cli import main
+
+    def run(*words: str) -> Answer:
+        capfd.readouterr()
+        collections = gc.get_threshold()
+        try:
+            status = main(words)
+        except SystemExit as refused:  # argparse's
+            assert isinstance(refused.code, int), refused.code
+            status = refused.code
+        finally:
+            gc.set_threshold(*collections)
+        out, err = capfd.readouterr()
+        assert 'Traceback' not in err, err
+        return Answer(status, _SHARED_MEMORY_RACE.sub('', out), err)
 
     return run
 

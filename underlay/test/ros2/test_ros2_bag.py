@@ -20,7 +20,6 @@ from typing import Any
 from mcap.reader import make_reader
 from mcap.writer import Writer
 from playpen_testing.bags import opened_writer, string
-from playpen_testing.forks import run_forked
 from playpen_testing.processes import find_line
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
@@ -288,7 +287,7 @@ def test_a_damaged_bag_is_read_or_refused_in_words(tmp_path: Path) -> None:
     assert refused > 10
 
 
-def test_requests_and_responses_are_counted(tmp_path: Path) -> None:
+def test_requests_and_responses_are_counted(tmp_path: Path, ros2_here: Callable[..., Any]) -> None:
     folder = tmp_path / 'calls'
     with closing(opened_writer(folder)) as writer:
         writer.create_topic(TopicMetadata(0, CHATTER, 'std_msgs/msg/String', 'cdr'))
@@ -310,9 +309,7 @@ def test_requests_and_responses_are_counted(tmp_path: Path) -> None:
         *((str(folder), '--verbose'), (str(folder), '-t'), (str(folder), '-t', '-v')),
         (str(tmp_path / 'broken'), '-v'),
     ]
-    verbose, names, both, broken = run_forked(
-        *(('ros2cli.cli', 'bag', 'info', *words) for words in calls), preload=('rosbag2_py',)
-    )
+    verbose, names, both, broken = (ros2_here('bag', 'info', *words) for words in calls)
     line = (
         'Service information: Service: /flip | Type: std_srvs/srv/SetBool | Request Count: 4 | '
         'Response Count: 3 | Serialization Format: cdr\n'
@@ -332,8 +329,9 @@ def test_the_class_counts_them_as_well(tmp_path: Path, capsys: pytest.CaptureFix
     assert 'Service:           0\nService information: \n' in capsys.readouterr().out
 
 
-def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: Path) -> None:
-    del domain
+def test_a_bad_call_is_refused(
+    domain: int, ros2: Callable[..., Any], ros2_here: Callable[..., Any], tmp_path: Path
+) -> None:
     bad: tuple[tuple[tuple[str, ...], int, str], ...] = (
         (('info', 'broken.db3'), 1, "broken.db3' cannot be read as sqlite3"),
         (('play', 'broken.db3'), 1, "broken.db3' cannot be read as sqlite3"),
@@ -356,9 +354,8 @@ def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: 
     (tmp_path / 'folder').mkdir()
     (tmp_path / 'part').mkdir()
     (tmp_path / 'part' / 'metadata.yaml').touch()
-    calls = [('ros2cli.cli', 'bag', *words) for words, _, _ in bad]
-    results = run_forked(*calls, preload=('rclpy', 'rosbag2_py'))
-    for (words, status, message), ended in zip(bad, results, strict=True):
+    for words, status, message in bad:
+        ended = ros2_here('bag', *words)
         assert ended.status == status, (words, ended)
         assert message in ended.err, words
         assert status == 2 or ended.err.count('\n') == 1, (words, ended.err)
@@ -366,7 +363,9 @@ def test_a_bad_call_is_refused(domain: int, ros2: Callable[..., Any], tmp_path: 
     assert (answer.status, answer.err) == (1, "Bag path 'nothing' does not exist!\n")
 
 
-def test_storages_and_compressors_are_listed_and_no_converters() -> None:
+def test_storages_and_compressors_are_listed_and_no_converters(
+    ros2_here: Callable[..., Any],
+) -> None:
     expected = {
         ('storage',): 'mcap\nsqlite3\n',
         ('storage', '-v'): 'name: sqlite3\n\tfiles *.db3, presets none, resilient\n',
@@ -374,9 +373,8 @@ def test_storages_and_compressors_are_listed_and_no_converters() -> None:
         ('compressor',): 'zstd\n',
         ('decompressor',): 'zstd\n',
     }
-    calls = [('ros2cli.cli', 'bag', 'list', *words) for words in expected]
-    results = run_forked(*calls, preload=('rosbag2_py',))
-    for text, ended in zip(expected.values(), results, strict=True):
+    for words, text in expected.items():
+        ended = ros2_here('bag', 'list', *words)
         assert ended.status == 0, ended
         assert ended.out.endswith(text)
         assert bool(ended.out) == bool(text)

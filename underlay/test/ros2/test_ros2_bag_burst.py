@@ -160,11 +160,11 @@ def test_a_burst_of_no_number_is_of_all(bag: Path, student: Student, processes: 
     assert student.call(IsPaused, 'is_paused').paused
 
 
-def test_a_bad_burst_is_refused(bag: Path, domain: int, ros2: Callable[..., Any]) -> None:
+def test_a_bad_burst_is_refused(bag: Path, domain: int, ros2_here: Callable[..., Any]) -> None:
     for words, message in {
         ('-n', '-3'): "'-3' is refused: it must be a whole number, 0 or more",
         ('--storage-config-file', 'none'): "cannot open 'none': No such file or directory",
     }.items():
-        answer = ros2('bag', 'burst', str(bag), *words)
+        answer = ros2_here('bag', 'burst', str(bag), *words)
         assert answer.status == 2
         assert message in answer.err

@@ -13,7 +13,6 @@ from typing import Any
 
 from example_interfaces.srv import AddTwoInts
 from playpen_testing.bags import opened_writer, string
-from playpen_testing.forks import run_forked
 from playpen_testing.keyboard import CTRL_C, CTRL_Z, DOWN, Keyboard, RIGHT, UP
 from playpen_testing.processes import find_line
 from playpen_testing.services import ask
@@ -85,10 +84,10 @@ def test_a_topic_of_unknown_type_or_wrong_name_is_left_out(
 
 
 def test_a_bag_of_unknown_types_is_refused(
-    write_bag: Callable[..., Path], domain: int, ros2: Callable[..., Any]
+    write_bag: Callable[..., Path], domain: int, ros2_here: Callable[..., Any]
 ) -> None:
     bag = write_bag({'/strange': UNKNOWN, '/stranger': UNKNOWN})
-    played = ros2('bag', 'play', str(bag))
+    played = ros2_here('bag', 'play', str(bag))
     assert (played.status, played.out, played.err.count('\n')) == (1, '', 1)
     assert "'/strange' is left out: " in played.err
     assert "'/stranger' is left out: " in played.err
@@ -105,12 +104,12 @@ def test_a_bag_of_unknown_types_is_refused(
 def test_what_has_nothing_to_play_is_not_played_again_and_again(
     write_bag: Callable[..., Path],
     domain: int,
-    ros2: Callable[..., Any],
+    ros2_here: Callable[..., Any],
     count: int,
     words: tuple[str, ...],
 ) -> None:
     bag = write_bag({'/chatter': STRING}, count)
-    played = ros2('bag', 'play', str(bag), '--loop', *words)
+    played = ros2_here('bag', 'play', str(bag), '--loop', *words)
     assert (played.status, played.err.count('\n')) == (0, 1), played.err
 
 
@@ -143,11 +142,11 @@ def test_a_file_sets_the_quality_of_service(
 
 
 def test_a_bad_file_of_qualities_is_refused(
-    write_bag: Callable[..., Path], domain: int, ros2: Callable[..., Any], tmp_path: Path
+    write_bag: Callable[..., Path], domain: int, ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     (tmp_path / 'qos.yaml').write_text('/chatter: {depth: many}')
     bag = write_bag({'/chatter': STRING})
-    answer = ros2('bag', 'play', str(bag), '--qos-profile-overrides-path', 'qos.yaml')
+    answer = ros2_here('bag', 'play', str(bag), '--qos-profile-overrides-path', 'qos.yaml')
     assert (answer.status, answer.err.count('\n')) == (2, 1)
     assert "depth: 'many' must be a whole number" in answer.err
 
@@ -212,7 +211,7 @@ def full_at_the_end(folder: Path, counts: dict[str, int]) -> tuple[str, str]:
 def test_what_is_chosen_is_played(
     write_bag: Callable[..., Path],
     heard: list[str],
-    ros2: Callable[..., Any],
+    ros2_here: Callable[..., Any],
     tmp_path: Path,
     words: tuple[str, ...],
     expected: set[str],
@@ -220,7 +219,7 @@ def test_what_is_chosen_is_played(
     types = {'/chatter': STRING, '/other': STRING, SUMS: EVENT}
     bag = write_bag(types, 3)
     full = full_at_the_end(tmp_path, dict.fromkeys(types, 1))
-    played = ros2('bag', 'play', str(bag), *words, *full)
+    played = ros2_here('bag', 'play', str(bag), *words, *full)
     assert played.status == (0 if expected else 1)
     assert ('No topic of the bag is chosen; it has ' in played.err) == (not expected)
     wait_until(lambda: set(heard) >= expected, timeout_sec=10.0, what=lambda: f'more than {heard}')
@@ -229,7 +228,7 @@ def test_what_is_chosen_is_played(
 
 @pytest.mark.parametrize('source', [None, 'client_introspection'])
 def test_recorded_requests_are_sent_again(
-    tmp_path: Path, domain: int, ros2: Callable[..., Any], source: str | None
+    tmp_path: Path, domain: int, ros2_here: Callable[..., Any], source: str | None
 ) -> None:
     asked: list[tuple[int, int]] = []
 
@@ -256,7 +255,7 @@ def test_recorded_requests_are_sent_again(
         node = nodes.start(Node, 'adder')
         node.create_service(AddTwoInts, 'add_two_ints', add)
         node.create_subscription(AddTwoInts.Event, SUMS, events.append, 10)
-        played = ros2(*command)
+        played = ros2_here(*command)
     assert (played.status, played.err.count('\n')) == (0, 3), played.err
     assert "Topic '/strange/_service_event' is left out: " in played.err
     assert "Service '/add_two_ints': the bag has only metadata of its calls" in played.err
@@ -278,7 +277,7 @@ def test_recorded_requests_are_sent_again(
 def test_play_ends_where_it_should(
     write_bag: Callable[..., Path],
     heard: list[str],
-    ros2: Callable[..., Any],
+    ros2_here: Callable[..., Any],
     tmp_path: Path,
     words: tuple[str, ...],
     expected: str,
@@ -286,7 +285,7 @@ def test_play_ends_where_it_should(
     bag = write_bag({'/chatter': STRING})
     words = (*words, '--read-ahead-queue-size', '1', '--disable-keyboard-controls')
     words = (*words, *full_at_the_end(tmp_path, {'/chatter': len(expected) or 1}))
-    played = ros2('bag', 'play', str(bag), *words, '--log-level', 'warn')
+    played = ros2_here('bag', 'play', str(bag), *words, '--log-level', 'warn')
     assert (played.status, played.err) == (0, '')
     wait_until(
         lambda: len(heard) >= len(expected), timeout_sec=10.0, what=lambda: f'more than {heard}'
@@ -401,7 +400,7 @@ def test_services_control_what_is_played(
 def test_messages_bring_the_time_with_them(
     write_bag: Callable[..., Path],
     domain: int,
-    ros2: Callable[..., Any],
+    ros2_here: Callable[..., Any],
     words: tuple[str, ...],
     expected: list[int],
 ) -> None:
@@ -411,7 +410,7 @@ def test_messages_bring_the_time_with_them(
         nodes.start(Node, 'student').create_subscription(
             Clock, '/clock', lambda msg: times.append(msg.clock.nanosec // 10_000_000), 10
         )
-        assert ros2('bag', 'play', str(bag), *words, '--rate', '0.05').status == 0
+        assert ros2_here('bag', 'play', str(bag), *words, '--rate', '0.05').status == 0
         wait_until(
             lambda: len(times) >= len(expected), timeout_sec=10.0, what=lambda: f'more: {times}'
         )
@@ -419,7 +418,10 @@ def test_messages_bring_the_time_with_them(
 
 
 def test_a_bad_choice_is_refused(
-    write_bag: Callable[..., Path], domain: int, ros2: Callable[..., Any]
+    write_bag: Callable[..., Path],
+    domain: int,
+    ros2: Callable[..., Any],
+    ros2_here: Callable[..., Any],
 ) -> None:
     bad = {
         ('--topics', '/clock', '--clock'): 'No topic of the bag is chosen; it has /clock',
@@ -432,8 +434,7 @@ def test_a_bad_choice_is_refused(
     }
     bag = write_bag({'/clock': 'rosgraph_msgs/msg/Clock'}, 0)
     calls = [('bag', 'play', str(bag), *words) for words in bad]
-    preload = ('rclpy', 'rosbag2_py')
-    ended = run_forked(*(('ros2cli.cli', *words) for words in calls), preload=preload)
+    ended = [ros2_here(*call) for call in calls]
     for (words, message), each in zip(bad.items(), ended, strict=True):
         assert each.status in (1, 2), (words, each)
         assert message in each.err, words

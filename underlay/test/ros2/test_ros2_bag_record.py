@@ -15,7 +15,6 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from playpen_testing.bags import opened_reader
-from playpen_testing.forks import run_forked
 from playpen_testing.keyboard import CTRL_C, Keyboard
 from playpen_testing.services import ask
 from playpen_testing.spinning import SpunNodes
@@ -31,7 +30,6 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 
 CHATTER, FLIPS, SUMS = '/chatter', '/flip/_service_event', '/add_two_ints/_service_event'
-VERB = ('ros2bag.verb.record',)  # what the forks of a test share
 WITHOUT_EFFECT = (
     *('--max-cache-size', '0', '--disable-keyboard-controls', '--compression-mode', 'none'),
     *('--compression-queue-size', '1', '--compression-threads', '2'),
@@ -258,9 +256,9 @@ def test_custom_data_is_kept(graph: Any, tmp_path: Path) -> None:
     assert kept == {'robot': 'husky', 'sum': '1+1=2'}
 
 
-def test_what_has_no_effect_is_said(ros2: Callable[..., Any]) -> None:
+def test_what_has_no_effect_is_said(ros2_here: Callable[..., Any]) -> None:
     for verb, count in (('record', 3), ('play', 3), ('burst', 2)):
-        text = ' '.join(ros2('bag', verb, '--help').out.split())
+        text = ' '.join(ros2_here('bag', verb, '--help').out.split())
         assert text.count('Accepted, and without effect here.') == count
 
 
@@ -283,7 +281,7 @@ def test_a_topic_that_is_misspelt_is_told_from_one_to_come(processes: Any, tmp_p
     processes.ros2(*words, ready="Waiting for /chater, /later; did you mean '/chatter'?")
 
 
-def test_a_wrong_value_is_refused() -> None:
+def test_a_wrong_value_is_refused(ros2_here: Callable[..., Any]) -> None:
     bad = {
         ('--custom-data', 'husky'): "'husky' is no KEY=VALUE",
         ('--node-name', '1 tape'): "'1 tape' is no name of a node: letters, digits and _, ",
@@ -291,8 +289,8 @@ def test_a_wrong_value_is_refused() -> None:
         ('--compression-mode', 'all'): "invalid choice: 'all'",
         ('-f', 'json'): "invalid choice: 'json'",
     }
-    calls = [('ros2cli.cli', 'bag', 'record', '-a', *words) for words in bad]
-    for message, answer in zip(bad.values(), run_forked(*calls, preload=VERB), strict=True):
+    for words, message in bad.items():
+        answer = ros2_here('bag', 'record', '-a', *words)
         assert answer.status == 2
         assert message in answer.err
 
@@ -311,7 +309,7 @@ def test_a_file_sets_the_quality_of_service(
 
 
 def test_a_bad_file_of_qualities_is_refused(
-    domain: int, ros2: Callable[..., Any], tmp_path: Path
+    domain: int, ros2: Callable[..., Any], ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     bad = {
         '': 'names no topic: write /topic: {depth: 10}',
@@ -329,18 +327,18 @@ def test_a_bad_file_of_qualities_is_refused(
     words = ('bag', 'record', '-a', '--qos-profile-overrides-path')
     for number, text in enumerate(bad):
         (tmp_path / f'qos{number}.yaml').write_text(text)
-    calls = [('ros2cli.cli', *words, f'qos{number}.yaml') for number in range(len(bad))]
-    ended = run_forked(*calls, preload=VERB)
+    calls = [(*words, f'qos{number}.yaml') for number in range(len(bad))]
+    ended = [ros2_here(*call) for call in calls]
     for call, (text, message), each in zip(calls, bad.items(), ended, strict=True):
         assert (each.status, each.err.count('\n')) == (2, 1), (text, each)
         assert f"--qos-profile-overrides-path '{call[-1]}'" in each.err, text
         assert message in each.err, text
-    answer = ros2(*words, 'qos0.yaml')
+    answer = ros2(*calls[0])
     assert (answer.status, answer.err) == (2, ended[0].err)
 
 
 def test_options_that_make_no_sense_are_refused(
-    domain: int, ros2: Callable[..., Any], tmp_path: Path
+    domain: int, ros2: Callable[..., Any], ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     bad = {
         (CHATTER, '--exclude-regex', 'x'): '--exclude-regex goes with one of --all, ',
@@ -355,7 +353,7 @@ def test_options_that_make_no_sense_are_refused(
         ('-a', '--use-sim-time', '--no-discovery'): 'not --no-discovery',
     }
     calls = [('bag', 'record', '-o', 'bag', *words) for words in bad]
-    ended = run_forked(*(('ros2cli.cli', *words) for words in calls), preload=VERB)
+    ended = [ros2_here(*call) for call in calls]
     for (words, message), each in zip(bad.items(), ended, strict=True):
         assert (each.status, each.err.count('\n')) == (2, 1), (words, each)
         assert message in each.err, words
