@@ -6,7 +6,7 @@ import contextlib
 from pathlib import Path
 from typing import Any
 
-from hypothesis import given, HealthCheck, settings, strategies
+from hypothesis import given, HealthCheck, note, settings, strategies
 from launch import InvalidLaunchFileError, LaunchContext, LaunchDescription, LaunchService
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, LogInfo, OpaqueFunction
 from launch.conditions import IfCondition
@@ -93,13 +93,14 @@ def test_any_yaml_is_a_launch_file_or_refused(value: Any, tmp_path: Path) -> Non
 
 @_SETTINGS
 @given(data=strategies.binary(max_size=40) | _texts.map(str.encode))
-@pytest.mark.parametrize('name', ['any.launch.xml', 'any.launch.yaml', 'any.launch.py', 'any'])
 def test_any_bytes_are_a_launch_file_or_refused(
-    data: bytes, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    data: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = tmp_path / name
-    path.write_bytes(data)
-    _run(capsys, IncludeLaunchDescription(str(path)))
+    for name in ('any.launch.xml', 'any.launch.yaml', 'any.launch.py', 'any'):
+        note(name)
+        path = tmp_path / name
+        path.write_bytes(data)
+        _run(capsys, IncludeLaunchDescription(str(path)))
 
 
 @_SETTINGS
