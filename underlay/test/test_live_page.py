@@ -9,7 +9,7 @@ import socket
 import struct
 import threading
 
-from live_page import LivePage, PageHandler, Query
+from live_page.server import LivePage, PageHandler, Query
 import pytest
 
 

@@ -10,15 +10,10 @@ refuses what comes from another page.
 
 from __future__ import annotations
 
-import argparse
-from collections.abc import Callable
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import json
-import os
-import subprocess
 import sys
-from typing import TypeVar
 from urllib.parse import parse_qs, SplitResult, urlsplit
 
 HOST = '127.0.0.1'
@@ -28,8 +23,6 @@ KEEP_ALIVE_SEC = 5.0
 Query = dict[str, list[str]]
 
 _NAMES = (HOST, 'localhost')
-_LIBRARIES = 'LD_LIBRARY_PATH'
-_PORTS_TRIED = 20
 _STALLED_SEC = 20.0
 
 
@@ -50,54 +43,6 @@ class LivePage(ThreadingHTTPServer):
     @property
     def address(self) -> str:
         return f'http://{HOST}:{self.server_port}/'
-
-
-Page = TypeVar('Page', bound=LivePage)
-
-
-def serve_somewhere(make: Callable[[int], Page], port: int | None, *, first: int) -> Page:
-    """
-    Make a page at this port; None: at the first free one from `first` on.
-
-    :raises OSError: the port is taken.
-    """
-    if port is not None:
-        return make(port)
-    for candidate in range(first, first + _PORTS_TRIED):
-        try:
-            return make(candidate)
-        except OSError:
-            continue
-    return make(0)
-
-
-def read_port(text: str) -> int:
-    """
-    Read the value of an option `--port`.
-
-    :raises argparse.ArgumentTypeError: if it is no port.
-    """
-    if not (text.isascii() and text.isdecimal() and 1 <= int(text) <= 65535):
-        raise argparse.ArgumentTypeError(f"'{text}' is refused: a port is from 1 to 65535")
-    return int(text)
-
-
-def open_on_a_desktop(address: str) -> None:
-    """Open the browser where there is a desktop; returns at once."""
-    if not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
-        return
-    # A browser must not get the libraries that the wheels of ROS bring.
-    paths = os.environ.get(_LIBRARIES, '').split(':')
-    others = ':'.join(path for path in paths if not path.startswith(sys.prefix))
-    subprocess.Popen(
-        [sys.executable, '-m', 'webbrowser', '-t', address],
-        cwd='/',  # Python looks first where it starts, where a student may have a shlex.py
-        env={**os.environ, _LIBRARIES: others},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,  # browsers say much
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,  # Ctrl-C ends the program, not the browser
-    )
 
 
 class PageHandler(BaseHTTPRequestHandler):

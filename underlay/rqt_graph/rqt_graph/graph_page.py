@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from live_page import KEEP_ALIVE_SEC, Query
+from live_page.server import KEEP_ALIVE_SEC, Query
 from ros2cli.discovery import read_graph, settings_from_environment
 from ros2cli.errors import CommandError
 from rtps_graph.graph import Graph

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import signal
 from typing import Any, Protocol
 
-from live_page import LivePage, open_on_a_desktop, PageHandler, Query, serve_somewhere
+from live_page import open_on_a_desktop, serve_somewhere
+from live_page.server import LivePage, PageHandler, Query
 from ros2cli import interrupts
 from ros2cli.errors import CommandError
 

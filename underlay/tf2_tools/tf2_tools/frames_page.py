@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import time
 from typing import Any
 
-from live_page import KEEP_ALIVE_SEC, Query
+from live_page.server import KEEP_ALIVE_SEC, Query
 from rqt_graph.document import fill
 from rqt_graph.feed import Feed
 from rqt_graph.picture import as_text, draw, empty_graph, FAULTY, NODE_LOOK

@@ -8,7 +8,7 @@ import base64
 from dataclasses import astuple
 from pathlib import Path
 
-from live_page import KEEP_ALIVE_SEC, LivePage, PageHandler, Query
+from live_page.server import KEEP_ALIVE_SEC, LivePage, PageHandler, Query
 import numpy as np
 
 from turtlesim_programs.canvas import NOTHING, Pixels

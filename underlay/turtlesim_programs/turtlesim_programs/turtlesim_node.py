@@ -14,7 +14,6 @@ from node_program import own_words, refuse, run_node, spin
 from rclpy.experimental import EventsExecutor
 
 from turtlesim_programs.node import TurtlesimNode
-from turtlesim_programs.page import FIRST_PORT, TurtlePage
 
 WITHOUT_PAGE = ('offscreen', 'minimal')
 """Names of Qt's platforms that have no window; with upstream's turtlesim they do the same."""
@@ -46,6 +45,9 @@ def main(argv: list[str] | None = None) -> int:
 
 def _serve(node: TurtlesimNode, port: int | None) -> bool:
     """Serve the page in threads that end with the process; tell whether the port was free."""
+    # A server of HTTP takes a fifth of the time in which all the rest is loaded.
+    from turtlesim_programs.page import FIRST_PORT, TurtlePage
+
     try:
         page = serve_somewhere(
             lambda number: TurtlePage(number, node.feed, node.frame.canvas.pixels),
