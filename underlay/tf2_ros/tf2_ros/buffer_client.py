@@ -10,7 +10,6 @@ import warnings
 
 from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import TransformStamped
-from rclpy.action import ActionClient
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
@@ -51,6 +50,9 @@ class BufferClient(BufferInterface):
         check_frequency: float = 10.0,
         timeout_padding: Duration = Duration(seconds=2.0),  # noqa: B008 - never changed
     ) -> None:
+        # With what it imports it would take a tenth of the start of all that use only tf2_ros.
+        from rclpy.action import ActionClient
+
         super().__init__()
         self.node = node
         self.action_client = ActionClient(node, LookupTransform, action_name=ns)
