@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass
-import gc
 import os
 from pathlib import Path
 import re
@@ -17,6 +16,7 @@ import sys
 import time
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.here import run_here
 from playpen_testing.keyboard import Keyboard
 from playpen_testing.processes import Child, find_line
 import pytest
@@ -199,21 +199,11 @@ def ros2_here(capfd: pytest.CaptureFixture[str]) -> Ros2:
 
     Its node is a real one, in the domain of the test; what it costs to start is left out.
     """
-    from ros2cli.cli import main
 
     def run(*words: str) -> Answer:
-        capfd.readouterr()
-        collections = gc.get_threshold()
-        try:
-            status = main(words)
-        except SystemExit as refused:  # argparse's
-            assert isinstance(refused.code, int), refused.code
-            status = refused.code
-        finally:
-            gc.set_threshold(*collections)
-        out, err = capfd.readouterr()
-        assert 'Traceback' not in err, err
-        return Answer(status, _SHARED_MEMORY_RACE.sub('', out), err)
+        ended = run_here(capfd, 'ros2cli.cli', *words)
+        assert 'Traceback' not in ended.err, ended.err
+        return Answer(ended.status, _SHARED_MEMORY_RACE.sub('', ended.out), ended.err)
 
     return run
 

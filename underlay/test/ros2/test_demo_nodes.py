@@ -12,7 +12,7 @@ import sys
 from typing import Any
 
 from example_interfaces.srv import AddTwoInts
-from playpen_testing.forks import run_forked
+from playpen_testing.here import run_here
 from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
@@ -112,12 +112,14 @@ def generate_launch_description():
     find_line(launch.stdout, r'\[listener-2\] \[INFO\].*\[listener\]: I heard: \[Hello World: ')
 
 
-def test_launch_files_that_pages_use_start_those_in_python() -> None:
+def test_launch_files_that_pages_use_start_those_in_python(
+    domain: int, capfd: pytest.CaptureFixture[str]
+) -> None:
     talk = [('demo_nodes_py', 'talker'), ('demo_nodes_py', 'listener')]
     files = {f'talker_listener_launch.{suffix}': talk for suffix in ('py', 'xml', 'yaml')}
     files['introspect_services_launch.py'] = [('demo_nodes_py', 'introspection')]
-    words = [('ros2cli.cli', 'launch', 'demo_nodes_cpp', file, '-p') for file in files]
-    for file, printed in zip(files, run_forked(*words, preload=('launch_ros',)), strict=True):
+    for file in files:
+        printed = run_here(capfd, 'ros2cli.cli', 'launch', 'demo_nodes_cpp', file, '-p')
         started = re.findall(r"ExecInPkg\(pkg='(\w+)', exec='(\w+)'\)", printed.out)
         assert started == files[file], (file, printed.err)
 

@@ -11,6 +11,7 @@ import signal
 import subprocess
 from typing import Any
 
+from playpen_testing.here import run_here
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.standard_error import standard_error
 from playpen_testing.waiting import wait_until
@@ -243,11 +244,21 @@ def test_a_launch_file_starts_it_and_ctrl_c_ends_it(
     ],
 )
 @pytest.mark.usefixtures('domain')
-def test_without_a_urdf_it_ends_with_one_line(arguments: tuple[str, ...], why: str) -> None:
-    command = ['ros2', 'run', 'robot_state_publisher', 'robot_state_publisher', *arguments]
+def test_without_a_urdf_it_ends_with_one_line(
+    arguments: tuple[str, ...], why: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    ended = run_here(capfd, 'robot_state_publisher.node', *arguments)
+    assert ended.status == 2
+    assert why in ended.err
+    assert 'Traceback' not in ended.err
+
+
+@pytest.mark.usefixtures('domain')
+def test_its_program_ends_with_that_line() -> None:
+    command = ['ros2', 'run', 'robot_state_publisher', 'robot_state_publisher', '/nowhere.urdf']
     done = subprocess.run(command, capture_output=True, text=True, timeout=30)
     assert done.returncode == 2
-    assert why in done.stderr
+    assert '/nowhere.urdf cannot be read: [Errno 2] No such file' in done.stderr
     assert 'Traceback' not in done.stderr
 
 

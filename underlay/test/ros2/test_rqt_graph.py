@@ -20,7 +20,7 @@ from xml.etree import ElementTree
 
 from playpen_testing import chromium
 from playpen_testing.browser import errors, hide, start_browser
-from playpen_testing.forks import run_forked
+from playpen_testing.here import run_here
 from playpen_testing.processes import find_line
 from playwright.sync_api import Browser
 import pytest
@@ -163,19 +163,19 @@ def test_two_nodes_of_one_name_are_one_red_ellipse(processes: Any, tmp_path: Pat
 
 
 @pytest.mark.usefixtures('domain')
-def test_bad_arguments_are_refused() -> None:
+def test_bad_arguments_are_refused(capfd: pytest.CaptureFixture[str]) -> None:
     bad = {
         ('-o', 'graph.gif'): 'must end in .svg or .png',
         ('-o', 'no/graph.svg'): "there is no folder 'no'",
         ('--port', 'abc'): 'a port is from 1 to 65535',
         ('--view', 'some'): "invalid choice: 'some'",
     }
-    ended = run_forked(*(('rqt_graph.main', *words) for words in bad))
-    for (words, said), each in zip(bad.items(), ended, strict=True):
+    ended = {words: run_here(capfd, 'rqt_graph.main', *words) for words in bad}
+    for words, each in ended.items():
         assert each.status == 2, (words, each)
-        assert said in each.err, words
+        assert bad[words] in each.err, words
     answer = run('-o', 'graph.gif')
-    assert (answer.returncode, answer.stderr) == (2, ended[0].err)
+    assert (answer.returncode, answer.stderr) == (2, ended['-o', 'graph.gif'].err)
 
 
 @pytest.mark.usefixtures('domain')

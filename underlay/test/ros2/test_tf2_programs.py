@@ -6,14 +6,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from pathlib import Path
 import re
 import signal
 import subprocess
+import sys
 import time
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
-from playpen_testing.forks import run_forked
+from playpen_testing.here import run_here
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
@@ -48,9 +50,14 @@ def run(program: str, *arguments: str, timeout_sec: float = 30.0) -> Any:
     return answer
 
 
+def program(name: str) -> str:
+    """Return what `ros2 run tf2_ros` would start."""
+    return str(Path(sys.prefix) / 'lib' / 'tf2_ros' / name)
+
+
 def publish(processes: Any, *arguments: str) -> None:
     """Start a static_transform_publisher; return once it publishes."""
-    command = ('ros2', 'run', 'tf2_ros', 'static_transform_publisher', *arguments)
+    command = (program('static_transform_publisher'), *arguments)
     processes.start(*command, ready="from 'odom' to 'base'")
 
 
@@ -82,7 +89,7 @@ def test_tf2_echo_prints_what_is_published_in_each_way(processes: Any, domain: i
         ('1', '-2', '0.5', '1.5707963267948966', '0', '0', 'odom', 'third'),
         ('1', '-2', '0.5', '0', '0', '1', '1', 'odom', 'fourth'),
     )
-    command = ('ros2', 'run', 'tf2_ros', 'static_transform_publisher')
+    command = (program('static_transform_publisher'),)
     for words in ways:
         processes.start(*command, *words)
     answer = run('tf2_echo', 'odom', 'base', '5', '--limit', '2')
@@ -107,7 +114,7 @@ def test_tf2_echo_prints_what_is_published_in_each_way(processes: Any, domain: i
 
 def test_tf2_echo_has_more_digits_another_rate_and_an_end(processes: Any) -> None:
     publish(processes, '--x', '0.123456', '--frame-id', 'odom', '--child-frame-id', 'base')
-    command = ('ros2', 'run', 'tf2_ros', 'tf2_echo', 'odom', 'base', '-r', '20', '-p', '5')
+    command = (program('tf2_echo'), 'odom', 'base', '-r', '20', '-p', '5')
     echo = processes.start(*command, '-l', '10', ready='At time 0.0')
     begin = time.monotonic()
     shown = echo.stdout.read()
@@ -139,8 +146,7 @@ def test_tf2_echo_says_what_is_wrong_once_frames_part(processes: Any, domain: in
 
     with SpunNodes(domain) as nodes:
         sender = nodes.start(Sender)
-        command = ('ros2', 'run', 'tf2_ros', 'tf2_echo', 'odom', 'base', '20')
-        echo = processes.start(*command, ready='At time 0.0')
+        echo = processes.start(program('tf2_echo'), 'odom', 'base', '20', ready='At time 0.0')
         sender.send('elsewhere')
         failure = ''
         for line in echo.stdout:
@@ -158,7 +164,7 @@ def test_tf2_echo_says_what_is_wrong_once_frames_part(processes: Any, domain: in
 
 
 @pytest.mark.usefixtures('domain')
-def test_tf2_echo_refuses_bad_arguments() -> None:
+def test_tf2_echo_refuses_bad_arguments(capfd: pytest.CaptureFixture[str]) -> None:
     bad = {
         (): (1, 'the following arguments are required: source_frame, target_frame'),
         ('a', 'b', '1', 'c'): (1, 'unrecognized arguments: c'),
@@ -167,8 +173,8 @@ def test_tf2_echo_refuses_bad_arguments() -> None:
         ('a', 'b', '0'): (2, "tf2_echo: rate '0' is refused: it must be more than 0"),
         ('a', 'b', '-p', '0'): (1, "'0' is refused: it must be a whole number from 1"),
     }
-    ended = run_forked(*(('tf2_ros.tf2_echo', *words) for words in bad))
-    for (words, (status, said)), each in zip(bad.items(), ended, strict=True):
+    for words, (status, said) in bad.items():
+        each = run_here(capfd, 'tf2_ros.tf2_echo', *words)
         assert (each.status, said in each.err) == (status, True), (words, each)
         usage = 'Usage: tf2_echo source_frame target_frame'
         assert each.out.startswith(usage) == (status == 1), words
@@ -177,7 +183,9 @@ def test_tf2_echo_refuses_bad_arguments() -> None:
 
 
 @pytest.mark.usefixtures('domain')
-def test_static_transform_publisher_refuses_bad_arguments() -> None:
+def test_static_transform_publisher_refuses_bad_arguments(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
     bad = {
         (): 'Frame id must not be empty',
         ('--frame-id', 'a'): 'Child frame id must not be empty',
@@ -190,13 +198,14 @@ def test_static_transform_publisher_refuses_bad_arguments() -> None:
             'Cannot specify both new-style (flags) and old-style (arguments)'
         ),
     }
-    program = 'tf2_ros.static_transform_publisher'
+    module = 'tf2_ros.static_transform_publisher'
     itself = ('--frame-id', 'a', '--child-frame-id', 'a')
-    *ended, in_itself = run_forked(*((program, *words) for words in (*bad, itself)))
-    for (words, said), each in zip(bad.items(), ended, strict=True):
+    for words, said in bad.items():
+        each = run_here(capfd, module, *words)
         assert each.status == 1, words
         assert f'[]: error parsing command line arguments: {said}\n' in each.err, words
         assert each.out.startswith('usage: static_transform_publisher [--x X]'), words
+    in_itself = run_here(capfd, module, *itself)
     assert in_itself.status == 1
     told = "[]: cannot publish static transform from 'a' to 'a', exiting\n"
     assert told in in_itself.err
@@ -217,7 +226,9 @@ def test_static_transform_publisher_tells_its_transform_as_parameters(
 
 
 @pytest.mark.usefixtures('domain')
-def test_wrong_ros_arguments_are_told_without_a_traceback() -> None:
+def test_wrong_ros_arguments_are_told_without_a_traceback(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
     frames = ('--frame-id', 'a', '--child-frame-id', 'b')
     programs = {
         'tf2_ros.tf2_echo': ('a', 'b'),
@@ -228,11 +239,12 @@ def test_wrong_ros_arguments_are_told_without_a_traceback() -> None:
         'turtlesim_programs.turtlesim_node': ('--platform', 'offscreen'),
     }
     commands = [
-        (program, *words, '--ros-args', *wrong)
-        for program, words in programs.items()
+        (module, *words, '--ros-args', *wrong)
+        for module, words in programs.items()
         for wrong in (('-p', 'x'), ('--nonsense',), ('-r', '__node:=7'))
     ]
-    for command, ended in zip(commands, run_forked(*commands), strict=True):
+    for command in commands:
+        ended = run_here(capfd, *command)
         assert ended.status == 2, (command, ended.err)
         assert 'Traceback' not in ended.err, command
         assert command[-1] in ended.err, command
@@ -242,7 +254,7 @@ def test_wrong_ros_arguments_are_told_without_a_traceback() -> None:
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize(
-    ('program', 'ready'),
+    ('words', 'ready'),
     [
         (('static_transform_publisher', '0', '0', '0', '0', '0', '0', 'a', 'b'), "from 'a' to"),
         (('tf2_echo', 'a', 'b', '0.1'), 'Waiting for transform'),
@@ -250,9 +262,9 @@ def test_wrong_ros_arguments_are_told_without_a_traceback() -> None:
     ],
 )
 def test_a_signal_ends_a_program_soon(
-    processes: Any, program: tuple[str, ...], ready: str, number: signal.Signals
+    processes: Any, words: tuple[str, ...], ready: str, number: signal.Signals
 ) -> None:
-    process = processes.start('ros2', 'run', 'tf2_ros', *program, ready=ready)
+    process = processes.start(program(words[0]), *words[1:], ready=ready)
     begin = time.monotonic()
     process.send_signal(number)
     output, _ = process.communicate(timeout=10)
@@ -280,7 +292,7 @@ def test_tf2_monitor_reports_delays_and_the_chain(processes: Any, domain: int) -
     publish(processes, '0', '0', '0', '0', '0', '0', 'odom', 'base')
     with SpunNodes(domain) as nodes:
         nodes.start(Sender)
-        command = ('ros2', 'run', 'tf2_ros', 'tf2_monitor', 'base', 'odom')
+        command = (program('tf2_monitor'), 'base', 'odom')
         monitor = processes.start(*command, ready='Gathering data on base -> odom for 10 seconds')
         report = ''
         for line in monitor.stdout:
@@ -305,7 +317,7 @@ def test_tf2_monitor_wants_two_frames_or_none() -> None:
 
 @pytest.fixture
 def client(processes: Any, domain: int) -> Iterator[tf2_ros.BufferClient]:
-    processes.start('ros2', 'run', 'tf2_ros', 'buffer_server')
+    processes.start(program('buffer_server'))
     with SpunNodes(domain) as nodes:
         node = nodes.start(Node, 'asking')
         asking = tf2_ros.BufferClient(node, 'tf2_buffer_server')

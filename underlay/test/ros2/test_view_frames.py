@@ -19,6 +19,7 @@ from geometry_msgs.msg import TransformStamped
 from hypothesis import assume, given, strategies
 from playpen_testing import chromium
 from playpen_testing.browser import errors, start_browser
+from playpen_testing.here import run_here
 from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.transforms import buffer_of, transform
@@ -242,16 +243,16 @@ def test_ctrl_c_while_it_listens_writes_nothing(processes: Any, tmp_path: Path) 
     assert list(tmp_path.glob('frames*')) == []
 
 
-@pytest.mark.parametrize(
-    ('arguments', 'said'),
-    [
-        (('-t', 'long'), "'long' is refused: it must be seconds, 0 or more"),
-        (('-t=-1',), "'-1' is refused"),
-        (('-o', 'no/tree'), "there is no folder 'no'; make it first"),
-        (('--live', '--port', 'abc'), 'a port is from 1 to 65535'),
-    ],
-)
 @pytest.mark.usefixtures('domain')
-def test_bad_arguments_are_refused(arguments: tuple[str, ...], said: str) -> None:
-    answer = run(*arguments)
-    assert (answer.returncode, said in answer.stderr) == (2, True), answer.stderr
+def test_bad_arguments_are_refused(capfd: pytest.CaptureFixture[str]) -> None:
+    bad = {
+        ('-t', 'long'): "'long' is refused: it must be seconds, 0 or more",
+        ('-t=-1',): "'-1' is refused",
+        ('-o', 'no/tree'): "there is no folder 'no'; make it first",
+        ('--live', '--port', 'abc'): 'a port is from 1 to 65535',
+    }
+    ended = {words: run_here(capfd, 'tf2_tools.view_frames', *words) for words in bad}
+    for words, each in ended.items():
+        assert (each.status, bad[words] in each.err) == (2, True), (words, each)
+    answer = run('-t', 'long')
+    assert (answer.returncode, answer.stderr) == (2, ended['-t', 'long'].err)

@@ -9,6 +9,7 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
+from playpen_testing.here import run_here
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
 import pytest
@@ -97,7 +98,9 @@ def test_a_frame_stands_in_the_world(student: TurtleClient, processes: Processes
     assert (turn.x, turn.y, turn.z, turn.w) == pytest.approx((0.0, 0.0, 1.0, 0.0))
 
 
-def test_what_cannot_be_placed_is_refused(own_domain: None, processes: Processes) -> None:
+def test_what_cannot_be_placed_is_refused(
+    own_domain: None, processes: Processes, capfd: pytest.CaptureFixture[str]
+) -> None:
     del own_domain
     refused = {
         'tree 1 2 3': (1, '4 words are given, and 7 are needed: static_turtle_tf2_broadcaster '),
@@ -105,8 +108,12 @@ def test_what_cannot_be_placed_is_refused(own_domain: None, processes: Processes
         'tree 1 2 z 0 0 0': (2, "could not convert string to float: 'z'"),
         'tree 1 2 inf 0 0 0': (2, '1 2 inf 0 0 0: they must be finite numbers'),
     }
-    started = {words: ros2(processes, *STATIC, *words.split()) for words in refused}
     for words, (status, told) in refused.items():
-        assert started[words].wait() == status, words
-        line, _ = started[words].lines  # the second one is of `ros2 run`
-        assert line.startswith(told)
+        ended = run_here(capfd, 'turtle_tf2_py.static_turtle_tf2_broadcaster', *words.split())
+        assert ended.status == status, words
+        assert ended.err.startswith(told)
+        assert ended.err.count('\n') == 1, words
+    started = ros2(processes, *STATIC, 'tree', '1', '2', '3')
+    assert started.wait() == 1
+    line, _ = started.lines  # the second one is of `ros2 run`
+    assert line.startswith(refused['tree 1 2 3'][1])

@@ -12,7 +12,7 @@ import sqlite3
 from typing import Any
 
 from ament_index_python import get_package_share_directory
-from playpen_testing.forks import run_forked
+from playpen_testing.here import run_here
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
 from playpen_testing.waiting import wait_until
@@ -77,7 +77,9 @@ def echoed(ros2: Ros2, topic: str) -> Any:
     return yaml.safe_load(shown.partition('---')[0])
 
 
-def test_the_package_has_its_programs_and_interfaces(ros2: Ros2) -> None:
+def test_the_package_has_its_programs_and_interfaces(
+    ros2: Ros2, capfd: pytest.CaptureFixture[str]
+) -> None:
     programs = ('draw_square', 'mimic', 'turtle_teleop_key', 'turtlesim_node')
     assert ros2('pkg', 'executables', 'turtlesim').split('\n') == [
         f'turtlesim {program}' for program in programs
@@ -86,7 +88,8 @@ def test_the_package_has_its_programs_and_interfaces(ros2: Ros2) -> None:
     assert ros2('pkg', 'xml', 'turtlesim', '-t', 'version').split()[-1] == '1.8.3'
     assert sorted(ros2('interface', 'package', 'turtlesim').split()) == sorted(INTERFACES)
     show = ('ros2cli.cli', 'interface', 'show', '--no-comments')
-    for name, shown in zip(INTERFACES, run_forked(*((*show, n) for n in INTERFACES)), strict=True):
+    for name in INTERFACES:
+        shown = run_here(capfd, *show, name)
         lines = [line.strip() for line in shown.out.splitlines() if line.strip('- ')]
         assert lines == INTERFACES[name], name
 

@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from action_msgs.msg import GoalStatus
-from playpen_testing.forks import run_forked
+from playpen_testing.here import run_here
 from playpen_testing.processes import Process, Processes
 from playpen_testing.turtles import TurtleClient
 import psutil
@@ -310,7 +310,9 @@ def test_parameters_say_what_they_are_and_refuse_the_rest(student: TurtleClient)
 
 
 @pytest.mark.usefixtures('own_domain')
-def test_bad_arguments_are_refused_in_a_line(processes: Processes) -> None:
+def test_bad_arguments_are_refused_in_a_line(
+    processes: Processes, capfd: pytest.CaptureFixture[str]
+) -> None:
     bad = {
         ('--port', '0'): 'a port is from 1 to 65535',
         ('--prot', '8000'): 'unrecognized arguments: --prot',
@@ -319,9 +321,9 @@ def test_bad_arguments_are_refused_in_a_line(processes: Processes) -> None:
         ('--ros-args', '-r', '__node:=7'): "Couldn't parse remap rule: '-r __node:=7'",
     }
     module = 'turtlesim_programs.turtlesim_node'
-    ended = run_forked(*((module, *NODE[4:], *words) for words in bad))
-    printed = {words: each.out + each.err for words, each in zip(bad, ended, strict=True)}
-    assert all(each.status == 2 for each in ended), printed
+    ended = {words: run_here(capfd, module, *NODE[4:], *words) for words in bad}
+    printed = {words: each.out + each.err for words, each in ended.items()}
+    assert all(each.status == 2 for each in ended.values()), printed
     refused = processes.start(*NODE, '--port', 'x')
     assert refused.wait() == 2
     printed['--port', 'x'] = refused.output
