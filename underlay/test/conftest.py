@@ -4,6 +4,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+import itertools
 import os
 from pathlib import Path
 import select
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import textwrap
 import time
+import warnings
 
 from husky_runtime.domains import OwnDomain
 from playpen_testing.processes import Child
@@ -125,6 +127,32 @@ def run_launch(launch_environment: None) -> Callable[..., Launched]:
 
     def run(path: Path, *arguments: str, timeout_sec: float = 20.0) -> Launched:
         return finish_launch(start_launch(path, *arguments), timeout_sec)
+
+    return run
+
+
+@pytest.fixture
+def launch_here(
+    launch_environment: None,
+    capfd: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> Callable[..., Launched]:
+    """Return a function that runs a launch file to its end in this process."""
+    del launch_environment
+    from launch import LaunchDescription, LaunchService
+    from launch.actions import IncludeLaunchDescription
+
+    def run(path: Path, *arguments: str) -> Launched:
+        capfd.readouterr()
+        monkeypatch.setattr('launch.descriptions.executable._process_numbers', itertools.count(1))
+        service = LaunchService(argv=list(arguments))
+        pairs = [word.split(':=', 1) for word in arguments]
+        included = IncludeLaunchDescription(str(path), launch_arguments=pairs)
+        service.include_launch_description(LaunchDescription([included]))
+        with warnings.catch_warnings():
+            warnings.simplefilter('ignore')  # pytest makes errors of them
+            status = service.run()
+        return Launched(status, ''.join(capfd.readouterr()))
 
     return run
 

@@ -43,7 +43,7 @@ def test_an_argument_has_its_default_or_what_is_given(
 
 
 def test_a_missing_argument_is_refused_before_anything_starts(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file(
         """
@@ -51,16 +51,18 @@ def test_a_missing_argument_is_refused_before_anything_starts(
         DeclareLaunchArgument('speed', description='how fast'),
         """
     )
-    launched = run_launch(path)
+    launched = launch_here(path)
     assert launched.returncode == 1
     (line,) = [line for line in launched.lines if line.startswith('[ERROR]')]
     assert "missing required argument 'speed' (description: 'how fast'), given: []" in line
     assert 'process started' not in launched.output
 
 
-def test_a_misspelt_argument_is_hinted_at(python_launch_file: LaunchFile, run_launch: Run) -> None:
+def test_a_misspelt_argument_is_hinted_at(
+    python_launch_file: LaunchFile, launch_here: Run
+) -> None:
     path = python_launch_file("DeclareLaunchArgument('viewer', default_value='on'),")
-    launched = run_launch(path, 'viewr:=off', 'launch-prefix:=')
+    launched = launch_here(path, 'viewr:=off', 'launch-prefix:=')
     (line,) = [line for line in launched.lines if 'WARNING' in line]
     assert line == (
         f"[WARNING] [launch]: launch argument 'viewr' is not declared in {path} "
@@ -69,7 +71,7 @@ def test_a_misspelt_argument_is_hinted_at(python_launch_file: LaunchFile, run_la
 
 
 def test_an_argument_that_sets_nothing_is_told_of(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file(
         """
@@ -77,7 +79,7 @@ def test_an_argument_that_sets_nothing_is_told_of(
         LogInfo(msg=LaunchConfiguration('undeclared')),
         """
     )
-    launched = run_launch(path, 'undeclared:=here', 'sigterm_timeout:=5', 'lidar:=true')
+    launched = launch_here(path, 'undeclared:=here', 'sigterm_timeout:=5', 'lidar:=true')
     assert _logged(launched.output) == ['here']
     (line,) = [line for line in launched.lines if 'WARNING' in line]
     assert line == (
@@ -85,14 +87,14 @@ def test_an_argument_that_sets_nothing_is_told_of(
         'so that it sets nothing (`--show-args` lists what does)'
     )
     outer = python_launch_file(f"IncludeLaunchDescription('{path}'),", 'outer.launch.py')
-    assert 'WARNING' not in run_launch(outer, 'undeclared:=here').output
+    assert 'WARNING' not in launch_here(outer, 'undeclared:=here').output
 
 
 def test_a_file_that_starts_nothing_is_told_of(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file('')
-    (line,) = [line for line in run_launch(path).lines if 'WARNING' in line]
+    (line,) = [line for line in launch_here(path).lines if 'WARNING' in line]
     assert line == (
         f'[WARNING] [launch]: {path} starts nothing: no action has been added to its launch '
         'description'
@@ -100,7 +102,7 @@ def test_a_file_that_starts_nothing_is_told_of(
 
 
 def test_a_file_that_includes_itself_is_told_of(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     again = """
         DeclareLaunchArgument('left', default_value='aaaa'),
@@ -113,27 +115,27 @@ def test_a_file_that_includes_itself_is_told_of(
         """
     before = "left = LaunchConfiguration('left')"
     endless = python_launch_file(again.replace('CONDITION', ''), before=before)
-    launched = run_launch(endless)
+    launched = launch_here(endless)
     assert launched.returncode == 1
     assert (
         f'a launch file includes itself without end: {endless} -> {endless}; ' in launched.output
     )
     condition = """condition=IfCondition(PythonExpression(["'", left, "' != ''"]))"""
     ends = python_launch_file(again.replace('CONDITION', condition), before=before)
-    assert _logged(run_launch(ends).output) == ['aaaa', 'aaa', 'aa', 'a', '']
+    assert _logged(launch_here(ends).output) == ['aaaa', 'aaa', 'aa', 'a', '']
 
 
 def test_a_value_outside_of_the_choices_is_refused_with_them(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file("DeclareLaunchArgument('mode', choices=['fast', 'slow']),")
-    launched = run_launch(path, 'mode:=quick')
+    launched = launch_here(path, 'mode:=quick')
     assert launched.returncode == 1
     assert (
         'Argument "mode" provided value "quick" is not valid. Valid options are: '
         "['fast', 'slow']" in launched.output
     )
-    assert run_launch(path, 'mode:=slow').returncode == 0
+    assert launch_here(path, 'mode:=slow').returncode == 0
 
 
 @pytest.mark.parametrize(
@@ -141,7 +143,7 @@ def test_a_value_outside_of_the_choices_is_refused_with_them(
     [('true', 'if'), ('True', 'if'), ('1', 'if'), ('false', 'unless'), ('0', 'unless')],
 )
 def test_conditions_choose(
-    value: str, ran: str, python_launch_file: LaunchFile, run_launch: Run
+    value: str, ran: str, python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file(
         """
@@ -151,14 +153,14 @@ def test_conditions_choose(
         LogInfo(msg='not equals', condition=LaunchConfigurationNotEquals('on', 'never')),
         """
     )
-    assert _logged(run_launch(path, f'on:={value}').output) == [ran, 'not equals']
+    assert _logged(launch_here(path, f'on:={value}').output) == [ran, 'not equals']
 
 
 def test_a_condition_that_says_neither_is_refused(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file("LogInfo(msg='x', condition=IfCondition('maybe')),")
-    launched = run_launch(path)
+    launched = launch_here(path)
     assert launched.returncode == 1
     assert "expected one of [true, 1, false, 0] but got 'maybe'" in launched.output
     assert f'(at {path}:10)' in launched.output
@@ -172,7 +174,7 @@ LogInfo(msg=['inside ', LaunchConfiguration('name'), ' ', ThisLaunchFile()]),
 
 
 def test_an_include_sets_arguments_and_knows_its_file(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     inner = python_launch_file(INNER, 'inner.launch.py')
     outer = python_launch_file(
@@ -185,12 +187,12 @@ def test_an_include_sets_arguments_and_knows_its_file(
         """,
         'outer.launch.py',
     )
-    launched = run_launch(outer)
+    launched = launch_here(outer)
     assert _logged(launched.output) == [f'inside given {inner}', f'after given yes {outer}']
 
 
 def test_a_group_keeps_an_include_to_itself(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     python_launch_file(INNER, 'inner.launch.py')
     outer = python_launch_file(
@@ -201,10 +203,12 @@ def test_a_group_keeps_an_include_to_itself(
         """,
         'outer.launch.py',
     )
-    assert _logged(run_launch(outer).output)[-1] == 'unset unset'
+    assert _logged(launch_here(outer).output)[-1] == 'unset unset'
 
 
-def test_scoping_and_forwarding_of_groups(python_launch_file: LaunchFile, run_launch: Run) -> None:
+def test_scoping_and_forwarding_of_groups(
+    python_launch_file: LaunchFile, launch_here: Run
+) -> None:
     show = (
         "LogInfo(msg=[LaunchConfiguration('a', default='-'), "
         "LaunchConfiguration('b', default='-'), EnvironmentVariable('V', default_value='-')])"
@@ -220,7 +224,7 @@ def test_scoping_and_forwarding_of_groups(python_launch_file: LaunchFile, run_la
         UnsetLaunchConfiguration('b'), UnsetEnvironmentVariable('V'), {show},
         """
     )
-    assert _logged(run_launch(path).output) == ['122', '1-1', '-3-', '141', '1--']
+    assert _logged(launch_here(path).output) == ['122', '1-1', '-3-', '141', '1--']
 
 
 def test_a_condition_without_a_predicate_does_not_hold() -> None:
@@ -230,7 +234,7 @@ def test_a_condition_without_a_predicate_does_not_hold() -> None:
 
 
 def test_appending_to_an_environment_variable(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file(
         """
@@ -240,7 +244,7 @@ def test_appending_to_an_environment_variable(
         LogInfo(msg=EnvironmentVariable('LIST_OF')),
         """
     )
-    assert _logged(run_launch(path).output) == ['a:b:c;d']
+    assert _logged(launch_here(path).output) == ['a:b:c;d']
     action = AppendEnvironmentVariable('LIST_OF', 'a', prepend=True, separator=';')
     assert (action.prepend, action.separator[0].perform(LaunchContext())) == (True, ';')
 
@@ -276,7 +280,7 @@ def test_arguments_are_found_also_in_includes_and_groups(
 
 
 def test_an_included_file_sees_the_environment_that_was_set_before(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     inner = python_launch_file(
         "LogInfo(msg=os.environ['MODEL_OF_ROBOT'])", 'inner.launch.py', 'import os'
@@ -287,11 +291,11 @@ def test_an_included_file_sees_the_environment_that_was_set_before(
         IncludeLaunchDescription({str(inner)!r}),
         """
     )
-    assert _logged(run_launch(path).output) == ['burger']
+    assert _logged(launch_here(path).output) == ['burger']
 
 
-def test_a_missing_launch_file_is_one_line(run_launch: Run, tmp_path: Path) -> None:
-    launched = run_launch(tmp_path / 'nothing.launch.py')
+def test_a_missing_launch_file_is_one_line(launch_here: Run, tmp_path: Path) -> None:
+    launched = launch_here(tmp_path / 'nothing.launch.py')
     assert launched.returncode == 1
     (line,) = [line for line in launched.lines if line.startswith('[ERROR]')]
     assert 'there is no such launch file' in line

@@ -48,7 +48,7 @@ def _nodes(output: str) -> dict[str, tuple[str, str, dict[str, Any]]]:
 
 
 def test_names_parameters_and_remappings_reach_real_nodes(
-    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+    python_launch_file: LaunchFile, launch_here: Run, ros_package: Path
 ) -> None:
     share = ros_package / 'share' / 'some_pkg'
     (share / 'plain.yaml').write_text('/**:\n  ros__parameters: {number: 1, own: [a, b]}\n')
@@ -77,7 +77,7 @@ def test_names_parameters_and_remappings_reach_real_nodes(
         """,
         before=BEFORE,
     )
-    launched = run_launch(path)
+    launched = launch_here(path)
     nodes = _nodes(launched.output)
     name, topic, parameters = nodes['plain_node-1']
     assert (name, topic) == ('/deep/space/me', '/elsewhere')
@@ -105,7 +105,7 @@ def test_names_parameters_and_remappings_reach_real_nodes(
 
 
 def test_nodes_of_xml_files_are_the_same(
-    launch_file: LaunchFile, run_launch: Run, ros_package: Path
+    launch_file: LaunchFile, launch_here: Run, ros_package: Path
 ) -> None:
     (ros_package / 'share' / 'some_pkg' / 'p.yaml').write_text(
         '/**:\n  ros__parameters: {from_file: $(var n)}\n'
@@ -138,7 +138,7 @@ def test_nodes_of_xml_files_are_the_same(
         """,
         'nodes.launch.xml',
     )
-    launched = run_launch(path)
+    launched = launch_here(path)
     name, topic, parameters = _nodes(launched.output)['plain_node-1']
     assert (name, topic) == ('/deep/in/me', '/deep/in/talk')
     wanted = {
@@ -161,14 +161,14 @@ def test_nodes_of_xml_files_are_the_same(
 
 
 def test_two_nodes_of_one_name_are_warned_about(
-    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+    python_launch_file: LaunchFile, launch_here: Run, ros_package: Path
 ) -> None:
     del ros_package
     path = python_launch_file(
         "node(name='same', namespace='/'), node(name='same', namespace='/'),", before=BEFORE
     )
     expected = 'there are now at least 2 nodes with the name /same created within this launch'
-    assert expected in run_launch(path).output
+    assert expected in launch_here(path).output
 
 
 @pytest.mark.parametrize(
@@ -221,12 +221,12 @@ def test_a_wrong_node_is_one_line_with_its_place(
     arguments: str,
     message: str,
     python_launch_file: LaunchFile,
-    run_launch: Run,
+    launch_here: Run,
     ros_package: Path,
 ) -> None:
     (ros_package / 'lib/some_pkg/still').touch(0o644)
     path = python_launch_file(f'Node({arguments}),', before=BEFORE)
-    launched = run_launch(path)
+    launched = launch_here(path)
     assert launched.returncode == 1
     (line,) = [line for line in launched.lines if line.startswith('[ERROR]')]
     assert message in line
@@ -275,31 +275,31 @@ def test_a_package_that_python_asks_for_is_explained(
 
 
 def test_a_missing_parameter_file_is_warned_about(
-    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+    python_launch_file: LaunchFile, launch_here: Run, ros_package: Path
 ) -> None:
     del ros_package
     path = python_launch_file("node(parameters=['/no/such/file.yaml']),", before=BEFORE)
-    launched = run_launch(path)
+    launched = launch_here(path)
     assert 'Parameter file path is not a file: /no/such/file.yaml' in launched.output
     assert 'plain_node-1' in _nodes(launched.output)
 
 
 def test_a_parameter_file_that_no_node_reads_is_warned_about(
-    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path, tmp_path: Path
+    python_launch_file: LaunchFile, launch_here: Run, ros_package: Path, tmp_path: Path
 ) -> None:
     del ros_package
     file = tmp_path / 'tab.yaml'
     file.write_text('/**:\n\tros__parameters: {a: 1}\n')
     path = python_launch_file(f"node(parameters=['{file}']),", before=BEFORE)
-    assert f'{file}: line 2 begins with a tab; YAML takes' in run_launch(path).output
+    assert f'{file}: line 2 begins with a tab; YAML takes' in launch_here(path).output
 
 
 def test_a_script_with_line_ends_of_windows_is_warned_about(
-    python_launch_file: LaunchFile, run_launch: Run, ros_package: Path
+    python_launch_file: LaunchFile, launch_here: Run, ros_package: Path
 ) -> None:
     program = ros_package / 'lib' / 'some_pkg' / 'plain_node'
     program.write_bytes(b'#!/usr/bin/env python3\r\n')
-    launched = run_launch(python_launch_file('node(),', before=BEFORE))
+    launched = launch_here(python_launch_file('node(),', before=BEFORE))
     (line,) = [line for line in launched.lines if line.startswith('[WARNING] [launch_ros]')]
     assert f"executable '{program}' cannot be run: its lines end as those of Windows" in line
 

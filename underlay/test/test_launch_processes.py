@@ -29,9 +29,9 @@ def _pids(output: str) -> list[int]:
 
 
 def test_a_command_is_told_with_its_folder(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file(
             "ExecuteProcess(cmd=['echo', 'a'], log_cmd=True, name='one'),"
             "ExecuteProcess(cmd=['echo', 'b'], log_cmd=True, name='two', cwd='/'),"
@@ -45,9 +45,9 @@ def test_a_command_is_told_with_its_folder(
 
 
 def test_a_process_is_reported_with_its_name_pid_and_end(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file("ExecuteProcess(cmd=['echo', 'hello'], output='screen'),")
     )
     text = '\n'.join(launched.lines)
@@ -60,9 +60,9 @@ def test_a_process_is_reported_with_its_name_pid_and_end(
 
 
 def test_launch_succeeds_and_reports_a_process_that_dies(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(python_launch_file("ExecuteProcess(cmd=['sh', '-c', 'exit 3']),"))
+    launched = launch_here(python_launch_file("ExecuteProcess(cmd=['sh', '-c', 'exit 3']),"))
     (pid,) = _pids(launched.output)
     expected = f"[ERROR] [sh-1]: process has died [pid {pid}, exit code 3, cmd 'sh -c exit 3']."
     assert expected in launched.lines
@@ -70,18 +70,18 @@ def test_launch_succeeds_and_reports_a_process_that_dies(
 
 
 def test_a_program_that_does_not_exist_is_one_line(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(python_launch_file("ExecuteProcess(cmd=['no_such_program', 'x']),"))
+    launched = launch_here(python_launch_file("ExecuteProcess(cmd=['no_such_program', 'x']),"))
     (line,) = [line for line in launched.lines if 'no_such_program-1' in line]
     assert line.startswith('[ERROR] [no_such_program-1]: cannot start the process:')
     assert 'Traceback' not in launched.output
 
 
 def test_output_log_shows_only_stderr_and_the_log_file_has_both(
-    python_launch_file: LaunchFile, run_launch: Run, tmp_path: Path
+    python_launch_file: LaunchFile, launch_here: Run, tmp_path: Path
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file("ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2']),")
     )
     assert '[sh-1] err' in launched.lines
@@ -100,9 +100,9 @@ def test_output_log_shows_only_stderr_and_the_log_file_has_both(
     ],
 )
 def test_own_log_writes_files_of_the_process(
-    output: str, files: set[str], python_launch_file: LaunchFile, run_launch: Run, tmp_path: Path
+    output: str, files: set[str], python_launch_file: LaunchFile, launch_here: Run, tmp_path: Path
 ) -> None:
-    run_launch(
+    launch_here(
         python_launch_file(
             f"ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'], output={output!r}),"
         )
@@ -130,9 +130,9 @@ def test_output_comes_as_soon_as_a_process_writes_it(
 
 
 def test_emulate_tty_makes_the_child_believe_in_a_terminal(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file(
             """
             ExecuteProcess(cmd=['sh', '-c', 'test -t 1 && echo yes'], output='screen',
@@ -219,9 +219,9 @@ print('interrupted', count, 'times')
 
 
 def test_on_exit_shutdown_makes_a_process_required(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file(
             """
             ExecuteProcess(cmd=['sleep', '60']),
@@ -235,9 +235,9 @@ def test_on_exit_shutdown_makes_a_process_required(
 
 
 def test_respawn_starts_again_as_often_as_it_may(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file(
             """
             ExecuteProcess(cmd=['sh', '-c', 'echo once; exit 1'], output='screen', respawn=True,
@@ -262,9 +262,9 @@ def test_shutdown_during_a_respawn_delay_ends_at_once(
 
 
 def test_environment_working_folder_prefix_and_shell(
-    python_launch_file: LaunchFile, run_launch: Run, tmp_path: Path
+    python_launch_file: LaunchFile, launch_here: Run, tmp_path: Path
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file(
             f"""
             SetEnvironmentVariable('COLOUR', 'red'),
@@ -282,9 +282,9 @@ def test_environment_working_folder_prefix_and_shell(
 
 
 def test_launch_prefix_is_filtered_by_name(
-    python_launch_file: LaunchFile, run_launch: Run
+    python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
-    launched = run_launch(
+    launched = launch_here(
         python_launch_file(
             """
             ExecuteProcess(cmd=['echo', 'one'], output='screen'),
@@ -300,10 +300,10 @@ def test_launch_prefix_is_filtered_by_name(
 
 @pytest.mark.parametrize('value', ['soon', '-1', 'nan', 'inf'])
 def test_a_timeout_that_is_no_number_starts_nothing(
-    value: str, python_launch_file: LaunchFile, run_launch: Run
+    value: str, python_launch_file: LaunchFile, launch_here: Run
 ) -> None:
     path = python_launch_file("ExecuteProcess(cmd=['sleep', '30']),")
-    launched = run_launch(path, f'sigterm_timeout:={value}')
+    launched = launch_here(path, f'sigterm_timeout:={value}')
     assert launched.returncode == 1
     assert f"sigterm_timeout is '{value}': it is a time in seconds" in launched.output
     assert 'process started' not in launched.output
