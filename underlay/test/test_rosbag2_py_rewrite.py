@@ -233,15 +233,24 @@ def test_files_that_cannot_be_read_are_refused(bag: Path, tmp_path: Path) -> Non
     assert not (tmp_path / 'new').exists()
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_command_leaves_whole_bags(tmp_path: Path, number: signal.Signals) -> None:
-    writer = opened_writer(tmp_path / 'bag', '/chatter')
+@pytest.fixture(scope='module')
+def long_bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a bag that takes a while to convert; it is only read."""
+    folder = tmp_path_factory.mktemp('long') / 'bag'
+    writer = opened_writer(folder, '/chatter')
     for count in range(MANY):
         text = f'number {count} {"x" * 1000}'
         writer.write('/chatter', bytes(serialize_message(String(data=text))), count)
     writer.close()
+    return folder
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_command_leaves_whole_bags(
+    long_bag: Path, tmp_path: Path, number: signal.Signals
+) -> None:
     (tmp_path / 'new.yaml').write_text('output_bags: [{uri: new, all_topics: true}]')
-    words = ['bag', 'convert', '-i', 'bag', '-o', 'new.yaml']
+    words = ['bag', 'convert', '-i', str(long_bag), '-o', 'new.yaml']
     command = [sys.executable, '-m', 'ros2cli', *words]
     with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as running:
         file = tmp_path / 'new' / 'new_0.mcap'
