@@ -72,10 +72,10 @@ def end(process: subprocess.Popen[str], number: int = signal.SIGINT) -> None:
 
 
 @pytest.mark.usefixtures('domain')
-def test_packages_have_the_programs_of_jazzy(ros2: Any) -> None:
-    there = {line.split()[1] for line in ros2('pkg', 'executables', 'demo_nodes_py').lines}
+def test_packages_have_the_programs_of_jazzy(ros2_here: Any) -> None:
+    there = {line.split()[1] for line in ros2_here('pkg', 'executables', 'demo_nodes_py').lines}
     assert there == set(OF_UPSTREAM)
-    assert ros2('pkg', 'executables', 'action_tutorials_py').lines == [
+    assert ros2_here('pkg', 'executables', 'action_tutorials_py').lines == [
         'action_tutorials_py fibonacci_action_client',
         'action_tutorials_py fibonacci_action_server',
     ]
@@ -208,12 +208,14 @@ def test_introspection_refuses_another_word() -> None:
     assert done.stdout.count('\n') == 1
 
 
-def test_to_set_one_parameter_sets_the_other(processes: Any, domain: int, ros2: Any) -> None:
+def test_to_set_one_parameter_sets_the_other(processes: Any, domain: int, ros2_here: Any) -> None:
     node = processes.start(program('set_parameters_callback'))
     wait_for_node(domain, 'set_parameters_callback')
-    answer = ros2('param', 'set', '/set_parameters_callback', 'param1', '28.0')
+    answer = ros2_here('param', 'set', '/set_parameters_callback', 'param1', '28.0')
     assert answer.out == 'Set parameter successful\n'
-    values = [ros2('param', 'get', '/set_parameters_callback', f'param{n}').out for n in (1, 2)]
+    values = [
+        ros2_here('param', 'get', '/set_parameters_callback', f'param{n}').out for n in (1, 2)
+    ]
     assert values == ['Double value is: 28.0\n', 'Double value is: 4.0\n']
     end(node)
 
@@ -229,10 +231,10 @@ def board(processes: Any, tmp_path: Path) -> Any:
     )
 
 
-def test_a_blackboard_keeps_what_it_is_given(board: Any, domain: int, ros2: Any) -> None:
-    assert ros2('param', 'set', BOARD, 'new', '3.45').out == 'Set parameter successful\n'
+def test_a_blackboard_keeps_what_it_is_given(board: Any, domain: int, ros2_here: Any) -> None:
+    assert ros2_here('param', 'set', BOARD, 'new', '3.45').out == 'Set parameter successful\n'
     assert (
-        ros2('param', 'dump', BOARD).out.strip()
+        ros2_here('param', 'dump', BOARD).out.strip()
         == f"""\
 /{BOARD}:
   ros__parameters:
@@ -322,12 +324,12 @@ def test_numbers_of_fibonacci_come_one_by_one(processes: Any) -> None:
     assert client.wait(timeout=10) == 1
 
 
-def test_orders_that_int32_cannot_hold_are_rejected(processes: Any, ros2: Any) -> None:
+def test_orders_that_int32_cannot_hold_are_rejected(processes: Any, ros2_here: Any) -> None:
     server = processes.start(program('fibonacci_action_server'))
     send = ('action', 'send_goal', '/fibonacci', 'action_tutorials_interfaces/action/Fibonacci')
-    assert 'Goal was rejected.' in ros2(*send, '{order: 47}').out
+    assert 'Goal was rejected.' in ros2_here(*send, '{order: 47}').out
     find_line(server.stdout, r'order=47 is refused: the numbers up to order 46 fit an int32$')
-    answer = ros2(*send, '{order: 2}')
+    answer = ros2_here(*send, '{order: 2}')
     assert 'SUCCEEDED' in answer.out
     assert [int(n) for n in re.findall(r'^- (\d+)$', answer.out, re.MULTILINE)] == [0, 1, 1]
     end(server)

@@ -119,7 +119,7 @@ def lines_of(process: Any, number: int) -> list[str]:
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_node_records_what_ros2_bag_and_a_node_play(
-    processes: Any, ros2: Callable[..., Any], tmp_path: Path, number: int
+    processes: Any, ros2_here: Callable[..., Any], tmp_path: Path, number: int
 ) -> None:
     talker = processes.node('talker', 'talker')
     recorder = processes.start(sys.executable, '-c', RECORDER)
@@ -132,12 +132,12 @@ def test_a_node_records_what_ros2_bag_and_a_node_play(
 
     texts = [message.data for _, message, _ in read(tmp_path / 'my_bag')]
     assert texts == wrote
-    info = ros2('bag', 'info', 'my_bag', folder=tmp_path).out
+    info = ros2_here('bag', 'info', 'my_bag').out
     assert f'Topic: chatter | Type: std_msgs/msg/String | Count: {len(texts)} | ' in info
 
     listener = processes.node('listener', 'listener')
     if number == signal.SIGINT:
-        played = ros2('bag', 'play', 'my_bag', '--topics', '/chatter', folder=tmp_path)
+        played = ros2_here('bag', 'play', 'my_bag', '--topics', '/chatter')
         assert (played.status, played.err.count('\n')) == (0, 1)
     else:
         processes.start(sys.executable, '-c', PLAYER)
@@ -145,11 +145,11 @@ def test_a_node_records_what_ros2_bag_and_a_node_play(
 
 
 def test_a_program_makes_a_bag_without_a_node(
-    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+    processes: Any, ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     generator = processes.start(sys.executable, '-c', GENERATOR)
     assert generator.communicate(timeout=20)[0] == ''
-    info = ros2('bag', 'info', 'big_synthetic_bag', folder=tmp_path).out
+    info = ros2_here('bag', 'info', 'big_synthetic_bag').out
     assert re.search(r'Duration: +99\.000000000s\n', info)
     messages = read(tmp_path / 'big_synthetic_bag')
     assert [message.data for _, message, _ in messages] == list(range(100))

@@ -62,7 +62,7 @@ def publish(processes: Any, *arguments: str) -> None:
 
 
 @pytest.mark.usefixtures('domain')
-def test_packages_and_programs_have_the_names_of_jazzy(ros2: Any) -> None:
+def test_packages_and_programs_have_the_names_of_jazzy(ros2_here: Any) -> None:
     known = {
         'tf2_ros',
         'tf2_ros_py',
@@ -71,12 +71,14 @@ def test_packages_and_programs_have_the_names_of_jazzy(ros2: Any) -> None:
         'tf2_geometry_msgs',
         'tf2_sensor_msgs',
     }
-    assert {*known, 'sensor_msgs_py'} <= {*ros2('pkg', 'list').lines}
+    assert {*known, 'sensor_msgs_py'} <= {*ros2_here('pkg', 'list').lines}
     programs = ('buffer_server', 'static_transform_publisher', 'tf2_echo', 'tf2_monitor')
-    assert ros2('pkg', 'executables', 'tf2_ros').lines == [f'tf2_ros {name}' for name in programs]
-    assert ros2('pkg', 'executables', 'tf2_tools').lines == ['tf2_tools view_frames']
+    assert ros2_here('pkg', 'executables', 'tf2_ros').lines == [
+        f'tf2_ros {name}' for name in programs
+    ]
+    assert ros2_here('pkg', 'executables', 'tf2_tools').lines == ['tf2_tools view_frames']
     versions = [
-        ros2('pkg', 'xml', name, '-t', 'version').out for name in ('tf2_ros', 'tf2_ros_py')
+        ros2_here('pkg', 'xml', name, '-t', 'version').out for name in ('tf2_ros', 'tf2_ros_py')
     ]
     assert versions[0] == versions[1]
 
@@ -214,14 +216,14 @@ def test_static_transform_publisher_refuses_bad_arguments(
 
 
 def test_static_transform_publisher_tells_its_transform_as_parameters(
-    processes: Any, ros2: Any
+    processes: Any, ros2_here: Any
 ) -> None:
     publish(processes, '--z', '3', '--frame-id', 'odom', '--child-frame-id', 'base')
-    (name,) = ros2('node', 'list').lines
+    (name,) = ros2_here('node', 'list').lines
     assert re.fullmatch(r'/static_transform_publisher_[0-9A-Za-z]{16}', name)
     for parameter, value in (('translation.z', '3.0'), ('child_frame_id', 'base')):
-        assert ros2('param', 'get', name, parameter).out.split()[-1] == value
-    refused = ros2('param', 'set', name, 'translation.z', '4.0')
+        assert ros2_here('param', 'get', name, parameter).out.split()[-1] == value
+    refused = ros2_here('param', 'set', name, 'translation.z', '4.0')
     assert 'read-only' in refused.out + refused.err
 
 

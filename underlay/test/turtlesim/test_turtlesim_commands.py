@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import closing
 import json
 from pathlib import Path
@@ -53,22 +54,21 @@ INTERFACES = {
 }
 
 
+Ros2 = Callable[..., str]
+
+
 @pytest.fixture
-def ros2(processes: Processes) -> Ros2:
-    return Ros2(processes)
+def ros2(capfd: pytest.CaptureFixture[str]) -> Ros2:
+    """Return a function that runs the command to its end and returns what it printed."""
 
+    def run(*words: str) -> str:
+        done = run_here(capfd, 'ros2cli.cli', *words)
+        printed = '\n'.join((done.out + done.err).splitlines())
+        assert done.status == 0, printed
+        assert 'Traceback' not in printed
+        return printed
 
-class Ros2:
-    """Runs the command to its end and returns what it printed."""
-
-    def __init__(self, processes: Processes) -> None:
-        self._processes = processes
-
-    def __call__(self, *words: str, status: int = 0) -> str:
-        done = self._processes.start('ros2', *words)
-        assert done.wait(timeout_sec=30.0) == status, done.output
-        assert 'Traceback' not in done.output
-        return done.output
+    return run
 
 
 def echoed(ros2: Ros2, topic: str) -> Any:
@@ -77,9 +77,7 @@ def echoed(ros2: Ros2, topic: str) -> Any:
     return yaml.safe_load(shown.partition('---')[0])
 
 
-def test_the_package_has_its_programs_and_interfaces(
-    ros2: Ros2, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_the_package_has_its_programs_and_interfaces(ros2: Ros2) -> None:
     programs = ('draw_square', 'mimic', 'turtle_teleop_key', 'turtlesim_node')
     assert ros2('pkg', 'executables', 'turtlesim').split('\n') == [
         f'turtlesim {program}' for program in programs
@@ -87,10 +85,9 @@ def test_the_package_has_its_programs_and_interfaces(
     assert Path(ros2('pkg', 'prefix', 'turtlesim').strip(), 'lib', 'turtlesim', 'mimic').is_file()
     assert ros2('pkg', 'xml', 'turtlesim', '-t', 'version').split()[-1] == '1.8.3'
     assert sorted(ros2('interface', 'package', 'turtlesim').split()) == sorted(INTERFACES)
-    show = ('ros2cli.cli', 'interface', 'show', '--no-comments')
     for name in INTERFACES:
-        shown = run_here(capfd, *show, name)
-        lines = [line.strip() for line in shown.out.splitlines() if line.strip('- ')]
+        shown = ros2('interface', 'show', '--no-comments', name)
+        lines = [line.strip() for line in shown.splitlines() if line.strip('- ')]
         assert lines == INTERFACES[name], name
 
 
