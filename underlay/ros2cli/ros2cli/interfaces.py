@@ -9,7 +9,6 @@ from contextlib import contextmanager
 import os
 from typing import Any
 
-from ros2_diagnosis import nearest, packages
 from rosidl_runtime_py import get_interfaces, set_message_fields
 from rosidl_runtime_py.utilities import get_action, get_message, get_service
 import yaml
@@ -122,6 +121,8 @@ def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> An
         example = _EXAMPLES.get(what, '')
         raise CommandError(f'The passed {what} type is invalid: {error}{example}') from None
     except ModuleNotFoundError:
+        from ros2_diagnosis import packages
+
         if package not in packages.installed():
             raise CommandError(
                 f"The passed {what} type is invalid: package '{package}' not found: "
@@ -135,5 +136,7 @@ def _load(name: str, what: str, namespace: str, get: Callable[[str], Any]) -> An
     if last in names and name != full:
         reason = f"'{name}' is no {what}; did you mean '{full}'?"
     else:
+        from ros2_diagnosis import nearest
+
         reason = f"package '{package}' has no {what} '{last}'{nearest.hint(last, names)}"
     raise CommandError(f'The passed {what} type is invalid: {reason}') from None

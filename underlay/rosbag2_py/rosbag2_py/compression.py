@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from tempfile import gettempdir, TemporaryDirectory
 
 from rosbag2_py.errors import BagError
 from rosbag2_py.storages.interface import Storage, StoredFile
@@ -34,6 +33,8 @@ def read(storage: Storage, path: Path) -> StoredFile:
     """
     if path.suffix != SUFFIX:
         return storage.read(path)
+    from tempfile import gettempdir, TemporaryDirectory
+
     import zstandard
 
     try:
