@@ -146,7 +146,7 @@ def launch_here(
         capfd.readouterr()
         monkeypatch.setattr('launch.descriptions.executable._process_numbers', itertools.count(1))
         service = LaunchService(argv=list(arguments))
-        pairs = [word.split(':=', 1) for word in arguments]
+        pairs = [word.partition(':=')[::2] for word in arguments]
         included = IncludeLaunchDescription(str(path), launch_arguments=pairs)
         service.include_launch_description(LaunchDescription([included]))
         with warnings.catch_warnings():
