@@ -23,9 +23,14 @@ import pytest
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import serialize_message
+from ros2bag.recorder import Recorder
+from ros2cli.discovery import read_graph
+from ros2cli.node.direct import command_node
 from rosbag2_interfaces.msg import WriteSplitEvent
 from rosbag2_interfaces.srv import IsPaused, Pause, Resume, Snapshot, SplitBagfile
-from rosbag2_py.selection import EVENTS
+from rosbag2_py.bag_writer import BagWriter
+from rosbag2_py.selection import EVENTS, Selection
+from rosbag2_py.storages import STORAGES
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 
@@ -279,6 +284,31 @@ def test_a_topic_that_is_misspelt_is_told_from_one_to_come(processes: Any, tmp_p
     processes.node('talker', 'talker')
     words = ('bag', 'record', '-o', str(tmp_path / 'bag'), '--topics', '/chater', '/later')
     processes.ros2(*words, ready="Waiting for /chater, /later; did you mean '/chatter'?")
+
+
+def test_the_graph_is_worth_reading_while_a_wanted_topic_is_new(
+    domain: int, tmp_path: Path
+) -> None:
+    wanted = Selection()
+    wanted.topics = [CHATTER]
+    with (
+        SpunNodes(domain) as nodes,
+        BagWriter(tmp_path / 'bag', STORAGES['mcap']) as writer,
+        command_node(name='tape') as node,
+    ):
+        recorder = Recorder(node, writer, wanted, {})
+        student = nodes.start(Node, 'student')
+        student.create_publisher(String, '/other', 10)
+        student.create_subscription(String, CHATTER, lambda _: None, 10)
+        seen = node.node.count_subscribers
+        wait_until(lambda: seen(CHATTER) == 1, timeout_sec=10.0, what='a subscription')
+        assert not recorder.knows_new_topics()  # nobody publishes it
+        student.create_publisher(String, CHATTER, 10)
+        wait_until(recorder.knows_new_topics, timeout_sec=10.0, what='a publisher')
+        recorder.subscribe_to_new_topics(read_graph(quiet=True))
+        assert not recorder.knows_new_topics()
+    (topic,) = opened_reader(tmp_path / 'bag').get_all_topics_and_types()
+    assert topic.name == CHATTER
 
 
 def test_a_wrong_value_is_refused(ros2_here: Callable[..., Any]) -> None:
