@@ -210,7 +210,7 @@ def test_half_a_metadata_hides_no_bag(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGHUP])
 def test_more_signals_leave_a_whole_bag(
-    talk: Any, ros2: Callable[..., Any], tmp_path: Path, number: int
+    talk: Any, ros2_here: Callable[..., Any], tmp_path: Path, number: int
 ) -> None:
     recorder = talk.ros2('bag', 'record', '-o', str(tmp_path / 'run'), '/chatter')
     find_line(recorder.stdout, 'Recording...')
@@ -219,18 +219,18 @@ def test_more_signals_leave_a_whole_bag(
     assert 'Recording stopped: ' in recorder.stdout.read()
     assert recorder.returncode == 0
     assert (tmp_path / 'run' / 'metadata.yaml').is_file()
-    assert ros2('bag', 'info', str(tmp_path / 'run')).status == 0
+    assert ros2_here('bag', 'info', str(tmp_path / 'run')).status == 0
 
 
 def test_only_chosen_topics_are_recorded(
-    talk: Any, ros2: Callable[..., Any], tmp_path: Path
+    talk: Any, ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     _record(talk, tmp_path / 'run', '/chatter', until="Subscribed to topic '/chatter'")
-    assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
+    assert ros2_here('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
 
 
 def test_a_topic_that_comes_later_is_recorded(
-    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+    processes: Any, ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     recorder = processes.ros2(
         'bag', 'record', '-o', str(tmp_path / 'run'), '-e', 'chat', ready='Recording'
@@ -241,7 +241,7 @@ def test_a_topic_that_comes_later_is_recorded(
             break
     recorder.terminate()
     recorder.wait(timeout=10)
-    assert ros2('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
+    assert ros2_here('bag', 'info', '-t', str(tmp_path / 'run')).lines == ['/chatter']
 
 
 def _read(file: Path) -> list[tuple[str, bytes, int]]:

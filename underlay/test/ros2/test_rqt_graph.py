@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from http.client import HTTPConnection
 import json
 import os
@@ -42,6 +42,17 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
     assert 'Traceback' not in answer.stderr, answer.stderr
     return answer
+
+
+@pytest.fixture
+def draw_here(capfd: pytest.CaptureFixture[str]) -> Callable[..., None]:
+    """Return a function that draws the graph in this process, which has loaded what it needs."""
+
+    def draw(*words: str) -> None:
+        drawn = run_here(capfd, 'rqt_graph.main', *words)
+        assert drawn.status == 0, drawn.err
+
+    return draw
 
 
 def shapes(svg: str) -> dict[str, str]:
@@ -115,10 +126,10 @@ def test_svg_has_ellipses_for_nodes_boxes_for_topics_and_arrows(tmp_path: Path) 
 
 
 @pytest.mark.usefixtures('talk')
-def test_png_is_a_picture_of_the_same(tmp_path: Path) -> None:
+def test_png_is_a_picture_of_the_same(draw_here: Callable[..., None], tmp_path: Path) -> None:
     from matplotlib.image import imread
 
-    assert run('-o', str(tmp_path / 'graph.png')).returncode == 0
+    draw_here('-o', str(tmp_path / 'graph.png'))
     pixels = imread(tmp_path / 'graph.png')
     height, width, _ = pixels.shape
     assert width > 2 * height > 100
@@ -127,12 +138,12 @@ def test_png_is_a_picture_of_the_same(tmp_path: Path) -> None:
 
 
 def test_topics_of_one_side_are_drawn_only_in_the_view_of_all(
-    processes: Any, tmp_path: Path
+    processes: Any, draw_here: Callable[..., None], tmp_path: Path
 ) -> None:
     processes.node('latched', 'latched')
     drawn = {}
     for options in ((), ('--view', 'all'), ('--view', 'all', '--debug')):
-        assert run('-o', 'graph.svg', *options).returncode == 0
+        draw_here('-o', 'graph.svg', *options)
         drawn[options] = set(shapes((tmp_path / 'graph.svg').read_text()))
     active, everything, debug = drawn.values()
     assert active == {'node:/latched'}
@@ -141,11 +152,11 @@ def test_topics_of_one_side_are_drawn_only_in_the_view_of_all(
 
 
 def test_a_topic_over_which_nothing_arrives_is_red_and_says_why(
-    processes: Any, tmp_path: Path
+    processes: Any, draw_here: Callable[..., None], tmp_path: Path
 ) -> None:
     processes.node('robot', 'robot')
     processes.node('stamped_driver', 'driver')
-    assert run('-o', 'graph.svg').returncode == 0
+    draw_here('-o', 'graph.svg')
     svg = (tmp_path / 'graph.svg').read_text()
     (faulty,) = groups(svg, 'faulty')
     assert 'topic' in faulty.attrib['class'].split()
@@ -153,10 +164,12 @@ def test_a_topic_over_which_nothing_arrives_is_red_and_says_why(
     assert '/driver publishes geometry_msgs/msg/TwistStamped' in fault
 
 
-def test_two_nodes_of_one_name_are_one_red_ellipse(processes: Any, tmp_path: Path) -> None:
+def test_two_nodes_of_one_name_are_one_red_ellipse(
+    processes: Any, draw_here: Callable[..., None], tmp_path: Path
+) -> None:
     for _ in range(2):
         processes.node('plain', 'same')
-    assert run('-o', 'graph.svg').returncode == 0
+    draw_here('-o', 'graph.svg')
     svg = (tmp_path / 'graph.svg').read_text()
     assert shapes(svg) == {'node:/same': NODE}
     assert '2 nodes have this name' in svg
@@ -179,8 +192,10 @@ def test_bad_arguments_are_refused(capfd: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.usefixtures('domain')
-def test_a_domain_without_nodes_has_a_picture_that_says_so(tmp_path: Path) -> None:
-    assert run('-o', 'empty.svg').returncode == 0
+def test_a_domain_without_nodes_has_a_picture_that_says_so(
+    draw_here: Callable[..., None], tmp_path: Path
+) -> None:
+    draw_here('-o', 'empty.svg')
     assert 'No nodes are running' in (tmp_path / 'empty.svg').read_text()
 
 
@@ -226,11 +241,11 @@ def test_a_reading_that_fails_is_told_and_the_next_one_shown(
     assert capsys.readouterr().err == 'nothing newer is shown: OSError: too many\n'
 
 
-def test_it_is_a_package_of_the_ament_prefix() -> None:
+def test_it_is_a_package_of_the_ament_prefix(ros2_here: Callable[..., Any]) -> None:
     def ros2(*words: str) -> str:
-        return subprocess.run(
-            ['ros2', 'pkg', *words], capture_output=True, text=True, check=True
-        ).stdout
+        answer = ros2_here('pkg', *words)
+        assert answer.status == 0, answer.err
+        return str(answer.out)
 
     assert 'rqt_graph' in ros2('list').split()
     assert ros2('executables', 'rqt_graph') == 'rqt_graph rqt_graph\n'

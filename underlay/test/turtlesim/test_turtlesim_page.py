@@ -41,7 +41,7 @@ from std_srvs.srv import Empty
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute
 
 BLUE, PEN = (69, 86, 255), (0xB3, 0xB8, 0xFF)
-NODE = ('ros2', 'run', 'turtlesim', 'turtlesim_node')
+NODE = (str(Path(sys.prefix) / 'lib' / 'turtlesim' / 'turtlesim_node'),)
 ADDRESS = re.compile(r'http://127\.0\.0\.1:\d+/')
 
 
@@ -346,10 +346,11 @@ def test_hostile_requests_are_refused(address: str) -> None:
 
 def listening(process: Process) -> list[tuple[str, int]]:
     """Return where a process and its children wait for connections."""
+    started = psutil.Process(process.pid)
     return [
         tuple(connection.laddr)
-        for child in psutil.Process(process.pid).children(recursive=True)
-        for connection in child.net_connections('tcp')
+        for each in (started, *started.children(recursive=True))
+        for connection in each.net_connections('tcp')
         if connection.status == psutil.CONN_LISTEN
     ]
 
