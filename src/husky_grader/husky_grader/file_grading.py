@@ -50,11 +50,11 @@ def grade_file(
     :param each_second: called with every second of simulated time.
     :raises OSError: when the report cannot be written.
     """
-    from husky_grader.run.in_process import drive_route  # MuJoCo takes its time
-
     begun = time.monotonic()
     try:
         route = plan_route(load_course(file))
+        from husky_grader.run.in_process import drive_route  # MuJoCo takes its time
+
         record, drive = drive_route(
             route, world=world, record=folder / FILE_NAME, each_second=each_second
         )

@@ -18,7 +18,6 @@ from husky_runtime.command_line import BAD_INPUT
 
 from husky_grader.batch.shards import parse_shard
 from husky_grader.playpen import default_rubric
-from husky_grader.submission.limits import BUILT, COPY, IGNORED
 from husky_grader.tally import Tally
 
 if TYPE_CHECKING:  # they take their time
@@ -150,6 +149,8 @@ def _check_report(
 
     :raises ValueError: if one would be.
     """
+    from husky_grader.submission.limits import BUILT, COPY, IGNORED
+
     report = os.path.realpath(options.report)
     for each in submissions:
         place = Path(report) if _is_alone(submissions, options) else Path(report, each.id)
@@ -170,6 +171,8 @@ def _check_report(
 
 def _is_taken(folder: Path, source: Path) -> bool:
     """Tell whether a folder for the grader is a person's, or has what was handed in."""
+    from husky_grader.submission.limits import IGNORED
+
     return source.is_relative_to(folder) or (
         folder.is_dir() and not (folder / IGNORED).exists() and any(folder.iterdir())
     )

@@ -8,8 +8,8 @@ from pathlib import Path
 import subprocess
 import sys
 
+from husky_grader.clone import CLONE
 from husky_grader.jail import find_sandbox, Jail, remove
-from husky_grader.jail.folders import CLONE
 from husky_grader.lab.build_step import build_step
 from husky_grader.lab.file_steps import find_manifests, IGNORED, package_step
 from husky_grader.lab.lab import grade_lab

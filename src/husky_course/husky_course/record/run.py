@@ -48,7 +48,8 @@ class Run(Columns[Array]):
             return begin + np.arange(len(x))
         way_m = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
         evenly = np.searchsorted(way_m, np.linspace(0.0, way_m[-1], most - 2))
-        return begin + np.unique([0, *np.minimum(evenly, len(x) - 1), len(x) - 1])
+        some = {0, *np.minimum(evenly, len(x) - 1).tolist(), len(x) - 1}
+        return begin + np.array(sorted(some))  # np.unique would load numpy.ma, which takes time
 
 
 def read_run(record: Record, robot: str | None = None) -> Run:

@@ -17,7 +17,7 @@ from husky_sim.world import default_worlds, load_world
 import husky_course
 import husky_driver
 import husky_grader
-from husky_grader.jail.folders import CLONE
+from husky_grader.clone import CLONE
 import husky_runtime
 import husky_sim
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from husky_course.printable import printable
 
 from husky_grader.file_grading import Grade
+from husky_grader.folder_names import folder_names
 from husky_grader.report.files import REPORT_FILES
 from husky_grader.spreadsheet import write_table
-from husky_grader.submission.names import folder_names
 
 _OUR_FILES = ('grades.csv', '.grades.part.csv', *REPORT_FILES)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import sys
 from typing import Literal, NamedTuple
 
+from husky_grader.clone import CLONE
 from husky_grader.jail.limits import Limits, MB
 
 # The programs that start a command and hold a network, and the Python by which they run: not that
@@ -25,7 +26,6 @@ _ETC = (
     *('group', 'hosts', 'nsswitch.conf', 'passwd', 'protocols', 'services', 'os-release'),
     *('locale.alias', 'locale.conf', 'localtime', 'mime.types', 'timezone'),
 )
-CLONE = Path(__file__).resolve().parents[4]
 # The folders of the clone by which ROS runs; what else lies there may be reports of others.
 _ROS = ('.venv', 'underlay')
 # The lab's own packages: there are solutions among them, and how they are judged.

@@ -23,6 +23,7 @@ import re
 
 from husky_course.printable import printable
 
+from husky_grader.folder_names import composed, harmless
 from husky_grader.graded import Graded
 from husky_grader.outputs.class_summary import as_points
 from husky_grader.outputs.feedback import write_zip
@@ -30,7 +31,6 @@ from husky_grader.outputs.matching import match, Matching, told, told_instead
 from husky_grader.outputs.sheet import like, number_in, Sheet
 from husky_grader.outputs.student_page import feedback_files, why_refused
 from husky_grader.submission import Submission
-from husky_grader.submission.names import composed, harmless
 
 LMS = 'moodle'
 _OURS = '<p>Graded by ./lab grade: '  # with this a comment begins that the next one replaces

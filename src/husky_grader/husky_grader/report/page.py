@@ -2,13 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """A page of HTML that needs no network and no script, in the look of all reports."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from husky_course.printable import printable
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 _STYLE = Path(__file__).with_name('report.css')
 
@@ -25,6 +30,9 @@ def rendered(template: Path, styles: Sequence[Path] = (), **values: object) -> s
 
 @cache
 def _environment(folder: Path) -> Environment:
+    # It takes its time, and who hands pages to workers makes none.
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
     # Names come from others: control characters are shown, HTML is escaped.
     return Environment(
         loader=FileSystemLoader(folder),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from husky_course.printable import printable
 
-from husky_grader.jail.folders import CLONE
+from husky_grader.clone import CLONE
 
 MAX_READ = 32_000  # bytes, of the beginning and of the end each
 MAX_SHOWN = 4_000  # characters

@@ -15,10 +15,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 import re
 
+from husky_grader.folder_names import composed, is_of_a_word
 from husky_grader.submission.kinds import HEAD_BYTES, kind_of
 from husky_grader.submission.limits import Refused
 from husky_grader.submission.listing import Listing
-from husky_grader.submission.names import composed, is_of_a_word
 from husky_grader.submission.submission import Submission
 
 _NUMBER = re.compile(r'[1-9]\d{0,17}', re.ASCII)

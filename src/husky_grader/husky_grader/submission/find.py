@@ -10,9 +10,11 @@ import re
 
 from husky_course.printable import printable
 
+from husky_grader.folder_names import folder_names
 from husky_grader.submission.canvas import canvas_submissions
 from husky_grader.submission.git import is_bare
 from husky_grader.submission.gradescope import gradescope_submissions
+from husky_grader.submission.kinds import without_ending
 from husky_grader.submission.limits import FOLDERS_OF_COLCON, Refused
 from husky_grader.submission.listing import (
     FolderListing,
@@ -23,7 +25,6 @@ from husky_grader.submission.listing import (
     visible,
 )
 from husky_grader.submission.moodle import moodle_submissions
-from husky_grader.submission.names import folder_names, without_ending
 from husky_grader.submission.submission import Submission
 
 _NAME = re.compile(rb'<name>\s*([^<\s]+)')

@@ -1,7 +1,8 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a file is, by its content and not by its name."""
+"""What a file is: by its content, and what its name says."""
 
+import re
 from typing import Literal
 
 Kind = Literal['folder', 'git', 'zip', 'tar', 'yaml', 'unknown']
@@ -19,6 +20,7 @@ _NOT_TAKEN = {
     b'\x28\xb5\x2f\xfd': 'compressed with Zstandard',
     b'%PDF': 'a PDF',
 }
+_ENDINGS = re.compile(r'(?<=.)(\.tar)?\.(zip|tar|t[gbx]z|tbz2|gz|bz2|xz|ya?ml)$', re.IGNORECASE)
 
 
 def kind_of(head: bytes, name: str) -> Kind:
@@ -37,6 +39,21 @@ def kind_of(head: bytes, name: str) -> Kind:
 def is_called_yaml(name: str) -> bool:
     """Tell whether a file has the ending of a waypoint file."""
     return name.lower().endswith(('.yaml', '.yml'))
+
+
+def without_ending(name: str) -> str:
+    """
+    Return the name of a file without the ending of an archive or of a waypoint file.
+
+    >>> without_ending('CSE461_07_03.tar.gz')
+    'CSE461_07_03'
+    """
+    return _ENDINGS.sub('', name)
+
+
+def is_called_archive(name: str) -> bool:
+    """Tell whether a file has the ending of an archive."""
+    return not is_called_yaml(name) and without_ending(name) != name
 
 
 def why_not(head: bytes) -> str:

@@ -15,9 +15,8 @@ from husky_course.files import first_bytes
 from husky_grader.submission.archives import opened_zip
 from husky_grader.submission.entries import is_left_out, refusing_what_is_broken
 from husky_grader.submission.git import is_bare
-from husky_grader.submission.kinds import HEAD_BYTES, Kind, kind_of, why_not
+from husky_grader.submission.kinds import HEAD_BYTES, Kind, kind_of, why_not, without_ending
 from husky_grader.submission.limits import Refused
-from husky_grader.submission.names import without_ending
 from husky_grader.submission.submission import Submission
 
 

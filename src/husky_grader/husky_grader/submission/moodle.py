@@ -13,8 +13,9 @@ mod/assign/classes/downloader.php, github.com/moodle/moodle.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from husky_grader.folder_names import composed
+from husky_grader.submission.kinds import without_ending
 from husky_grader.submission.listing import Listing
-from husky_grader.submission.names import composed, without_ending
 from husky_grader.submission.submission import Submission
 
 _MARK = '_assignsubmission_'

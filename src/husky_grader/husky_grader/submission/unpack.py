@@ -23,9 +23,8 @@ from husky_grader.submission.entries import (
     refusing_what_is_broken,
 )
 from husky_grader.submission.git import is_bare, tar_of
-from husky_grader.submission.kinds import HEAD_BYTES, kind_of
+from husky_grader.submission.kinds import HEAD_BYTES, kind_of, without_ending
 from husky_grader.submission.limits import Limits, Meter, Refused
-from husky_grader.submission.names import without_ending
 from husky_grader.submission.submission import Submission
 from husky_grader.submission.tree import TreeWriter
 from husky_grader.submission.workspace import settle, Workspace

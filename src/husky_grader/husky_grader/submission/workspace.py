@@ -8,9 +8,9 @@ from pathlib import Path
 import shutil
 from typing import Literal
 
-from husky_grader.submission.kinds import HEAD_BYTES, is_called_yaml, kind_of
+from husky_grader.folder_names import folder_names
+from husky_grader.submission.kinds import HEAD_BYTES, is_called_archive, is_called_yaml, kind_of
 from husky_grader.submission.limits import BUILT, COPY, FOLDERS_OF_COLCON, IGNORED, Refused
-from husky_grader.submission.names import folder_names, is_called_archive
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
 _MANIFEST = 'package.xml'

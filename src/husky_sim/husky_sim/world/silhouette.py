@@ -3,6 +3,7 @@
 """Measures the outlines of what stands in a world: see `outline`."""
 
 from collections.abc import Sequence
+from functools import cache
 import math
 
 from husky_course.frames import Array
@@ -103,6 +104,7 @@ def _about_z(angle_rad: float) -> Array:
     return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
 
 
+@cache
 def _circle_of_directions() -> Array:
     angles = np.arange(_DIRECTIONS) * (math.tau / _DIRECTIONS)
     return np.stack([np.cos(angles), np.sin(angles)], axis=1)

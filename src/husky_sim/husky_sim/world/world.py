@@ -12,6 +12,7 @@ outermost body around it (or after itself where it lies in the world body).
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 import hashlib
 import math
 from pathlib import Path
@@ -60,10 +61,15 @@ class World:
     model: mujoco.MjModel
     robots: tuple[RobotStart, ...]
     flat_ground: tuple[FlatGround, ...]
-    obstacles: tuple[Outline, ...]
     names: tuple[str, ...]  # of owners: first the robots, then the obstacles
     owners: Indices  # of every geom: its place in names, or negative
     steps_per_period: int
+
+    @cached_property
+    def obstacles(self) -> tuple[Outline, ...]:
+        """Return the outlines of what stands in it; measured when somebody asks for them."""
+        data = _standing(self.path, self.model)
+        return _outlines(self.model, data, self.names, self.owners, len(self.robots))
 
     @property
     def digest(self) -> str:
@@ -136,7 +142,6 @@ def load_world(
         model=model,
         robots=tuple(robots),
         flat_ground=faces,
-        obstacles=_outlines(model, data, names, owners, len(robots)),
         names=tuple(names),
         owners=owners,
         steps_per_period=steps,

@@ -5,14 +5,10 @@
 from collections.abc import Iterable, Sequence
 from itertools import count
 from pathlib import Path
-import re
 import unicodedata
-
-from husky_grader.submission.kinds import is_called_yaml
 
 _HARMLESS = ' .+()=,@-'  # beside letters, digits and _
 _LONGEST_NAME = 100  # bytes
-_ENDINGS = re.compile(r'(?<=.)(\.tar)?\.(zip|tar|t[gbx]z|tbz2|gz|bz2|xz|ya?ml)$', re.IGNORECASE)
 
 
 def folder_names(places: Sequence[Path], *, taken: Iterable[str] = ()) -> list[str]:
@@ -50,21 +46,6 @@ def composed(name: str) -> str:
 def is_of_a_word(char: str) -> bool:
     """Tell whether it is a letter, a digit, an underscore, or a mark on a letter."""
     return char.isalnum() or unicodedata.category(char) in ('Mn', 'Mc', 'Me', 'Pc')
-
-
-def without_ending(name: str) -> str:
-    """
-    Return the name of a file without the ending of an archive or of a waypoint file.
-
-    >>> without_ending('CSE461_07_03.tar.gz')
-    'CSE461_07_03'
-    """
-    return _ENDINGS.sub('', name)
-
-
-def is_called_archive(name: str) -> bool:
-    """Tell whether a file has the ending of an archive."""
-    return not is_called_yaml(name) and without_ending(name) != name
 
 
 def _unique(name: str, taken: set[str]) -> str:
