@@ -1,10 +1,8 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
 import csv
-from dataclasses import dataclass
 import hmac
 import json
 import multiprocessing
@@ -13,10 +11,9 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
-from tempfile import mkdtemp
-import time
 from typing import Any
 
+from husky_grader.batch import key
 from husky_grader.batch.batch import Batch, How
 from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, MOST_BYTES
@@ -26,6 +23,7 @@ from husky_grader.batch.workers import workers
 from husky_grader.file_grading import Grade
 from husky_grader.file_job import FileJob
 from husky_grader.grade import main as grade
+from playpen_testing.batch_jobs import Generated, Long, OwnEnd
 from playpen_testing.waiting import wait_until
 import pytest
 
@@ -86,24 +84,22 @@ def test_a_large_file_that_has_changed_at_its_end_has_another_key(tmp_path: Path
     assert key_of([large], {}) != before
 
 
-def test_another_underlay_gives_another_key(tmp_path: Path) -> None:
-    script = (
-        'import sys; from pathlib import Path; from husky_grader.batch import key; '
-        'key.UNDERLAY = Path(sys.argv[1]); print(key.key_of([], {}))'
-    )
+def test_another_underlay_gives_another_key(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(key, 'UNDERLAY', tmp_path)
+    monkeypatch.setattr(key, '_programs', key._programs.__wrapped__)  # as each call finds them
     keys = []
     for text in ('delay_sec = 1', 'delay_sec = 2', 'delay_sec = 1'):
         (tmp_path / 'launch.py').write_text(text)
-        command = [sys.executable, '-c', script, str(tmp_path)]
-        environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
-        keys.append(subprocess.run(command, env=environment, capture_output=True).stdout)
+        keys.append(key_of([], {}))
     assert keys[0] == keys[2] != keys[1]
 
 
 def test_a_broken_file_does_not_stop_the_others(
     files: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert grade([*files, '--report', str(tmp_path / 'report')]) == 1
+    assert grade([*files, '--jobs', '1', '--report', str(tmp_path / 'report')]) == 1
     with (tmp_path / 'report' / 'grades.csv').open(newline='') as stream:
         rows = list(csv.DictReader(stream))
     assert [row['file'] for row in rows] == files
@@ -260,7 +256,7 @@ def test_names_that_lead_elsewhere_or_are_ours_break_nothing(
     for name in names:
         (tmp_path / 'class' / name).write_text('speed: fast\n' if name != 'ok.yaml' else SHORT)
     files = [str(tmp_path / 'class' / name) for name in names]
-    assert grade([*files, '--report', str(tmp_path / 'report')]) == 1
+    assert grade([*files, '--jobs', '1', '--report', str(tmp_path / 'report')]) == 1
     with (tmp_path / 'report' / 'grades.csv').open(newline='') as stream:
         rows = list(csv.DictReader(stream))
     assert [row['passed'] for row in rows] == ['False'] * 5 + ['True']
@@ -278,32 +274,37 @@ def test_every_file_has_a_folder_of_its_own() -> None:
 
 
 def test_a_forged_report_is_graded_again(files: list[str], tmp_path: Path) -> None:
-    folder = tmp_path / 'report' / 'path'
-    (true,) = graded(files[2:], tmp_path / 'report')
+    places = [tmp_path / f'path_{number}.yaml' for number in range(4)]
+    for place in places:
+        place.write_bytes(Path(files[2]).read_bytes())
+    copies = list(map(str, places))
+    (true, *others) = graded(copies, tmp_path / 'report')
     assert true.report is not None
-    assert not true.passed
+    assert not any(result.passed for result in (true, *others))
     content = {**true.report, 'passed': True, 'score': 100.0, 'collisions': []}
     better = json.dumps(content, indent=2) + '\n'
     # As one who knows all but the secret would make it.
-    key = FileJob(files[2], 'path').key().encode()
-    seal = hmac.new(b'', key + b'\n' + better.encode(), 'sha256').hexdigest()
-    for text, its_seal in (('{}', ''), ('[]', ''), (better, ''), (better, seal)):
+    its_key = FileJob(copies[3], 'path_3').key().encode()
+    seal = hmac.new(b'', its_key + b'\n' + better.encode(), 'sha256').hexdigest()
+    forged = (('{}', ''), ('[]', ''), (better, ''), (better, seal))
+    for place, (text, its_seal) in zip(places, forged, strict=True):
+        folder = tmp_path / 'report' / place.stem
         (folder / 'report.json').write_text(text)
         if its_seal:
             (folder / '.graded').write_text(its_seal)
-        (again,) = graded(files[2:], tmp_path / 'report')
-        assert again.score == true.score, text
-        assert not again.passed, text
+    results = graded(copies, tmp_path / 'report')
+    assert [(result.score, result.passed) for result in results] == [(true.score, False)] * 4
 
 
-def test_the_secret_is_only_the_users(files: list[str], tmp_path: Path, state: Path) -> None:
-    (first,) = graded(files[:1], tmp_path / 'report')
+def test_the_secret_is_only_the_users(tmp_path: Path, state: Path) -> None:
+    job = Generated('job')
+    (first,) = Batch([job], tmp_path, how=ONE).run()
     (secret,) = (path for path in state.rglob('*') if path.is_file())
     assert secret.stat().st_mode & 0o777 == 0o600
     before = secret.read_bytes()
     secret.chmod(0o644)  # others may have read it
-    (second,) = graded(files[:1], tmp_path / 'report')
-    assert second.score == first.score
+    (second,) = Batch([job], tmp_path, how=ONE).run()
+    assert second == first == Outcome(job.content())  # done again
     assert secret.read_bytes() != before
     assert secret.stat().st_mode & 0o777 == 0o600
 
@@ -318,17 +319,17 @@ def test_graders_that_find_no_secret_at_once_have_one(tmp_path: Path) -> None:
 
 
 def test_where_no_secret_can_be_kept_everything_is_graded_again(
-    files: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / 'file').touch()
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'file'))
-    times = []
+    job, report, times = Generated('job'), tmp_path / 'report', []
     for _ in range(2):
-        (result,) = graded(files[:1], tmp_path / 'report')
-        assert result.passed
-        times.append((tmp_path / 'report' / 'path' / 'report.json').stat().st_mtime_ns)
+        (outcome,) = Batch([job], report, how=ONE).run()
+        assert outcome == Outcome(job.content())
+        times.append((report / 'job' / 'result.json').stat().st_mtime_ns)
     assert times[0] != times[1]
-    assert not (tmp_path / 'report' / 'path' / '.graded').exists()
+    assert not (report / 'job' / '.graded').exists()
 
 
 @pytest.mark.parametrize('limit_bytes', [20_000, 30_000])
@@ -343,7 +344,7 @@ def test_a_full_disk_gives_one_line_and_the_table(
         '    sys.exit(main(sys.argv[1:]))\n'
     )
     (tmp_path / 'limited.py').write_text(limited)
-    command = [sys.executable, str(tmp_path / 'limited.py'), *files]
+    command = [sys.executable, str(tmp_path / 'limited.py'), *files, '--jobs', '1']
     command += ['--report', str(tmp_path / 'report')]
     environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
@@ -356,22 +357,9 @@ def test_a_full_disk_gives_one_line_and_the_table(
     assert 'its report cannot be written: File too large' in line
 
 
-@dataclass(frozen=True)
-class OwnEnd(FileJob):
-    """A job that tells its process, or ends it by a signal."""
-
-    by: int = 0
-
-    def run(self, _folder: Path, _alive: Callable[[], object]) -> Outcome:
-        if self.by:
-            os.kill(os.getpid(), self.by)
-        os.kill(os.getpid(), signal.SIGINT)  # as Ctrl-C does, which the grader itself hears
-        return Outcome({'process': os.getpid()})
-
-
 def test_workers_that_die_as_soon_as_they_begin_cost_their_jobs_only(tmp_path: Path) -> None:
     ends = (signal.SIGSEGV, 0, signal.SIGKILL, 0)
-    jobs = [OwnEnd('', f'{number}', by=ends[number % 4]) for number in range(16)]
+    jobs = [OwnEnd(f'{number}', by=ends[number % 4]) for number in range(16)]
     with workers(2) as start:
         outcomes = [future.result(30.0) for future in [start(job, tmp_path) for job in jobs]]
     assert [outcome.content is None for outcome in outcomes] == [bool(job.by) for job in jobs]
@@ -385,22 +373,12 @@ def test_workers_that_die_as_soon_as_they_begin_cost_their_jobs_only(tmp_path: P
 
 def test_a_worker_that_dies_between_two_jobs_costs_none(tmp_path: Path) -> None:
     with workers(1) as start:
-        processes = [process_of(start(OwnEnd('', 'job'), tmp_path))]
+        processes = [process_of(start(OwnEnd('job'), tmp_path))]
         os.kill(processes[0], signal.SIGKILL)
         stat = Path(f'/proc/{processes[0]}/stat')
         wait_until(lambda: ') Z ' in stat.read_text(), what='its end', timeout_sec=20.0)
-        processes += [process_of(start(OwnEnd('', 'job'), tmp_path))]
+        processes += [process_of(start(OwnEnd('job'), tmp_path))]
     assert processes[0] != processes[1]
-
-
-@dataclass(frozen=True)
-class Long(FileJob):
-    """A job that writes its process and a temporary folder into its folder, and does not end."""
-
-    def run(self, folder: Path, _alive: Callable[[], object]) -> Outcome:
-        (folder / f'{self.name}.pid').write_text(f'{os.getpid()} {mkdtemp()}\n')
-        time.sleep(600.0)
-        return Outcome(None)
 
 
 def test_a_second_ctrl_c_leaves_no_worker_and_no_file(
@@ -415,7 +393,7 @@ def test_a_second_ctrl_c_leaves_no_worker_and_no_file(
     def interrupted(files: list[Path]) -> None:
         with workers(2) as start:
             for file in files:
-                start(Long('', file.stem), tmp_path)
+                start(Long(file.stem), tmp_path)
             wait_until(
                 lambda: all(file.is_file() and file.stat().st_size for file in files),
                 timeout_sec=20.0,

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A class in shares, on a cluster, and killed: the table is that of one call."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, redirect_stdout
 from dataclasses import dataclass
-import hashlib
 import io
 import json
 import os
@@ -19,11 +18,11 @@ from tempfile import TemporaryDirectory
 import time
 
 from husky_grader.batch.batch import Batch, How
-from husky_grader.batch.job import Outcome
 from husky_grader.batch.sealed import Seals
 from husky_grader.batch.shards import parse_shard, Shard
 from husky_grader.grade import main as grade
 from husky_grader.playpen import config_folder
+from playpen_testing.batch_jobs import Generated
 from playpen_testing.processes import Child
 from playpen_testing.waiting import wait_until
 import pytest
@@ -33,10 +32,12 @@ SHORT = 'speed: 0.8\nwaypoints: [[0, 0], [-%g, 0]]\n'
 ONE = ['--jobs', '1']  # a worker takes longer to start than these files
 
 
-@pytest.fixture(autouse=True)
-def state(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(scope='module', autouse=True)
+def state(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Keep the grader's secret away from the user's own."""
-    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path_factory.mktemp('state')))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv('XDG_STATE_HOME', str(tmp_path_factory.mktemp('state')))
+        yield
 
 
 @dataclass(frozen=True)
@@ -62,32 +63,12 @@ def serial(tmp_path_factory: pytest.TempPathFactory) -> Serial:
     return Serial(files, out.getvalue().splitlines()[:7], tables(folder / 'report'))
 
 
-@dataclass(frozen=True)
-class Generated:
-    """A job whose result is a function of its name, as a real one's is of what was handed in."""
-
-    name: str
-
-    result_file = 'result.json'
-
-    def key(self) -> str:
-        return f'key of {self.name}'
-
-    def is_result(self, content: object) -> bool:
-        return isinstance(content, dict)
-
-    def forget(self, folder: Path) -> None:
-        (folder / self.result_file).unlink(missing_ok=True)
-
-    def run(self, folder: Path, alive: Callable[[], object]) -> Outcome:
-        alive()
-        folder.mkdir(parents=True)
-        content = self.content()
-        (folder / self.result_file).write_text(json.dumps(content))
-        return Outcome(content)
-
-    def content(self) -> dict[str, int]:
-        return {'score': int(hashlib.sha256(self.name.encode()).hexdigest()[:4], 16)}
+@pytest.fixture(scope='module')
+def first_two(serial: Serial, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the report on the first two files, as of a shard; a test changes a copy of it."""
+    report = tmp_path_factory.mktemp('first_two') / 'report'
+    assert grade([*serial.files[:2], *ONE, '--report', str(report)]) == 0
+    return report
 
 
 def test_10000_results_in_shards_that_died_are_the_serial_ones(tmp_path: Path) -> None:
@@ -126,23 +107,24 @@ def test_the_files_of_collected_shards_are_those_of_one_call(
     assert took.stat().st_mtime_ns == (tmp_path / 'shard_1/s0/report.json').stat().st_mtime_ns
 
 
-def test_a_collected_report_takes_nothing_of_a_person(serial: Serial, tmp_path: Path) -> None:
-    command = [*serial.files[:2], *ONE, '--report']
-    grade([*command, str(tmp_path / 'shard')])
+def test_a_collected_report_takes_nothing_of_a_person(
+    serial: Serial, first_two: Path, tmp_path: Path
+) -> None:
     (own := tmp_path / 'all' / 's0').mkdir(parents=True)
     (own / 'notes.txt').write_text('called me on Monday')
     (own / 'path.png').write_text('of an earlier drive')
-    grade([*command, str(tmp_path / 'all'), '--collect', str(tmp_path / 'shard')])
+    report = ['--report', str(tmp_path / 'all')]
+    grade([*serial.files[:2], *ONE, *report, '--collect', str(first_two)])
     assert (own / 'notes.txt').read_text() == 'called me on Monday'
-    collected = {path.name for path in (tmp_path / 'shard' / 's0').iterdir()}
+    collected = {path.name for path in (first_two / 's0').iterdir()}
     assert {path.name for path in own.iterdir()} == {*collected, 'notes.txt'}
 
 
 def test_a_report_that_cannot_be_copied_is_told_in_a_line(
-    serial: Serial, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    serial: Serial, first_two: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shard, report = tmp_path / 'shard', tmp_path / 'all'
-    grade([*serial.files[:2], *ONE, '--report', str(shard)])
+    shutil.copytree(first_two, shard)
     os.mkfifo(shard / 's0' / 'pipe')
     command = [*serial.files[:2], *ONE, '--report', str(report), '--collect', str(shard)]
     capsys.readouterr()
@@ -182,10 +164,10 @@ def tables(report: Path) -> str:
 
 
 def test_a_forged_shard_is_graded_again(
-    serial: Serial, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    serial: Serial, first_two: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shard, files = tmp_path / 'shard', serial.files
-    grade([*files[:2], *ONE, '--report', str(shard)])
+    shutil.copytree(first_two, shard)
     report = shard / 's0' / 'report.json'
     report.write_text(report.read_text().replace('"score": 100.0', '"score": 101.0'))
     assert '101.0' in report.read_text()
@@ -242,14 +224,15 @@ def test_machines_that_share_a_secret_take_results_of_each_other(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    times, told, files = {}, {}, serial.files
+    times, told, files, there = {}, {}, serial.files, tmp_path / 'there'
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of one'))
+    monkeypatch.setenv('HUSKY_GRADING_SECRET', 'a' * 32)
+    grade([*files[:2], *ONE, '--report', str(there)])
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of another'))
     for secret in ('a' * 32, 'b' * 32):
-        monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of one'))
-        monkeypatch.setenv('HUSKY_GRADING_SECRET', 'a' * 32)
-        there, here = tmp_path / f'there {secret[0]}', tmp_path / f'here {secret[0]}'
-        grade([*files[:2], *ONE, '--report', str(there)])
-        monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path / 'state of another'))
         monkeypatch.setenv('HUSKY_GRADING_SECRET', secret)
+        here = tmp_path / f'here {secret[0]}'
+        capsys.readouterr()
         grade([*files[:2], *ONE, '--report', str(here), '--collect', str(there)])
         written = [folder / 's0' / 'report.json' for folder in (there, here)]
         told[secret[0]] = capsys.readouterr().err
@@ -273,7 +256,7 @@ def test_a_grader_killed_at_ten_moments_comes_to_the_same_table(
         with subprocess.Popen(
             command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         ) as running:
-            time.sleep(chance.uniform(0.2, 2.0))  # a moment, not a fact that is waited for
+            time.sleep(chance.uniform(0.1, 1.2))  # a moment, not a fact that is waited for
             running.kill()
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     assert done.returncode == 1, done.stderr
