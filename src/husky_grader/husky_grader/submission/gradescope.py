@@ -94,16 +94,36 @@ def _read(listing: Listing) -> dict[str, list[_Submitter]]:
             raise
         raise Refused(f'not valid YAML ({" ".join(str(error).split())})') from None
     submitters: dict[str, list[_Submitter]] = {}
-    size = 0
+    size, known = 0, dict[int, tuple[list[_Submitter], int]]()
     for folder, facts in _pairs(root).items():
-        submitters[folder] = []
-        for each in _items(_pairs(facts).get(':submitters')):
-            words = [_text(_pairs(each).get(key)) for key in (':name', ':sid', ':email')]
-            size += _LEAST_BYTES + sum(map(len, words))
-            if size > _MOST_BYTES:  # by aliases each folder may have all that the file has
-                raise Refused(f'larger than {_MOST_BYTES / 1e6:g} MB with its aliases written out')
-            submitters[folder].append(_Submitter(*words))
+        given = _pairs(facts).get(':submitters')
+        if id(given) not in known:  # by aliases each folder may have the same list
+            known[id(given)] = _submitters(_items(given), _MOST_BYTES - size)
+        submitters[folder], more = known[id(given)]
+        size += more
+        if size > _MOST_BYTES:
+            raise _too_large_with_aliases()
     return submitters
+
+
+def _submitters(given: Sequence[object], most: int) -> tuple[list[_Submitter], int]:
+    """
+    Return the submitters in a list, and their size.
+
+    :raises Refused: when that is above the most.
+    """
+    submitters, size = [], 0
+    for each in given:
+        words = [_text(_pairs(each).get(key)) for key in (':name', ':sid', ':email')]
+        size += _LEAST_BYTES + sum(map(len, words))
+        if size > most:  # by aliases it may have one many times
+            raise _too_large_with_aliases()
+        submitters.append(_Submitter(*words))
+    return submitters, size
+
+
+def _too_large_with_aliases() -> Refused:
+    return Refused(f'larger than {_MOST_BYTES / 1e6:g} MB with its aliases written out')
 
 
 class _Builder:
