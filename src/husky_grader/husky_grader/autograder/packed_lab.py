@@ -35,7 +35,8 @@ def packed_lab(lab: Path) -> bytes:
         )
     packed = io.BytesIO()
     with (
-        gzip.GzipFile(fileobj=packed, mode='wb', mtime=0) as stream,
+        # A hundredth larger than by 9, in less than half of the time.
+        gzip.GzipFile(fileobj=packed, mode='wb', mtime=0, compresslevel=6) as stream,
         tarfile.open(fileobj=stream, mode='w') as archive,
     ):
         for name in sorted(_names(lab)):
