@@ -17,17 +17,22 @@ MANIFEST = """
 <package format="3">
   <name>takes_a_name</name><version>0.0.0</version><description>-</description>
   <maintainer email="a@example.org">A</maintainer><license>Apache-2.0</license>
-  <export><build_type>ament_python</build_type></export>
+  <export><build_type>cmake</build_type></export>
 </package>
+"""
+CMAKE = """
+cmake_minimum_required(VERSION 3.19)
+project(takes_a_name NONE)
+execute_process(
+  COMMAND python3 "${CMAKE_CURRENT_SOURCE_DIR}/take.py" COMMAND_ERROR_IS_FATAL ANY)
+install(FILES take.py DESTINATION share/takes_a_name)
 """
 # Two of them cannot have it at once.
 TAKES_A_NAME = """
 import socket, time
-from setuptools import setup
 with socket.socket(socket.AF_UNIX) as taken:
     taken.bind('\\0{name}')
-    time.sleep(0.5)
-setup(name='takes_a_name', version='0.0.0')
+    time.sleep(1.5)
 """
 
 
@@ -57,7 +62,8 @@ def test_submissions_that_could_meet_run_one_at_a_time(
         package = tmp_path / place / 'src' / 'takes_a_name'
         package.mkdir(parents=True)
         (package / 'package.xml').write_text(MANIFEST)
-        (package / 'setup.py').write_text(TAKES_A_NAME.format(name=tmp_path))
+        (package / 'CMakeLists.txt').write_text(CMAKE)
+        (package / 'take.py').write_text(TAKES_A_NAME.format(name=tmp_path))
     calls = []
     for given in ('class', 'cem'):  # at once
         words = ['--lab', given, '--rubric', str(rubric), '--report', f'report of {given}']

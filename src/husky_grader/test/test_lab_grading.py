@@ -92,6 +92,17 @@ from husky_driver.follow_path import main
 print(__file__, open(sys.argv[2]).read(), flush=True)
 sys.exit(main(sys.argv))
 """
+# A package that is built in no time.
+PLAIN = """<package format="3">
+  <name>my_driver</name><version>0.0.0</version><description>-</description>
+  <maintainer email="a@example.org">A</maintainer><license>Apache-2.0</license>
+  <export><build_type>cmake</build_type></export>
+</package>"""
+CMAKE = """
+cmake_minimum_required(VERSION 3.8)
+project(my_driver NONE)
+install(FILES package.xml DESTINATION share/my_driver)
+"""
 SOURCE = Path(__file__).resolve().parents[2]
 SHEET = load_rubric(default_rubric())
 (WORKSPACE,) = (step for step in SHEET.steps if isinstance(step, WorkspaceStep))
@@ -272,16 +283,18 @@ def test_a_broken_workspace_is_told_what_to_do_at_every_step(
 
 
 @pytest.mark.timeout(60)
-def test_a_report_in_the_workspace_is_no_part_of_it(workspace: Path, tmp_path: Path) -> None:
-    shutil.rmtree(workspace / 'src' / 'my_driver')
-    rubric = tmp_path / 'rubric.yaml'
+def test_a_report_in_the_workspace_is_no_part_of_it(tmp_path: Path) -> None:
+    workspace, rubric = tmp_path / 'CSE461_07_03', tmp_path / 'rubric.yaml'
+    (package := workspace / 'src' / 'my_driver').mkdir(parents=True)
+    (package / 'package.xml').write_text(PLAIN)
+    (package / 'CMakeLists.txt').write_text(CMAKE)
     rubric.write_text('title: T\nsteps:\n  - {kind: build, points: 1}\n')
     command = ['--lab', str(workspace), '--rubric', str(rubric), '--sandbox', 'none']
     for _ in range(2):
         assert grade([*command, '--report', str(workspace / 'report')]) == 0
     # Nor is what was graded for who builds the workspace himself.
     listed = subprocess.run(['colcon', 'list', '--names-only'], cwd=workspace, capture_output=True)
-    assert listed.stdout.split() == [b'topic_demo']
+    assert listed.stdout.split() == [b'my_driver']
 
 
 def test_an_empty_workspace_scores_nothing(tmp_path: Path) -> None:
