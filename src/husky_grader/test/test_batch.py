@@ -61,6 +61,15 @@ def graded(files: list[str], folder: Path, how: How = ONE) -> list[Grade]:
     return [job.grade(outcome) for job, outcome in zip(jobs, outcomes, strict=True)]
 
 
+def test_to_hand_out_files_loads_nothing_to_jail_them() -> None:
+    script = 'import sys, husky_grader.grade, husky_grader.file_job; print(*sys.modules)'
+    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path)}
+    command = [sys.executable, '-c', script]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    slow = {'husky_grader.jail', 'husky_grader.submission', 'jinja2', 'numpy.ma', 'psutil'}
+    assert slow.isdisjoint(done.stdout.split())
+
+
 def test_a_file_larger_than_memory_does_not_stop_the_others(
     files: list[str], tmp_path: Path
 ) -> None:
