@@ -3,7 +3,6 @@
 """Measures the outlines of what stands in a world: see `outline`."""
 
 from collections.abc import Sequence
-from functools import cache
 import math
 
 from husky_course.frames import Array
@@ -12,6 +11,8 @@ import mujoco
 import numpy as np
 
 _DIRECTIONS = 72
+_ANGLES = np.arange(_DIRECTIONS) * (math.tau / _DIRECTIONS)
+_CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=1)
 _ROUND = 0.02  # how far a circle may be from round, as a part of its radius
 _UPRIGHT_RAD = 0.15  # a body tilted less than this is seen along its own axis
 _FULL = 0.9  # of a rectangle, which is filled enough to be seen as a whole
@@ -26,16 +27,18 @@ def outlines_of(
 
     So a robot can be between the walls of one body, or pass the gate in it.
     """
-    whole = outline_of(name, model, data, geoms, body=body)
+    origin, axes = data.xpos[body], data.xmat[body]
+    reaches = _reaches(model, data, geoms, origin, axes)
+    whole = _outline(name, np.max(reaches, axis=0), origin, axes)
     if len(geoms) > _MOST_PARTS:
         return [whole]
     parts = [
         min(
-            _outline(name, model, data, [geom], data.xpos[body], data.xmat[body]),
-            _outline(name, model, data, [geom], data.geom_xpos[geom], data.geom_xmat[geom]),
+            _outline(name, reach, origin, axes),
+            _outline_along_itself(name, model, data, geom),
             key=_area_m2,
         )
-        for geom in geoms
+        for geom, reach in zip(geoms, reaches, strict=True)
     ]
     return parts if sum(map(_area_m2, parts)) < _FULL * _area_m2(whole) else [whole]
 
@@ -65,24 +68,44 @@ def outline_of(
     name: str, model: mujoco.MjModel, data: mujoco.MjData, geoms: Sequence[int], *, body: int
 ) -> Outline:
     """Measure the outline of some geoms that stand in data as they do in the world."""
-    return _outline(name, model, data, geoms, data.xpos[body], data.xmat[body])
+    origin, axes = data.xpos[body], data.xmat[body]
+    reaches = _reaches(model, data, geoms, origin, axes)
+    return _outline(name, np.max(reaches, axis=0), origin, axes)
 
 
-def _outline(
-    name: str,
+def _outline_along_itself(
+    name: str, model: mujoco.MjModel, data: mujoco.MjData, geom: int
+) -> Outline:
+    """Measure the outline of a geom along its own axes."""
+    origin, axes = data.geom_xpos[geom], data.geom_xmat[geom]
+    (reach,) = _reaches(model, data, [geom], origin, axes)
+    return _outline(name, reach, origin, axes)
+
+
+def _reaches(
     model: mujoco.MjModel,
     data: mujoco.MjData,
     geoms: Sequence[int],
     origin: Array,
     axes: Array,
-) -> Outline:
-    """Measure it along these axes."""
+) -> list[Array]:
+    """Return how far each geom reaches from origin, all around along these axes."""
+    yaw, is_upright = _yaw_of(axes)
+    frame = axes.reshape(3, 3) if is_upright else _about_z(yaw)
+    directions = _CIRCLE @ frame[:, :2].T
+    return [_reach(model, data, geom, origin, directions) for geom in geoms]
+
+
+def _yaw_of(axes: Array) -> tuple[float, bool]:
+    """Return to where axes point, and whether they are upright."""
     turn = axes.reshape(3, 3)
     yaw = math.atan2(turn[1, 0], turn[0, 0])
-    tilted = math.acos(max(-1.0, min(1.0, float(turn[2, 2])))) > _UPRIGHT_RAD
-    frame = _about_z(yaw) if tilted else turn
-    directions = _circle_of_directions() @ frame[:, :2].T
-    reach = np.max([_reach(model, data, geom, origin, directions) for geom in geoms], axis=0)
+    return yaw, math.acos(max(-1.0, min(1.0, float(turn[2, 2])))) <= _UPRIGHT_RAD
+
+
+def _outline(name: str, reach: Array, origin: Array, axes: Array) -> Outline:
+    """Return the outline of what reaches so far all around along these axes."""
+    yaw, _ = _yaw_of(axes)
     if reach.max() - reach.min() <= _ROUND * reach.max():
         return Outline(
             name=name, x=float(origin[0]), y=float(origin[1]), yaw=yaw, size=(float(reach.max()),)
@@ -102,12 +125,6 @@ def _outline(
 def _about_z(angle_rad: float) -> Array:
     cos, sin = math.cos(angle_rad), math.sin(angle_rad)
     return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-
-
-@cache
-def _circle_of_directions() -> Array:
-    angles = np.arange(_DIRECTIONS) * (math.tau / _DIRECTIONS)
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def _reach(
