@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parts of a run killed hard: the rest ends, nothing stays, and the next run is right."""
 
+from collections.abc import Iterator
+from contextlib import suppress
 import json
 from pathlib import Path
 import signal
@@ -33,16 +35,26 @@ pytestmark = pytest.mark.timeout(120)
 
 
 def family(run: Process) -> list[psutil.Process]:
-    try:
-        started = psutil.Process(run.pid)
-        return [started, *started.children(recursive=True)]
-    except psutil.NoSuchProcess:
-        return []
+    """Return a process that was started, and all that it has."""
+    found = []
+    for pid in tree(run.pid):
+        with suppress(psutil.NoSuchProcess):  # it has just ended
+            found.append(psutil.Process(pid))
+    return found
 
 
-def part(run: Process, mark: str) -> psutil.Process | None:
+def tree(pid: int) -> Iterator[int]:
+    """Find descendants; psutil would ask every process of the machine who its parent is."""
+    yield pid
+    for thread in Path(f'/proc/{pid}/task').glob('*/children'):
+        with suppress(OSError):  # it has just ended
+            for child in thread.read_text().split():
+                yield from tree(int(child))
+
+
+def part(members: list[psutil.Process], mark: str) -> psutil.Process | None:
     """Return a part of a run; a node once it has loaded, and with that set its handlers."""
-    for each in family(run):
+    for each in members:
         try:
             if mark in ' '.join(each.cmdline()) and (mark[0] != '/' or has_loaded(each)):
                 return each
@@ -101,11 +113,12 @@ def test_a_fast_drive_that_fails_after_it_stood_still_is_driven_again(
         LAB, 'drive', str(short_course), '--fast', '--no-view', '--report', str(tmp_path)
     )
     wait_until(
-        lambda: part(run, PARTS['driver']) is not None,
+        lambda: part(family(run), PARTS['driver']) is not None,
         timeout_sec=40.0,
         what=lambda: f'the driver; it printed:\n{run.output}',
     )
-    members, driver = family(run), part(run, PARTS['driver'])
+    members = family(run)
+    driver = part(members, PARTS['driver'])
     for each in members:
         each.suspend()
     time.sleep(STILL_SEC + 0.5)
@@ -125,13 +138,19 @@ def kill_in_a_run(processes: Processes, folder: Path, name: str) -> Files:
     """Kill a part of a run, and wait for the end of the rest; return the run's shared memory."""
     options = () if name == 'view' else ('--no-view',)
     run = processes.start(LAB, 'drive', '--report', str(folder), *options)
+    marks = [PARTS[each] for each in PARTS if each != 'view' or name == 'view']
+
+    def has_all() -> bool:
+        members = family(run)
+        return all(part(members, mark) for mark in marks)
+
     wait_until(
-        lambda: all(part(run, PARTS[each]) for each in PARTS if each != 'view' or name == 'view'),
+        has_all,
         timeout_sec=40.0,
         what=lambda: f'all parts of a run, to kill its {name}; it printed:\n{run.output}',
     )
     members = family(run)
-    victim = part(run, PARTS[name])
+    victim = part(members, PARTS[name])
     assert victim is not None
     shared = own_files(each.pid for each in members)
     victim.send_signal(signal.SIGKILL)
@@ -152,7 +171,7 @@ def test_a_killed_simulator_ends_its_launch(processes: Processes, viewer: str) -
     if viewer == 'true':  # it has what the simulator shares with it
         run.wait_for_text('look at http://')
     members = family(run)
-    simulator = part(run, PARTS['simulator'])
+    simulator = part(members, PARTS['simulator'])
     assert simulator is not None
     shared = own_files(each.pid for each in members)
     simulator.send_signal(signal.SIGKILL)
@@ -170,7 +189,7 @@ def test_a_killed_view_leaves_nothing_when_its_launch_ends(processes: Processes)
     run.wait_for_text('look at http://')
     members = family(run)
     shared = own_files(each.pid for each in members)
-    view = part(run, PARTS['view'])
+    view = part(members, PARTS['view'])
     assert view is not None
     view.send_signal(signal.SIGKILL)
     run.wait_for_text('process has died')
@@ -184,7 +203,7 @@ def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
     tests = str(ROOT / 'test' / 'test_view_process.py')
     run = processes.start(LAB, 'test', tests)
     wait_until(
-        lambda: part(run, PARTS['view']) is not None,
+        lambda: part(family(run), PARTS['view']) is not None,
         timeout_sec=40.0,
         what=lambda: f'a view of the tests; they printed:\n{run.output}',
     )
@@ -201,7 +220,7 @@ def test_an_interrupted_test_run_leaves_nothing(processes: Processes) -> None:
 def test_a_killed_test_run_leaves_no_browser(processes: Processes) -> None:
     run = processes.start(LAB, 'test', str(ROOT / 'test' / 'test_view.py'))
     wait_until(
-        lambda: part(run, '--remote-debugging-pipe') is not None,
+        lambda: part(family(run), '--remote-debugging-pipe') is not None,
         timeout_sec=40.0,
         what=lambda: f'a browser of the tests; they printed:\n{run.output}',
     )

@@ -22,6 +22,7 @@ from husky_driver.drive.drive import Drive
 from husky_driver.motion import Command, STOP
 from husky_driver.ros.node import FollowPath
 from nav_msgs.msg import Odometry
+from playpen_testing.forks import Ended, run_forked
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
@@ -37,6 +38,8 @@ from std_srvs.srv import SetBool
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
 NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
+# What looks for obstacles beside a course loads MuJoCo, longer than all else.
+UNCHECKED = ('--ros-args', '-p', 'check:=off')
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 WORLD = """<mujoco><option timestep="0.004"/><worldbody>
 <geom name="ground" type="plane" size="9 9 1"/>
@@ -364,28 +367,32 @@ def test_a_namespace_and_remaps_apply(
     assert plant_node.plant.now.x_m == pytest.approx(4.0, abs=0.02)
 
 
-@pytest.mark.parametrize(
-    ('arguments', 'expected'),
-    [
-        (['--wayponts', 'x'], 'follow_path: unrecognized arguments: --wayponts x'),
-        (
-            ['--ros-args', '-p', 'wayponts:=x'],
-            'follow_path: parameter wayponts does not exist; did you mean waypoints?',
-        ),
-        (['--ros-args', '-p', 'progress:=x'], "parameter progress: 'x' is not allowed"),
-        (['--ros-args', '-p', 'odometry_timeout_sec:=a'], "'a' is not allowed; allowed is 0.1 to"),
-        (['--ros-args', '-p', 'waypoints:=~/no.yaml'], f'{Path.home()}/no.yaml: no such file'),
-        ([], 'follow_path: nobody answers; give a file: --waypoints FILE'),
-    ],
-)
+REFUSED = {
+    ('--wayponts', 'x'): 'follow_path: unrecognized arguments: --wayponts x',
+    ('--ros-args', '-p', 'wayponts:=x'): (
+        'follow_path: parameter wayponts does not exist; did you mean waypoints?'
+    ),
+    ('--ros-args', '-p', 'progress:=x'): "parameter progress: 'x' is not allowed",
+    ('--ros-args', '-p', 'odometry_timeout_sec:=a'): "'a' is not allowed; allowed is 0.1 to",
+    ('--ros-args', '-p', 'waypoints:=~/no.yaml'): f'{Path.home()}/no.yaml: no such file',
+    (): 'follow_path: nobody answers; give a file: --waypoints FILE',
+}
+
+
+@pytest.fixture(scope='module')
+def refused() -> dict[tuple[str, ...], Ended]:
+    ended = run_forked(*(('husky_driver.follow_path', *words, *NO_SLIP) for words in REFUSED))
+    return dict(zip(REFUSED, ended, strict=True))
+
+
+@pytest.mark.parametrize('arguments', REFUSED)
 def test_bad_input_is_refused_with_one_line(
-    follow_path: Any, arguments: list[str], expected: str
+    refused: dict[tuple[str, ...], Ended], arguments: tuple[str, ...]
 ) -> None:
-    process = follow_path(*arguments)
-    output, _ = process.communicate('', timeout=10)
-    assert process.returncode == 2
-    assert expected in output.splitlines()[-1]
-    assert 'Traceback' not in output
+    ended = refused[arguments]
+    assert ended.status == 2
+    assert REFUSED[arguments] in ended.err.splitlines()[-1]
+    assert 'Traceback' not in ended.out + ended.err
 
 
 def nowhere(msg: Odometry) -> None:
