@@ -37,9 +37,8 @@ from std_srvs.srv import SetBool
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
+FOLLOW_PATH = (sys.executable, '-m', 'husky_driver.follow_path')
 NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
-# What looks for obstacles beside a course loads MuJoCo, longer than all else.
-UNCHECKED = ('--ros-args', '-p', 'check:=off')
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 WORLD = """<mujoco><option timestep="0.004"/><worldbody>
 <geom name="ground" type="plane" size="9 9 1"/>
@@ -102,16 +101,22 @@ def plant_node(
 
 @pytest.fixture
 def follow_path(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """Start the node as a process; what is still running at the end of the test is killed."""
+    """
+    Start the node as a process; what is still running at the end of the test is killed.
+
+    It looks for obstacles where a test says so: for that it loads MuJoCo.
+    """
     running: list[subprocess.Popen[str]] = []
 
-    def start(*arguments: str | Path, **more: str) -> subprocess.Popen[str]:
+    def start(
+        *arguments: str | Path, check: str = 'off', **more: str
+    ) -> subprocess.Popen[str]:
         environment = dict(os.environ, ROS_DOMAIN_ID=str(domain), PYTHONWARNINGS='default')
         environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
         environment |= more
         environment['PYTHONPATH'] = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
         process = subprocess.Popen(
-            [sys.executable, '-m', 'husky_driver.follow_path', *map(str, arguments), *NO_SLIP],
+            [*FOLLOW_PATH, *map(str, arguments), *NO_SLIP, '-p', f'check:={check}'],
             env=environment,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -137,7 +142,7 @@ def course(tmp_path: Path) -> Path:
 def test_each_odometry_of_a_whole_course_gets_one_command(
     plant_node: PlantNode, follow_path: Any, course: Path
 ) -> None:
-    process = follow_path('--waypoints', course)
+    process = follow_path('--waypoints', course, check='warn')
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 0, output
     assert 'done: 3 of 3 waypoints' in output
@@ -156,7 +161,7 @@ def test_it_drives_without_mujoco(
 ) -> None:
     (tmp_path / 'mujoco.py').write_text("raise ImportError('mujoco is not installed')\n")
     monkeypatch.syspath_prepend(tmp_path)
-    process = follow_path('--waypoints', course, '--ros-args', '-p', 'check:=off')
+    process = follow_path('--waypoints', course)
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 0, output
     assert plant_node.plant.now.x_m == pytest.approx(4.0, abs=0.02)
@@ -179,12 +184,13 @@ def on_its_way(
     course: Path,
     *parameters: str,
     timeout_sec: float = 10.0,
+    check: str = 'off',
 ) -> Any:
     """Return a driver that has driven for some time, and waits for odometry."""
     plant_node.answered = 80
     given = (f'odometry_timeout_sec:={timeout_sec}', *parameters)
     arguments = [word for each in given for word in ('-p', each)]
-    process = follow_path('--waypoints', course, '--ros-args', *arguments)
+    process = follow_path('--waypoints', course, '--ros-args', *arguments, check=check)
     wait_until(lambda: len(plant_node.received) >= 80, timeout_sec=15, what='80 commands')
     return process
 
@@ -322,8 +328,7 @@ def test_a_new_file_takes_over_and_a_bad_one_is_refused(
 ) -> None:
     world = course.with_name('world.xml')
     world.write_text(WORLD)
-    careful = ('check:=refuse', f'world:={world}')
-    process = on_its_way(plant_node, follow_path, course, *careful)
+    process = on_its_way(plant_node, follow_path, course, f'world:={world}', check='refuse')
     other, broken = course.with_name('other.yaml'), course.with_name('broken.yaml')
     through = course.with_name('through.yaml')
     other.write_text('speed: 0.8\nwaypoints: [[1, 1], [2, 2]]\n')

@@ -12,7 +12,9 @@ import sys
 import time
 
 from husky_course.record import read_record
+from husky_runtime.domains import OwnDomain
 from husky_runtime.settings import NODE_PARAMETERS
+from playpen_testing.forks import Ended, run_forked
 from playpen_testing.processes import Child, find_line
 from playpen_testing.services import ask
 from playpen_testing.spinning import SpunNodes
@@ -91,14 +93,27 @@ def test_arguments_of_launch_files_are_shown_in_words(file: str) -> None:
     assert ' object at 0x' not in shown
 
 
-@pytest.mark.parametrize('factor', ['1.0e-12', '1.0e-300', '0.0009'])
-def test_a_pace_too_slow_for_a_timer_gives_one_line(domain_id: int, factor: str) -> None:
-    del domain_id
-    process = run_process('-p', f'real_time_factor:={factor}')
-    _, said = process.communicate(timeout=20.0)
-    assert process.returncode == 2
+TOO_SLOW = ('1.0e-12', '1.0e-300', '0.0009')
+OF_ANOTHER_TYPE = ('robots:=alpha 0 0 0', 'robots:=5', 'robots:=[1, 2]', 'x:=[]')
+
+
+@pytest.fixture(scope='module')
+def refused() -> dict[str, Ended]:
+    given = (*(f'real_time_factor:={factor}' for factor in TOO_SLOW), *OF_ANOTHER_TYPE)
+    with OwnDomain() as domain, pytest.MonkeyPatch.context() as changed:
+        changed.setenv('ROS_DOMAIN_ID', str(domain.number))
+        ended = run_forked(*(('husky_sim.ros.node', '--ros-args', '-p', each) for each in given))
+    return dict(zip(given, ended, strict=True))
+
+
+@pytest.mark.parametrize('factor', TOO_SLOW)
+def test_a_pace_too_slow_for_a_timer_gives_one_line(
+    refused: dict[str, Ended], factor: str
+) -> None:
+    ended = refused[f'real_time_factor:={factor}']
+    assert ended.status == 2
     allowed = '0 or a number from 0.001 to 1000 is allowed'
-    assert said == f'husky_sim: real_time_factor={float(factor)}: {allowed}\n'
+    assert ended.err == f'husky_sim: real_time_factor={float(factor)}: {allowed}\n'
 
 
 def test_a_refused_pace_is_answered_and_the_run_goes_on(operator: Node) -> None:
@@ -125,14 +140,14 @@ def test_a_refused_pace_is_answered_and_the_run_goes_on(operator: Node) -> None:
     assert process.returncode == 0
 
 
-@pytest.mark.parametrize('given', ['robots:=alpha 0 0 0', 'robots:=5', 'robots:=[1, 2]', 'x:=[]'])
-def test_a_parameter_of_another_type_gives_one_line(domain_id: int, given: str) -> None:
-    del domain_id
-    process = run_process('-p', given)
-    _, said = process.communicate(timeout=20.0)
-    assert process.returncode == 2
-    assert said.count('\n') == 1
-    assert said.startswith(f'husky_sim: {given.partition(":")[0]}=')
+@pytest.mark.parametrize('given', OF_ANOTHER_TYPE)
+def test_a_parameter_of_another_type_gives_one_line(
+    refused: dict[str, Ended], given: str
+) -> None:
+    ended = refused[given]
+    assert ended.status == 2
+    assert ended.err.count('\n') == 1
+    assert ended.err.startswith(f'husky_sim: {given.partition(":")[0]}=')
 
 
 def test_a_world_and_a_record_are_named_by_absolute_paths(
