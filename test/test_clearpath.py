@@ -34,8 +34,8 @@ from std_msgs.msg import Bool, String
 from tf2_msgs.msg import TFMessage
 
 ROOT = Path(__file__).resolve().parent.parent
-COURSE = ROOT / 'config' / 'waypoints' / 'straight.yaml'
-TURNING = COURSE.with_name('figure_eight.yaml')  # it begins with a turn on the spot
+# The first lobe of an eight: it begins with a turn on the spot.
+TURNING = 'speed: 0.6\nwaypoints: [[0, 0], [-0.5, 1.2], [-1.6, 1.2], [-3, 0]]\n'
 # Of clearpath_control, as docs/real_husky.md has them.
 LIMITS_OF_ROBOT: dict[str, Any] = {
     'acceleration_limit_m_s2': 1.0,
@@ -249,7 +249,9 @@ def test_the_emergency_stop_is_told_and_holds(station: Station) -> None:
 def test_follow_path_drives_a_robot_with_the_limits_of_a_real_one(
     nodes: SpunNodes, tmp_path: Path
 ) -> None:
-    record, route = tmp_path / 'run.record', plan_route(load_course(TURNING))
+    record, course = tmp_path / 'run.record', tmp_path / 'turning.yaml'
+    course.write_text(TURNING)
+    route = plan_route(load_course(course))
     nodes.start(
         partial(SimulatorNode, namespace='a200_0000'),
         interface='clearpath',
@@ -270,7 +272,9 @@ def test_follow_path_drives_a_robot_with_the_limits_of_a_real_one(
     assert judge(read_run(read_record(record)), route).cross_track_max_m < 0.05
 
 
-def test_follow_path_drives_the_same_by_either_interface(nodes: SpunNodes, tmp_path: Path) -> None:
+def test_follow_path_drives_the_same_by_either_interface(
+    nodes: SpunNodes, tmp_path: Path, short_course: Path
+) -> None:
     trajectories = set()
     for interface in ('lab', 'clearpath'):
         record = tmp_path / f'{interface}.csv'
@@ -283,7 +287,7 @@ def test_follow_path_drives_the_same_by_either_interface(nodes: SpunNodes, tmp_p
         )
         driver = nodes.start(
             partial(FollowPath, namespace='a200_0000'),
-            lambda *_: Drive(plan_route(load_course(COURSE))),
+            lambda *_: Drive(plan_route(load_course(short_course))),
             progress='off',
             interface=interface,
         )
