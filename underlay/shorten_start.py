@@ -9,6 +9,10 @@ in lib, where the others are, make that one folder.
 
 ros_wheels_bootstrapper executes Python anew where LD_LIBRARY_PATH is not set yet. Every Python
 imports it, and with it pathlib, re and urllib; afterwards only one that has something to do.
+
+The logger of rclpy asks `inspect` in which file it was called. That looks as well for the module
+and for the lines around the call: with the first line that a node logs, after where each module
+that is loaded lies, thousands of files. The code of the caller knows its file by itself.
 """
 
 from __future__ import annotations
@@ -23,12 +27,15 @@ _IMPORT_WHERE_NEEDED = (
     "import os; os.environ.get('_ROS_WHEELS_BOOTSTRAP_COMPLETE') or "
     "__import__('ros_wheels_bootstrapper')"
 )
+_SEARCHED = 'inspect.getframeinfo(frame).filename'
+_KNOWN = 'frame.f_code.co_filename'
 
 
 def main() -> None:
     site = Path(sysconfig.get_path('purelib'))
     link_libraries(site, Path(sysconfig.get_path('data')) / 'lib')
     load_where_needed(site / 'ros_wheels_bootstrapper.pth')
+    take_known_files(site / 'rclpy' / 'impl' / 'rcutils_logger.py')
 
 
 def link_libraries(site: Path, lib: Path) -> None:
@@ -43,6 +50,13 @@ def load_where_needed(start: Path) -> None:
     """Change the line by which Python imports the bootstrapper, if it is the one known here."""
     if start.is_file() and start.read_text(encoding='utf-8').strip() == _IMPORT:
         start.write_text(f'{_IMPORT_WHERE_NEEDED}\n', encoding='utf-8')
+
+
+def take_known_files(logger: Path) -> None:
+    """Let a logger take the file of a caller from its code."""
+    text = logger.read_text(encoding='utf-8')
+    if _SEARCHED in text:
+        logger.write_text(text.replace(_SEARCHED, _KNOWN), encoding='utf-8')
 
 
 if __name__ == '__main__':

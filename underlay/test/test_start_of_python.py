@@ -45,3 +45,18 @@ def test_one_folder_has_the_libraries_of_all_wheels() -> None:
     assert libraries
     for library in libraries:
         assert (lib / library.name).read_bytes() == library.read_bytes()
+
+
+LOGGED = """
+import inspect
+from rclpy.impl.rcutils_logger import CallerId
+from rclpy.logging import get_logger
+get_logger('test').info('said')
+print(inspect.modulesbyfile, *CallerId()[:3])
+"""
+
+
+def test_a_line_that_is_logged_has_its_file_without_a_search(tmp_path: Path) -> None:
+    program = tmp_path / 'program.py'
+    program.write_text(LOGGED)
+    assert run(str(program)) == f'{{}} <module> {program} 6\n'
