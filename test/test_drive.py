@@ -16,6 +16,7 @@ from husky_driver.ros.node import FollowPath
 from husky_grader.scoring.report import judge, Report
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
+from playpen_testing.forks import Ended, run_forked
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Processes
 from playpen_testing.spinning import SpunNodes
@@ -230,25 +231,31 @@ def test_a_killed_simulator_ends_the_driver_with_a_message(processes: Processes)
     assert 'Traceback' not in driver.output
 
 
-@pytest.mark.parametrize(
-    ('text', 'said'),
-    [
-        ('speed: fast\nwaypoints: [[0, 0], [1, 0]]\n', ['line 1', 'speed']),
-        ('waypoints:\n  - [0, 0]\n  - [1, north]\n', ['line 3', 'waypoints']),
-        ('waypoints: [\n', ['line']),
-    ],
-)
+BAD_FILES = {
+    'speed: fast\nwaypoints: [[0, 0], [1, 0]]\n': ['line 1', 'speed'],
+    'waypoints:\n  - [0, 0]\n  - [1, north]\n': ['line 3', 'waypoints'],
+    'waypoints: [\n': ['line'],
+}
+
+
+@pytest.fixture(scope='module')
+def refused(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Ended]:
+    files = [tmp_path_factory.mktemp('refused') / 'bad.yaml' for _ in BAD_FILES]
+    for file, text in zip(files, BAD_FILES, strict=True):
+        file.write_text(text)
+    ended = run_forked(*(('husky_driver.follow_path', '--waypoints', str(each)) for each in files))
+    return dict(zip(BAD_FILES, ended, strict=True))
+
+
+@pytest.mark.parametrize('text', BAD_FILES)
 def test_a_bad_waypoint_file_is_refused_with_its_line(
-    processes: Processes, tmp_path: Path, text: str, said: list[str]
+    refused: dict[str, Ended], text: str
 ) -> None:
-    course = tmp_path / 'bad.yaml'
-    course.write_text(text)
-    driver = processes.start(
-        'ros2', 'run', 'husky_driver', 'follow_path', '--waypoints', str(course)
-    )
-    assert driver.wait() == 2
-    assert [word for word in ['bad.yaml', *said] if word not in driver.output] == []
-    assert 'Traceback' not in driver.output
+    ended = refused[text]
+    assert ended.status == 2
+    output = ended.out + ended.err
+    assert [word for word in ['bad.yaml', *BAD_FILES[text]] if word not in output] == []
+    assert 'Traceback' not in output
 
 
 def test_the_robot_stands_where_the_facts_put_it(nodes: SpunNodes) -> None:
