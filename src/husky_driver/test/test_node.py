@@ -37,7 +37,6 @@ from std_srvs.srv import SetBool
 # The lark of the rclpy wheels imports modules that Python is about to drop.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
-FOLLOW_PATH = (sys.executable, '-m', 'husky_driver.follow_path')
 NO_SLIP = ('--ros-args', '-p', 'slip:=false')  # the plant of these tests does not slide
 COURSE = 'speed: 0.8\nwaypoints: [[0, 0], [2, 0.5], [4, 0]]\n'
 WORLD = """<mujoco><option timestep="0.004"/><worldbody>
@@ -101,22 +100,16 @@ def plant_node(
 
 @pytest.fixture
 def follow_path(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """
-    Start the node as a process; what is still running at the end of the test is killed.
-
-    It looks for obstacles where a test says so: for that it loads MuJoCo.
-    """
+    """Start the node as a process; what is still running at the end of the test is killed."""
     running: list[subprocess.Popen[str]] = []
 
-    def start(
-        *arguments: str | Path, check: str = 'off', **more: str
-    ) -> subprocess.Popen[str]:
+    def start(*arguments: str | Path, check: str = 'off', **more: str) -> subprocess.Popen[str]:
         environment = dict(os.environ, ROS_DOMAIN_ID=str(domain), PYTHONWARNINGS='default')
-        environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-        environment |= more
+        environment |= {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', **more}
         environment['PYTHONPATH'] = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
+        words = *map(str, arguments), *NO_SLIP, '-p', f'check:={check}'  # which loads MuJoCo
         process = subprocess.Popen(
-            [*FOLLOW_PATH, *map(str, arguments), *NO_SLIP, '-p', f'check:={check}'],
+            [sys.executable, '-m', 'husky_driver.follow_path', *words],
             env=environment,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -391,9 +384,7 @@ def refused() -> dict[tuple[str, ...], Ended]:
 
 
 @pytest.mark.parametrize('arguments', REFUSED)
-def test_bad_input_is_refused_with_one_line(
-    refused: dict[tuple[str, ...], Ended], arguments: tuple[str, ...]
-) -> None:
+def test_bad_input_is_refused_with_one_line(refused: Any, arguments: Any) -> None:
     ended = refused[arguments]
     assert ended.status == 2
     assert REFUSED[arguments] in ended.err.splitlines()[-1]

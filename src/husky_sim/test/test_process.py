@@ -141,9 +141,7 @@ def test_a_refused_pace_is_answered_and_the_run_goes_on(operator: Node) -> None:
 
 
 @pytest.mark.parametrize('given', OF_ANOTHER_TYPE)
-def test_a_parameter_of_another_type_gives_one_line(
-    refused: dict[str, Ended], given: str
-) -> None:
+def test_a_parameter_of_another_type_gives_one_line(refused: dict[str, Ended], given: str) -> None:
     ended = refused[given]
     assert ended.status == 2
     assert ended.err.count('\n') == 1
