@@ -324,6 +324,17 @@ def test_a_next_world_that_cannot_be_loaded_is_told_of_once(shown: Shown, tmp_pa
     view.wait_for_text(f'another simulation runs now: {world}')
 
 
+@pytest.mark.timeout(60)
+def test_a_world_that_was_named_in_another_folder_is_shown(
+    processes: Processes, tmp_path: Path
+) -> None:
+    copy(default_worlds() / 'empty.xml', tmp_path / 'my_world.xml')
+    world = ('--ros-args', '-p', 'world:=my_world.xml')
+    processes.start('ros2', 'run', 'husky_sim', 'husky_sim', *world, cwd=tmp_path)
+    view = processes.start(*VIEW, 'viewer_port:=18780')
+    view.wait_for_text('look at http://localhost:')
+
+
 @pytest.mark.timeout(90)
 def test_a_course_is_checked_in_the_world_and_from_the_start_shown(shown: Shown) -> None:
     view, folder = shown.view, shown.home / 'worlds'
