@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 import re
 import sys
@@ -27,10 +28,14 @@ def check_workspaces(folder: Path) -> Iterator[Finding]:
                 programs.MOVE,
             )
         yield from check_built_and_sourced(here)
+    # Many packages are of one prefix and of one workspace, whose sources are many files.
+    workspace_of, sources_in = cache(packages.workspace_of), cache(packages.sources_in)
     for package, prefix in packages.installed().items():
-        yield from check_changed(package, prefix)
-        workspace = packages.workspace_of(prefix)
-        source = packages.source_in(workspace, package) if workspace is not None else None
+        workspace = workspace_of(prefix)
+        if workspace is None:
+            continue
+        source = sources_in(workspace / 'src').get(package)
+        yield from _check_changed(package, prefix, workspace, source)
         if source is not None and (workspace != here or not package_files.why_refused(source)):
             yield from _check_failed(package, prefix)
 
@@ -140,9 +145,14 @@ def _check_failed(package: str, prefix: Path) -> Iterator[Finding]:
 def check_changed(package: str, prefix: Path) -> Iterator[Finding]:
     """Compare the sources of a package with what was built of them."""
     workspace = packages.workspace_of(prefix)
-    if workspace is None:
-        return
-    source = packages.source_in(workspace, package)
+    if workspace is not None:
+        source = packages.source_in(workspace, package)
+        yield from _check_changed(package, prefix, workspace, source)
+
+
+def _check_changed(
+    package: str, prefix: Path, workspace: Path, source: Path | None
+) -> Iterator[Finding]:
     if source is None and workspace.name == 'src' and package in packages.sources_in(workspace):
         made = ' '.join(str(workspace / name) for name in ('build', 'install', 'log'))
         yield Finding(
