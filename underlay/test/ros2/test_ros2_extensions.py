@@ -76,17 +76,24 @@ class PraiseVerb(VerbExtension):
 '''
 
 
-@pytest.fixture
-def greeter(domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(scope='module')
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Install a package with a command, a verb of it, a verb of `ros2 topic`, and a defect."""
-    source, target = tmp_path / 'source', tmp_path / 'target'
+    folder = tmp_path_factory.mktemp('greeter')
+    source, target = folder / 'source', folder / 'target'
     (source / 'greeter').mkdir(parents=True)
     (source / 'pyproject.toml').write_text(_PROJECT)
     (source / 'greeter' / '__init__.py').write_text(_MODULE)
     (source / 'greeter' / 'broken.py').write_text('import no_such_module\n')
     pip = [sys.executable, '-m', 'pip', 'install', '--quiet', '--no-build-isolation', '--no-deps']
     subprocess.run([*pip, '--no-index', '--target', str(target), str(source)], check=True)
-    monkeypatch.setenv('PYTHONPATH', str(target))
+    return target
+
+
+@pytest.fixture
+def greeter(domain: int, installed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Python find the package."""
+    monkeypatch.setenv('PYTHONPATH', str(installed))
 
 
 @pytest.mark.usefixtures('greeter')
