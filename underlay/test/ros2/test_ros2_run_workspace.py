@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 _ENTRY = "'hello = mine.hello:main',"
+_LAUNCH_FILES = "('share/mine/launch', glob('launch/*')),"
 _NO_SPIN = """import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -31,12 +32,32 @@ def main():
 """
 
 
+@pytest.fixture(scope='module')
+def as_built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a workspace with the package `mine`, built once for all tests, under another name."""
+    folder = tmp_path_factory.mktemp('workspaces') / 'workspace'
+    source = folder / 'src'
+    source.mkdir(parents=True)
+    words = ('pkg', 'create', 'mine', '--build-type', 'ament_python', '--node-name', 'hello')
+    create = [sys.executable, '-m', 'ros2cli', *words, '--license', 'MIT']
+    subprocess.run(create, cwd=source, capture_output=True, check=True)
+    (source / 'mine' / 'launch').mkdir()
+    (source / 'mine' / 'launch' / 'hello.launch.py').touch()
+    setup = source / 'mine' / 'setup.py'
+    text = setup.read_text().replace('data_files=[', f'data_files=[{_LAUNCH_FILES}')
+    setup.write_text(f'from glob import glob\n{text}')
+    built = build(folder)
+    assert (built.returncode, built.stderr) == (0, '')
+    return folder.rename(folder.with_name('as_built'))
+
+
 @pytest.fixture
-def workspace(sources: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a workspace with the package `mine`, where AMENT_PREFIX_PATH says it is sourced."""
-    folder = sources.parent
-    (sources / 'mine' / 'launch').mkdir()
-    (sources / 'mine' / 'launch' / 'hello.launch.py').touch()
+def workspace(as_built: Path, domain: int, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a copy of it where it was built, where AMENT_PREFIX_PATH says it is sourced."""
+    del domain  # it has a folder of logs
+    folder = as_built.with_name('workspace')
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(as_built, folder, symlinks=True)
     prefixes = [str(folder / 'install' / 'mine'), os.environ['AMENT_PREFIX_PATH']]
     monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
     modules = folder / 'build' / 'mine'
@@ -52,8 +73,6 @@ def build(folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., Any]) -> None:
-    built = build(workspace)
-    assert (built.returncode, built.stderr) == (0, '')
     setup = workspace / 'src' / 'mine' / 'setup.py'
     right = setup.read_text()
     setup.write_text(right.replace(_ENTRY, f'{_ENTRY[:-1]} {_ENTRY}'))
@@ -83,9 +102,11 @@ def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., 
     assert shows.stderr.endswith('RuntimeError: of the student\n')
     assert line.removeprefix('hint: ') in ros2('doctor', folder=workspace).of_check('workspace')
 
-    setup.write_text(right)
+
+def test_a_program_that_ends_for_want_of_a_spin_is_told(
+    workspace: Path, ros2: Callable[..., Any]
+) -> None:
     (workspace / 'src' / 'mine' / 'mine' / 'hello.py').write_text(_NO_SPIN)
-    assert build(workspace).returncode == 0
     ran = ros2('run', 'mine', 'hello')
     assert ran.status == 0
     (line,) = ran.err.splitlines()
@@ -96,7 +117,6 @@ def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., 
 def test_a_program_whose_entry_point_was_renamed_is_told(
     workspace: Path, ros2: Callable[..., Any]
 ) -> None:
-    assert build(workspace).returncode == 0
     setup = workspace / 'src' / 'mine' / 'setup.py'
     setup.write_text(setup.read_text().replace("'hello = ", "'hi = "))
     assert 'setup.py has changed since' in ros2('run', 'mine', 'hello').err
@@ -114,7 +134,6 @@ def test_a_program_whose_entry_point_was_renamed_is_told(
 def test_a_workspace_that_was_renamed_is_told(
     workspace: Path, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert build(workspace).returncode == 0
     moved = workspace.rename(workspace.with_name('renamed'))
     there = os.environ['AMENT_PREFIX_PATH'].replace(f'{workspace}/', f'{moved}/')
     monkeypatch.setenv('AMENT_PREFIX_PATH', there)
@@ -138,11 +157,6 @@ def test_a_launch_file_that_was_renamed_stops_no_build_for_ever(
     workspace: Path, ros2: Callable[..., Any]
 ) -> None:
     source = workspace / 'src' / 'mine'
-    setup = source / 'setup.py'
-    files = "data_files=[('share/mine/launch', glob('launch/*')),"
-    text = setup.read_text().replace('data_files=[', files)
-    setup.write_text(f'from glob import glob\n{text}')
-    assert build(workspace).returncode == 0
     (source / 'launch' / 'hello.launch.py').rename(source / 'launch' / 'hi.launch.py')
     assert build(workspace).returncode == 1
     (line,) = ros2('run', 'mine', 'hello').err.splitlines()
@@ -156,7 +170,11 @@ def test_a_launch_file_that_was_renamed_stops_no_build_for_ever(
 def test_a_build_among_the_sources_is_told_and_does_not_mislead(
     workspace: Path, ros2: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    for made in ('build', 'install', 'log'):
+        shutil.rmtree(workspace / made)
     source = workspace / 'src'
+    setup = source / 'mine' / 'setup.py'
+    setup.write_text(setup.read_text().replace(_LAUNCH_FILES, ''))
     among = build(source)
     assert among.returncode == 0
     assert among.stderr.count('hint: ') == 1
