@@ -10,8 +10,13 @@ On Linux a process whose parent has ended gets as parent the next ancestor that 
 from collections.abc import Iterator, Sequence
 import contextlib
 import ctypes
+from functools import cache
+import io
+import os
+from pathlib import Path
 import signal
 import sys
+import threading
 
 import psutil
 
@@ -47,6 +52,42 @@ def descendants(*, mark: str = '') -> list[psutil.Process]:
     """Return the descendants of this process; where a mark is given, those that carry it."""
     found = psutil.Process().children(recursive=True)
     return [each for each in found if not mark or _mark_of(each) == mark]
+
+
+def pids_below(pid: int) -> list[int]:
+    """
+    Return the numbers of a process's descendants, for who looks again and again.
+
+    It asks the kernel for the children of each thread (proc_pid_task(5)); psutil reads about every
+    process of the computer instead. When a child ends amid a look, another may be left out of it.
+    """
+    if not _tells_children():
+        try:
+            return [each.pid for each in psutil.Process(pid).children(recursive=True)]
+        except psutil.NoSuchProcess:
+            return []
+    found = _children_of(pid)
+    for each in found:  # grows meanwhile
+        found += _children_of(each)
+    return found
+
+
+@cache
+def _tells_children() -> bool:
+    """Return whether the kernel was built with such lists."""
+    return Path(f'/proc/self/task/{threading.get_native_id()}/children').exists()
+
+
+def _children_of(pid: int) -> list[int]:
+    found: list[int] = []
+    with contextlib.suppress(OSError), os.scandir(f'/proc/{pid}/task') as threads:
+        for thread in threads:
+            with (
+                contextlib.suppress(OSError),  # it has ended
+                io.FileIO(f'{thread.path}/children') as children,
+            ):
+                found += map(int, children.readall().split())
+    return found
 
 
 def _mark_of(process: psutil.Process) -> str:

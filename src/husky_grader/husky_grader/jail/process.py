@@ -14,6 +14,7 @@ import threading
 import time
 
 from husky_runtime.children import ChildProcess
+from husky_runtime.descendants import pids_below
 import psutil
 
 from husky_grader.jail.limits import MB
@@ -105,9 +106,9 @@ class JailedProcess:
         :param by: the first signal.
         :param within_sec: how long to wait after it before all is killed.
         """
-        for process in self._processes():
+        for pid in self._pids():
             with contextlib.suppress(psutil.NoSuchProcess):
-                process.send_signal(by)
+                psutil.Process(pid).send_signal(by)
         self.wait(within_sec)
         self.kill()
 
@@ -127,16 +128,13 @@ class JailedProcess:
                 break
         self._child.end(signal.SIGKILL)
 
-    def _processes(self) -> list[psutil.Process]:
+    def _pids(self) -> list[int]:
         """Return all that run the command; not who put it into the jail, if that is another."""
-        with contextlib.suppress(psutil.NoSuchProcess):
-            if self._entry.is_first_elsewhere:
-                first = self._first()
-                return [first, *first.children(recursive=True)] if first else []
-            child = psutil.Process(self._child.pid)
-            within = child.children(recursive=True)  # it reads all of /proc: once for each look
-            return within if self._entry.first else [child, *within]
-        return []
+        if self._entry.is_first_elsewhere:
+            first = self._first()
+            return [first.pid, *pids_below(first.pid)] if first else []
+        within = pids_below(self._child.pid)
+        return within if self._entry.first else [self._child.pid, *within]
 
     def _first(self) -> psutil.Process | None:
         if self._entry.first is not None:
@@ -162,7 +160,7 @@ class JailedProcess:
                 elif not is_open:
                     self._child.wait(wait_sec)
                 self._log.show()
-                if not has_ended and (why := self._usage.too_much(self._processes)):
+                if not has_ended and (why := self._usage.too_much(self._pids)):
                     self.stopped = why
                     self._kill()
             if self.stopped:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Protocol
 
 from husky_runtime.children import ChildProcess
-from husky_runtime.descendants import descendants_ended
+from husky_runtime.descendants import descendants_ended, pids_below
 from husky_runtime.domains import NO_OTHER_WAY, OwnDomain
 from husky_runtime.shared_memory import check_shared_memory
 import psutil
@@ -69,7 +69,7 @@ class Entry:
 def first_child(child: ChildProcess) -> psutil.Process | None:
     """Return the process that a child has started; None if there is none."""
     try:
-        return next(iter(psutil.Process(child.pid).children()), None)
+        return next(map(psutil.Process, pids_below(child.pid)), None)
     except psutil.NoSuchProcess:
         return None
 

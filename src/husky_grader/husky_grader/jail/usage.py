@@ -5,12 +5,11 @@
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 import errno
+import io
 import os
 from pathlib import Path
 import stat
 import time
-
-import psutil
 
 from husky_grader.jail.limits import Limits, MB
 
@@ -29,8 +28,12 @@ class Usage:
         self._computing = 0.0  # threads at a time, on the average
         self._room_bytes = _room_bytes(folder)  # when it was last looked at
 
-    def too_much(self, processes: Callable[[], Sequence[psutil.Process]]) -> str:
-        """Return in words which limit is exceeded; nothing if none is, or no look is due."""
+    def too_much(self, processes: Callable[[], Sequence[int]]) -> str:
+        """
+        Return in words which limit is exceeded; nothing if none is, or no look is due.
+
+        :param processes: returns the numbers of those that there are.
+        """
         now = time.monotonic()
         if now < self._processes_at_sec:
             return ''
@@ -52,13 +55,13 @@ class Usage:
         taken_bytes = self._room_bytes - _room_bytes(self._folder)
         return taken_bytes > self._limits.folder_mb * MB
 
-    def _crowding(self, processes: Sequence[psutil.Process]) -> str:
+    def _crowding(self, processes: Sequence[int]) -> str:
         """
         Return in words that too many compute at a time; nothing if not.
 
         Among hundreds of them, programs of others on the machine would be late.
         """
-        count = sum(_computing(process.pid) for process in processes)
+        count = sum(map(_computing, processes))
         self._computing += _NEWS * (count - self._computing)
         most = self._limits.computing
         if self._computing > most:
@@ -66,16 +69,16 @@ class Usage:
         return ''
 
 
-def _overuse(processes: Sequence[psutil.Process], limits: Limits) -> str:
+def _overuse(processes: Sequence[int], limits: Limits) -> str:
     """Return in words what processes use too much of; nothing if they do not."""
     own, shared, tasks = 0, 0, 0
     nameless: dict[int, int] = {}
     for process in processes:
-        used = _status_of(process.pid)
+        used = _status_of(process)
         own += used.get('RssAnon', 0) * _KIB
         shared += used.get('RssShmem', 0) * _KIB
         tasks += used.get('Threads', 0)
-        nameless |= _nameless_files(process.pid, _is_in_memory)
+        nameless |= _nameless_files(process, _is_in_memory)
     memory = own + max(shared, sum(nameless.values()))  # some of these are mapped, too
     if memory > limits.memory_mb * MB:
         return f'used {memory // MB} MB of memory; {limits.memory_mb} MB are allowed'
@@ -107,18 +110,18 @@ def _room_bytes(folder: Path) -> int:
 def _computing(pid: int) -> int:
     """Return how many threads of a process compute, or wait for a processor: see proc(5)."""
     count = 0
-    with suppress(OSError):  # it has ended
-        for thread in Path(f'/proc/{pid}/task').iterdir():
-            with suppress(OSError):
-                count += b') R ' in (thread / 'stat').read_bytes()
+    with suppress(OSError), os.scandir(f'/proc/{pid}/task') as threads:  # it has ended
+        for thread in threads:
+            with suppress(OSError), io.FileIO(f'{thread.path}/stat') as stat_of:
+                count += b') R ' in stat_of.readall()
     return count
 
 
-def _nameless_files(pid: int, counts: Callable[[Path], bool]) -> dict[int, int]:
+def _nameless_files(pid: int, counts: Callable[['os.DirEntry[str]'], bool]) -> dict[int, int]:
     """Return the bytes of each file that a process has open and no folder has, by its inode."""
     found = {}
-    with suppress(OSError):  # it has ended
-        for link in Path(f'/proc/{pid}/fd').iterdir():
+    with suppress(OSError), os.scandir(f'/proc/{pid}/fd') as links:  # it has ended
+        for link in links:
             with suppress(OSError):  # closed meanwhile
                 status = link.stat()
                 if stat.S_ISREG(status.st_mode) and status.st_nlink == 0 and counts(link):
@@ -126,16 +129,16 @@ def _nameless_files(pid: int, counts: Callable[[Path], bool]) -> dict[int, int]:
     return found
 
 
-def _is_in_memory(link: Path) -> bool:
-    return str(link.readlink()).startswith('/memfd:')
+def _is_in_memory(link: 'os.DirEntry[str]') -> bool:
+    return str(Path(link).readlink()).startswith('/memfd:')
 
 
-def _overfull(folder: Path, limits: Limits, processes: Sequence[psutil.Process]) -> str:
+def _overfull(folder: Path, limits: Limits, processes: Sequence[int]) -> str:
     """Return in words what a folder, or its disk, holds too much of; nothing if it does not."""
     disk = folder.stat().st_dev
     removed: dict[int, int] = {}
     for process in processes:
-        removed |= _nameless_files(process.pid, lambda link: link.stat().st_dev == disk)
+        removed |= _nameless_files(process, lambda link: link.stat().st_dev == disk)
     size, files, folders = sum(removed.values()), 0, [str(folder)]
     while folders:
         try:

@@ -19,7 +19,7 @@ import random
 import re
 import sys
 import time
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 import rclpy
 from rclpy.event_handler import PublisherEventCallbacks
@@ -34,7 +34,6 @@ from husky_grader.lab.finding import Finding, nothing
 from husky_grader.lab.messages import about, complaint, rate_hz
 from husky_grader.lab.observed import FINDING_FILE, OVER_FILE, STEP_FILE
 from husky_grader.lab.patience import Patience
-from husky_grader.lab.robot import Robot
 from husky_grader.rubric.forms import ANYTHING, Form, TOKEN, with_token
 from husky_grader.rubric.interfaces import filled
 from husky_grader.rubric.steps import (
@@ -48,6 +47,9 @@ from husky_grader.run.diagnosis import Graph, in_domain, nearest, silence, unhea
 from husky_grader.run.graph import has_other_fields, read_graph
 from husky_grader.run.printed import printed_lines
 from husky_grader.run.trusted import limit_memory
+
+if TYPE_CHECKING:
+    from husky_grader.lab.robot import Robot
 
 NAME = 'grader'
 OTHERS = ('husky_sim', 'follow_path')  # the nodes of the robot beside, where there is one
@@ -140,6 +142,8 @@ def _publisher(
 ) -> Finding:
     if step.after_drive is None:
         return _published(step, observer, log)
+    from husky_grader.lab.robot import Robot  # to plan a route takes numpy, which takes its time
+
     with Robot(step.after_drive, folder, world) as robot:
         return _published(step, observer, log, robot)
 

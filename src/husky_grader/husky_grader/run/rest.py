@@ -17,7 +17,7 @@ import threading
 import time
 
 from husky_course.files import replacing
-import psutil
+from husky_runtime.descendants import pids_below
 
 LOOK_FOR_SEC = 0.5
 """Wall time between two looks for new processes; to import rclpy takes one nearly as long."""
@@ -59,10 +59,10 @@ class Resting:
 
 def _with_descendants(first: Path) -> list[int]:
     try:
-        process = psutil.Process(int(first.read_text(encoding='ascii')))
-        return [process.pid, *(each.pid for each in process.children(recursive=True))]
-    except (FileNotFoundError, psutil.Error):  # not started yet, or ended
+        process = int(first.read_text(encoding='ascii'))
+    except FileNotFoundError:  # not started yet
         return []
+    return [process, *pids_below(process)]
 
 
 def _turns(processes: Sequence[int]) -> dict[int, bytes] | None:
