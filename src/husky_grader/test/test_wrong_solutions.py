@@ -233,8 +233,9 @@ LIVE = {
         'time.sleep(30)',
         'it has a publisher on /husky_velocity_controller/cmd_vel, and never sent a command',
     ),
-    'has no publisher': (
+    'prints only': (
         'from std_srvs.srv import Empty\n'
+        "print('driving')\n"
         "node.create_client(Empty, 'no_such_service').wait_for_service(30.0)",
         'it has no publisher on /husky_velocity_controller/cmd_vel: is it made at all, and does '
         'nothing before it wait, such as wait_for_service?',
@@ -250,10 +251,6 @@ LIVE = {
         'rclpy.spin(node)',
         'it left the Husky without a command while that drove, which stops after 0.25 s: send '
         'commands again and again, also the same',
-    ),
-    'prints only': (
-        "print('driving')\ntime.sleep(30)",
-        'it has no publisher on /husky_velocity_controller/cmd_vel',
     ),
 }
 
