@@ -19,7 +19,7 @@ from playpen_testing.busy import busy_machine
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
-COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-0.5, 0.25], [-1, 0]]\n'
+COURSE = 'speed: 0.5\nwaypoints: [[0, 0], [-1, 0.5], [-2, 0]]\n'
 SHORT = 'speed: 0.5\nwaypoints: [[0, 0], [0.5, 0]]\n'
 FOLLOWS = """
 import sys
