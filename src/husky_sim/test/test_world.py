@@ -361,6 +361,40 @@ def test_the_worlds_load_in_plain_mujoco_without_a_warning(worlds: Path, name: s
     assert not any(data.warning.number)
 
 
+def test_a_robot_stands_as_told_and_keeps_the_solver_of_its_file(
+    write: Callable[[str], str], worlds: Path
+) -> None:
+    option = '<option integrator="RK4" cone="pyramidal" impratio="7" timestep="0.001"/>'
+    start = RobotStart(x=1.0, y=-2.0, yaw=0.5, name='a')
+    world = load_world(write(mjcf(before=option)), [RobotStart(), start], load_y_m=0.03)
+    data = mujoco.MjData(world.model)
+    mujoco.mj_forward(world.model, data)
+    body = data.body('a/base_link')
+    assert body.xpos[:2] == pytest.approx((1.0, -2.0))
+    assert body.xmat == pytest.approx(
+        [math.cos(0.5), -math.sin(0.5), 0.0, math.sin(0.5), math.cos(0.5), 0.0, 0.0, 0.0, 1.0]
+    )
+    assert world.model.body('a/base_link').ipos[1] == 0.03
+    assert world.model.body('husky/base_link').ipos[1] == 0.03
+    its_own = mujoco.MjModel.from_xml_path(str(worlds / 'husky.xml')).opt
+    for name in ('integrator', 'cone', 'impratio'):
+        assert getattr(world.model.opt, name) == getattr(its_own, name)
+    assert world.model.opt.timestep == 0.001
+
+
+def test_the_robot_is_that_beside_the_world_or_the_one_of_the_lab(
+    write: Callable[[str], str], worlds: Path, tmp_path: Path
+) -> None:
+    path = write(mjcf())
+    assert load_world(path, [RobotStart()]).husky == str(worlds / 'husky.xml')
+    beside = tmp_path / 'husky.xml'
+    beside.write_text(mjcf('<body name="robot"><geom size="0.1"/></body>'), encoding='utf-8')
+    with pytest.raises(WorldError, match=r"husky.xml': no body named base_link; take the husky"):
+        load_world(path, [RobotStart()])
+    given = str(worlds / 'husky.xml')
+    assert load_world(path, [RobotStart()], husky=given).husky == given
+
+
 def test_the_husky_weighs_and_measures_what_the_original_does(worlds: Path) -> None:
     model = mujoco.MjModel.from_xml_path(str(worlds / 'husky.xml'))
     assert model.body_subtreemass[model.body('base_link').id] == pytest.approx(56.582)
