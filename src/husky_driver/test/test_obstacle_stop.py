@@ -5,7 +5,14 @@ import math
 from husky_course.route import A200_LIMITS, DriveLimits, LIMITS, plan_route
 from husky_course.route.path import smooth_curve
 from husky_course.waypoints import parse_course
-from husky_driver.checks.path_scan import FRONT_M, LASER_X_M, look_along, Scan, Sighting
+from husky_driver.checks.path_scan import (
+    FRONT_M,
+    HALF_WIDTH_M,
+    LASER_X_M,
+    look_along,
+    Scan,
+    Sighting,
+)
 from husky_driver.drive.drive import Drive
 from husky_driver.motion import Odometry
 from husky_driver.obstacle_stop import ObstacleStop
@@ -55,6 +62,22 @@ def test_what_is_too_near_to_be_measured_blocks_the_path() -> None:
     assert seen([-math.inf] * 20 + [math.inf] * (BEAMS - 20)) is None, 'it is beside the laser'
 
 
+@pytest.mark.parametrize(('degrees', 'blocks'), [(55, True), (-55, True), (65, False)])
+def test_what_is_too_near_counts_to_60_degrees_from_ahead(degrees: int, *, blocks: bool) -> None:
+    ranges = [math.inf] * BEAMS
+    ranges[BEAMS // 2 + 4 * degrees] = -math.inf
+    assert (seen(ranges) is not None) is blocks
+
+
+@pytest.mark.parametrize(('apart_m', 'width_m'), [(0.19, 0.19), (0.21, 0.0)])
+def test_what_is_farther_apart_than_20_cm_is_another_obstacle(
+    apart_m: float, width_m: float
+) -> None:
+    found = seen(scan_of((1.2, 0.0), (1.2, apart_m)))
+    assert found is not None
+    assert found.width_m == pytest.approx(width_m, abs=0.005)
+
+
 def test_what_stands_beside_the_path_does_not_block_it() -> None:
     assert seen(scan_of((1.0, 0.6), (1.0, -0.6))) is None
     assert seen(scan_of((1.0, 0.3))) is not None
@@ -63,6 +86,16 @@ def test_what_stands_beside_the_path_does_not_block_it() -> None:
 def test_it_looks_only_as_far_as_it_needs_to_stop() -> None:
     assert seen(scan_of((1.4, 0.0)), speed_m_s=0.2) is None
     assert seen(scan_of((1.4, 0.0)), speed_m_s=1.0) is not None
+
+
+def test_it_sees_what_it_would_come_nearer_to_than_20_cm() -> None:
+    for cm_s in range(101):
+        # It drives on for 0.15 s, and then brakes by 2 m/s2.
+        speed_m_s = cm_s / 100
+        stands_m = FRONT_M + 0.15 * speed_m_s + speed_m_s**2 / 4.0
+        nearest_m = stands_m + 0.2 + HALF_WIDTH_M  # of places that are 5 cm apart, the last
+        assert seen(scan_of((nearest_m - 0.051, 0.0)), speed_m_s) is not None, speed_m_s
+        assert seen(scan_of((nearest_m + 0.001, 0.0)), speed_m_s) is None, speed_m_s
 
 
 def test_it_looks_to_where_the_bumper_gets_in_any_frame() -> None:
@@ -140,6 +173,23 @@ def test_a_laser_farther_back_sees_what_is_nearer() -> None:
         stop.update(10.0)
         stop.add_scan(scan_at(10.0, (1.2, 0.0)), driving())
         assert f'{ahead_m:.2f} m ahead' in stop.update(10.0)
+
+
+def test_a_robot_that_begins_looks_farther_than_its_speed_asks_for() -> None:
+    for ahead_m, is_seen in ((0.83, True), (0.88, False)):  # at 0.7 m/s up to 0.81 m
+        stop = ObstacleStop()
+        stop.update(10.0)
+        stop.add_scan(scan_at(10.0, (FRONT_M + ahead_m, 0.0)), driving())
+        assert stop.update(10.0).startswith('stopping: ') is is_seen
+
+
+def test_a_scan_from_before_a_reset_is_no_sight_of_the_way() -> None:
+    for scanned_sec, counts in ((10.97, True), (11.0, False)):  # the odometry is of 9.98 s
+        stop = ObstacleStop()
+        stop.update(10.0)
+        stop.add_scan(scan_at(scanned_sec), driving())
+        stop.update(10.0)
+        assert stop.holds is not counts
 
 
 def waiting_drive() -> Drive:

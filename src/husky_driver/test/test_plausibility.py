@@ -3,7 +3,7 @@
 import math
 
 from geometry_msgs.msg import Quaternion
-from husky_driver.checks.plausibility import no_rotation, OdometryCheck
+from husky_driver.checks.plausibility import no_numbers, no_rotation, OdometryCheck
 from husky_driver.motion import Odometry
 from hypothesis import given, settings, strategies
 import pytest
@@ -57,6 +57,64 @@ def test_what_no_husky_can_do_is_named(changes: dict[str, float], said: str) -> 
     assert said in complaint(DRIVING, moved(**changes))
 
 
+@pytest.mark.parametrize('sign', [1, -1])
+@pytest.mark.parametrize(
+    ('field', 'most', 'more'),
+    [
+        ('x_m', 1e6, 1.001e6),
+        ('y_m', 1e6, 1.001e6),
+        ('speed_m_s', 10.0, 10.1),
+        ('yaw_rate_rad_s', 20.0, 20.1),
+    ],
+)
+def test_the_most_that_can_be_is_accepted(field: str, most: float, more: float, sign: int) -> None:
+    assert complaint(moved(**{field: sign * most})) == ''
+    assert complaint(moved(**{field: sign * more})).startswith('its ')
+
+
+@pytest.mark.parametrize(
+    ('possible', 'impossible', 'said'),
+    [
+        ({'x_m': 5.285}, {'x_m': 5.295}, 'it jumps 0.29 m in 0.02 s'),
+        ({'time_sec': 31.0, 'x_m': 7.2}, {'time_sec': 31.0, 'x_m': 7.3}, 'it jumps 2.30 m in 1'),
+        ({'yaw_rad': 0.43}, {'yaw_rad': 0.41}, 'it jumps by -0.59 rad'),
+        (
+            {'time_sec': 30.5, 'yaw_rad': 3.45},
+            {'time_sec': 30.5, 'yaw_rad': 3.55},
+            'it jumps by 2.55 rad of yaw in 0.50 s',
+        ),
+        ({'time_sec': 59.9}, {'time_sec': 60.1}, 'its stamp jumps ahead from 30.00 s to 60.10 s'),
+        (
+            {'time_sec': 1.0, 'speed_m_s': -0.29, 'yaw_rate_rad_s': 0.29},
+            {'time_sec': 1.02, 'speed_m_s': -0.29, 'yaw_rate_rad_s': 0.29},
+            'which is no reset',
+        ),
+        (
+            {'time_sec': 0.0, 'speed_m_s': 0.29, 'yaw_rate_rad_s': -0.29},
+            {'time_sec': 0.0, 'speed_m_s': 0.31, 'yaw_rate_rad_s': -0.29},
+            'which is no reset',
+        ),
+        (
+            {'time_sec': 0.0, 'speed_m_s': 0.29},
+            {'time_sec': 0.0, 'speed_m_s': 0.29, 'yaw_rate_rad_s': -0.31},
+            'which is no reset',
+        ),
+    ],
+)
+def test_between_what_can_be_and_what_cannot_is_little(
+    possible: dict[str, float], impossible: dict[str, float], said: str
+) -> None:
+    assert complaint(DRIVING, moved(**possible)) == ''
+    assert said in complaint(DRIVING, moved(**impossible))
+
+
+@pytest.mark.parametrize(('after_sec', 'said'), [(0.09, ''), (0.11, 'its stamp jumps to and fro')])
+def test_after_an_early_reset_a_message_or_two_may_be_lost(after_sec: float, said: str) -> None:
+    times = (0.0, 0.08, 0.0, after_sec)
+    found = complaint(*(Odometry(time, 0.0, 0.0, 0.0, 0.0, 0.0) for time in times))
+    assert found[:26] == said
+
+
 def test_lost_messages_are_no_jump() -> None:
     assert complaint(DRIVING, moved(time_sec=33.0, x_m=8.0, yaw_rad=-2.0)) == ''
 
@@ -102,7 +160,12 @@ def test_two_simulators_at_different_times_are_noticed(
 
 
 @pytest.mark.parametrize(
-    ('parts', 'length'), [((0.0, 0.0, 0.0, 0.0), '0'), ((0.0, 0.0, 0.0, 2.0), '2')]
+    ('parts', 'length'),
+    [
+        ((0.0, 0.0, 0.0, 0.0), '0'),
+        ((0.0, 0.0, 0.0, 1.11), '1.11'),
+        ((0.0, 0.89, 0.0, 0.0), '0.89'),
+    ],
 )
 def test_a_quaternion_that_is_none_is_named(parts: tuple[float, ...], length: str) -> None:
     x, y, z, w = parts
@@ -112,3 +175,10 @@ def test_a_quaternion_that_is_none_is_named(parts: tuple[float, ...], length: st
 def test_a_quaternion_of_no_numbers_is_named() -> None:
     assert 'no rotation' in no_rotation(Quaternion(x=math.nan, y=0.0, z=0.0, w=1.0))
     assert no_rotation(Quaternion(x=0.0, y=0.0, z=0.6, w=0.8)) == ''
+    assert no_rotation(Quaternion(x=-1.09, y=0.0, z=0.0, w=0.0)) == ''
+    assert no_rotation(Quaternion(x=0.0, y=0.0, z=-0.91, w=0.0)) == ''
+
+
+def test_no_impact_is_too_hard_but_what_no_sensor_measures() -> None:
+    assert no_numbers({'x': 9e4, 'y': -1e5}) == ''
+    assert no_numbers({'x': 9e4, 'y': -1.1e5}) == 'its y is -110000'
