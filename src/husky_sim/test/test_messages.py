@@ -7,9 +7,11 @@ import math
 from pathlib import Path
 from typing import Any
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from husky_course.robot import RobotStart
 from husky_sim.messages import messages
+from husky_sim.robot.contacts import Collision
+from husky_sim.sensors.battery_monitor import BatteryReading
 from husky_sim.sensors.navsat import VARIANCE_M2
 from husky_sim.simulation import Simulation
 import mujoco
@@ -17,7 +19,9 @@ from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatFix
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import BatteryState, Imu, JointState, LaserScan, NavSatFix
+from std_msgs.msg import Bool
 
 from husky_sim.config import SimulationConfig
 
@@ -63,6 +67,8 @@ def test_ground_truth_is_pose_and_twist_of_the_body(simulation: Simulation) -> N
     packed = messages.GroundTruthMessage()
     packed.pack(STAMP, simulation.robots[0])
     message = deserialize_message(bytes(packed), Odometry)
+    assert (stamp_of(message), message.header.frame_id) == (STAMP, 'world')
+    assert not any([*message.pose.covariance, *message.twist.covariance])
     twist = true_twist(simulation)  # brings the body's pose up to date
     body = simulation.data.body('husky/base_link')
     assert pose_of(message) == pytest.approx([*body.xpos, *body.xquat], abs=1e-9)
@@ -134,7 +140,78 @@ def test_the_command_out_is_what_the_limits_left(worlds: Path, drive: Drive) -> 
     packed = messages.CommandMessage()
     packed.pack(STAMP, simulation.robots[0])
     message = deserialize_message(bytes(packed), Twist)
-    assert (message.linear.x, message.angular.z) == pytest.approx((0.06, -0.12))
+    sent = [message.linear.x, message.linear.y, message.linear.z]
+    assert sent == pytest.approx([0.06, 0.0, 0.0])
+    sent = [message.angular.x, message.angular.y, message.angular.z]
+    assert sent == pytest.approx([0.0, 0.0, -0.12])
+    stamped = messages.StampedCommandMessage()
+    stamped.pack(STAMP, simulation.robots[0])
+    header = deserialize_message(bytes(stamped), TwistStamped)
+    assert (stamp_of(header), header.header.frame_id) == (STAMP, 'base_link')
+    assert header.twist == message
+
+
+def test_wheel_odometry_is_that_of_the_controller(simulation: Simulation) -> None:
+    robot, packed = simulation.robots[0], messages.WheelOdometryMessage()
+    packed.pack(STAMP, robot)
+    message = deserialize_message(bytes(packed), Odometry)
+    assert (stamp_of(message), message.header.frame_id) == (STAMP, 'odom')
+    odometry = robot.odometry
+    half = odometry.yaw / 2.0
+    flat = [odometry.x, odometry.y, 0.0, math.cos(half), 0.0, 0.0, math.sin(half)]
+    assert pose_of(message) == flat
+    assert twist_of(message) == [0.0, 0.0, odometry.yaw_rate_rad_s, odometry.speed_m_s, 0.0, 0.0]
+    for covariance in (message.pose.covariance, message.twist.covariance):
+        assert (covariance.reshape(6, 6) == np.diag([0.001] * 5 + [0.03])).all()
+
+
+def test_clock_and_emergency_stop_tell_one_thing(worlds: Path) -> None:
+    clock, stop = messages.ClockMessage(), messages.EmergencyStopMessage()
+    clock.pack(STAMP)
+    assert deserialize_message(bytes(clock), Clock).clock == messages.time_message(STAMP)
+    assert (messages.time_message(STAMP).sec, messages.time_message(STAMP).nanosec) == STAMP
+    robot = Simulation(SimulationConfig(world=str(worlds / 'empty.xml'))).robots[0]
+    for pressed in (True, False):
+        robot.is_stopped = pressed
+        stop.pack(STAMP, robot)
+        assert deserialize_message(bytes(stop), Bool).data is pressed
+
+
+def test_a_battery_tells_what_was_measured_and_leaves_out_the_rest() -> None:
+    packed = messages.BatteryMessage()
+    packed.pack(STAMP, BatteryReading(voltage_v=25.5, current_a=-3.25, charge=0.75))
+    message = deserialize_message(bytes(packed), BatteryState)
+    assert stamp_of(message) == STAMP
+    assert (message.voltage, message.current, message.percentage) == (25.5, -3.25, 0.75)
+    assert (message.capacity, message.design_capacity, message.charge) == (20.0, 20.0, 15.0)
+    assert list(message.cell_voltage) == [12.75, 12.75]
+    assert [math.isnan(value) for value in message.cell_temperature] == [True, True]
+    assert math.isnan(message.temperature)
+    assert message.present
+    assert message.power_supply_status == message.POWER_SUPPLY_STATUS_DISCHARGING
+    assert message.power_supply_health == message.POWER_SUPPLY_HEALTH_GOOD
+    assert message.power_supply_technology == message.POWER_SUPPLY_TECHNOLOGY_UNKNOWN
+
+
+def test_a_collision_names_both_and_says_where_and_how_hard() -> None:
+    touch = Collision(
+        robot='a',
+        obstacle='hydrant',
+        part='front_bumper',
+        time_sec=3.0625,
+        force_n=17.26,
+        position=(1.0, -2.5, 0.125),
+    )
+    message = messages.new_collision(touch)
+    assert (message.level, message.name, message.hardware_id) == (b'\x02', 'hydrant', 'a')
+    assert message.message == 'a touched hydrant with its front_bumper'
+    assert {each.key: each.value for each in message.values} == {
+        'obstacle': 'hydrant',
+        'part': 'front_bumper',
+        'force_n': '17.3',
+        'position': '1.000 -2.500 0.125',
+        'time_sec': '3.062',
+    }
 
 
 def test_scan_and_fix_describe_themselves() -> None:
@@ -155,4 +232,5 @@ def test_scan_and_fix_describe_themselves() -> None:
     assert (stamp_of(fix), fix.header.frame_id) == (STAMP, 'base_link')
     assert (fix.latitude, fix.longitude, fix.altitude) == (49.5, 8.5, 12.0)
     assert list(fix.position_covariance[::4]) == [VARIANCE_M2] * 3
+    assert (fix.status.status, fix.status.service) == (0, 1)  # a fix, by GPS
     assert fix.position_covariance_type == fix.COVARIANCE_TYPE_DIAGONAL_KNOWN
