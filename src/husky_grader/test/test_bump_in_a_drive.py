@@ -63,6 +63,36 @@ def test_a_robot_that_does_as_its_wheels_is_left_alone() -> None:
     assert held_sec(speeds(0.8, 0.8), speeds(0.8, 0.5)) is None  # slowed, not stopped
 
 
+@pytest.mark.parametrize(
+    ('speed_m_s', 'enough_m_s', 'too_little_m_s', 'yaw_rate_rad_s'),
+    [
+        (1.0, 0.61, 0.59, 0.0),  # six tenths of its speed
+        (-1.0, -0.61, -0.59, 0.0),
+        (0.12, 0.083, 0.077, 0.0),  # noise and bends
+        (0.4, 0.29, 0.27, -1.0),  # and the point about which it turns
+    ],
+)
+def test_a_robot_is_held_once_it_has_lost_enough(
+    speed_m_s: float, enough_m_s: float, too_little_m_s: float, yaw_rate_rad_s: float
+) -> None:
+    wheels = speeds(speed_m_s, speed_m_s)
+    for lost_m_s, noticed in ((enough_m_s, True), (too_little_m_s, False)):
+        body = speeds(speed_m_s, speed_m_s - lost_m_s)
+        found = held_sec(wheels, body, yaw_rate_rad_s=yaw_rate_rad_s)
+        assert (found is not None) is noticed, lost_m_s
+
+
+def test_a_held_robot_is_given_half_a_second() -> None:
+    # It is stopped after 3 s, and what the IMU tells is used when it is 0.1 s old.
+    noticed_sec = held_sec(speeds(0.5, 0.5), speeds(0.5, 0.0))
+    assert noticed_sec == pytest.approx(3.6, abs=0.03)
+
+
+def test_of_a_robot_slower_than_10_cm_a_second_nothing_is_told() -> None:
+    assert held_sec(speeds(0.105, 0.105), speeds(0.105, 0.0)) is not None
+    assert held_sec(speeds(0.095, 0.095), speeds(0.095, 0.0)) is None
+
+
 def test_a_robot_that_turns_about_a_point_beside_its_middle_is_left_alone() -> None:
     # The wheels go backwards so that it stays on the spot, which the driver does not know yet.
     wheels, body = speeds(0.0, -0.25), speeds(0.0, 0.0)
