@@ -139,6 +139,8 @@ EMPTY = idl.NamespacedType(['std_msgs', 'msg'], 'Empty')
         ([idl.UnboundedString(), SHORT], ['ä', 1], '03000000 c3a400 00 0100'),
         ([idl.BoundedString(2)], [''], '01000000 00'),
         ([idl.UnboundedWString()], ['a€'], '02000000 61000000 ac200000'),
+        ([idl.BoundedWString(1)], ['\uffff'], '01000000 ffff0000'),
+        ([idl.BoundedString(1)], ['€'], '04000000 e282ac00'),
         ([idl.BoundedWString(3)], ['\U0001f600'], '02000000 3dd80000 00de0000'),
         ([idl.UnboundedSequence(LONG), BYTE], [array('q'), 7], '00000000 07'),
         ([idl.UnboundedSequence(LONG)], [array('q', [7])], '01000000 00000000 0700000000000000'),
@@ -173,6 +175,15 @@ def test_every_number_has_its_place() -> None:
     assert bytes(data[16:18]) == b'ab'
     with pytest.raises(KeyError, match="'date': the parts are layout, data"):
         place['date']
+
+
+def test_a_text_has_its_place_with_its_length_before_it() -> None:
+    data, place = encode_with_places(String(data='ab'))
+    assert (place['data'].begin, place['data'].size) == (4, 7)
+    assert bytes(data[4:]) == b'\3\0\0\0ab\0'
+    data, place = encode_with_places(kind_with(idl.UnboundedWString())(a='a€'))
+    assert (place['a'].begin, place['a'].size) == (4, 12)
+    assert bytes(data[4:]) == bytes.fromhex('02000000 61000000 ac200000')
 
 
 @pytest.mark.parametrize(
@@ -215,6 +226,7 @@ def test_a_field_deep_within_is_named() -> None:
         (HEADER, 3, '3 is no Header'),
         (idl.UnboundedSequence(BYTE), 3, 'has no len'),
         (idl.UnboundedString(), 3, '3 is no text'),
+        (idl.UnboundedWString(), ['a'], r"\['a'\] is no text"),
         (idl.Array(FLOAT, 2), [0.0, 1e300], 'a row of 2 is not of float'),
         (idl.Array(SHORT, 2), [0.0, 1.0], 'a row of 2 is not of int16'),
         (idl.UnboundedSequence(BYTE), [255, 256], 'a row of 2 is not of uint8'),
@@ -237,7 +249,18 @@ def test_what_a_field_cannot_hold_is_refused(slot: Any, value: Any, says: str) -
         (idl.UnboundedString(), '00010000 02000000 ff00', "can't decode byte 0xff"),
         (idl.UnboundedString(), '00010000 ffffffff 00', 'a: ends after 9 bytes'),
         (idl.UnboundedWString(), '00010000 01000000 00000100', '0x10000 is no unit of UTF-16'),
+        (
+            idl.UnboundedWString(),
+            '00010000 02000000 61000000 00000200',
+            '0x20000 is no unit of UTF-16',
+        ),
         (idl.BoundedSequence(BYTE, 1), '00010000 02000000 0000', 'at most 1 are allowed'),
+        (idl.BoundedString(1), '00010000 03000000 616200', '2 characters; at most 1 are allowed'),
+        (
+            idl.BoundedWString(1),
+            '00010000 02000000 61000000 62000000',
+            '2 characters; at most 1 are allowed',
+        ),
         (idl.UnboundedSequence(HEADER), '00010000 ffffffff', 'a: stamp: sec: ends after 8'),
     ],
 )
