@@ -28,7 +28,7 @@ HARMLESS = 'Unable to preventDefault inside passive event listener'
 
 # Without a graphics processor, drawing takes all that the machine has. Where what is tested is
 # something else, pages do everything but draw their 3D scene; and where the scene itself is looked
-# at, a few pictures a second are enough. What is not drawn moves ten times a second.
+# at, a few pictures a second are enough.
 _DRAW_NOTHING = """
 for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced', 'drawArraysInstanced',
     'drawRangeElements', 'clear', 'blitFramebuffer'])
@@ -38,7 +38,6 @@ _DRAW_SELDOM = """
 const soon = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 250);
 """
-_MOVE_SELDOM = _DRAW_SELDOM.replace('250', '100')
 # Smooth edges take most of the time: only pictures to keep have them. These are not drawn seldom
 # either, or what moves would stand elsewhere than its shadow.
 _DRAW_ROUGHLY = """
@@ -96,7 +95,7 @@ def open_page(
     if drawn and not KEPT:
         page.add_init_script(_DRAW_SELDOM + _DRAW_ROUGHLY)
     elif not drawn:
-        page.add_init_script(_DRAW_NOTHING + _MOVE_SELDOM)
+        page.add_init_script(_DRAW_NOTHING)
     page.goto(url, wait_until='commit')
     expect(number(page, 'time')).not_to_be_empty()
     if drawn:
