@@ -57,6 +57,8 @@ class Observer:
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
         self._socket.bind(('0.0.0.0' if subnet or static_peers else '127.0.0.1', 0))
         self._news_sec = 0.0
+        self._unread = select.poll()  # select.select fails where a process has 1024 files open
+        self._unread.register(self._socket, select.POLLIN)
         self._due: dict[tuple[bytes, bytes], None] = {}  # participants and writers to answer
 
     def __enter__(self) -> Observer:
@@ -94,7 +96,7 @@ class Observer:
             check()
             # On a busy machine this process runs seldom. What it asks for that lies unread is sent
             # again, and soon more comes than is read.
-            if not self._has_unread() or now >= asked + _UNREAD_SEC:
+            if not self._unread.poll(0) or now >= asked + _UNREAD_SEC:
                 asked = now
                 self._acknowledge_due()
                 if now >= retry:
@@ -107,11 +109,8 @@ class Observer:
             counted = expected is not None and not self._subnet and not self._static_peers
             if self._is_complete(expected) and (counted or now - self._news_sec >= settle_sec):
                 return not self.unanswered
-            self._receive(retry - time.monotonic())
+            self._receive(min(retry - time.monotonic(), _RETRY_SEC))
         return False
-
-    def _has_unread(self) -> bool:
-        return bool(select.select([self._socket], (), (), 0.0)[0])
 
     def _acknowledge_due(self) -> None:
         for prefix, writer in self._due:

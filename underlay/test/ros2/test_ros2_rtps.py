@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 from pathlib import Path
+import resource
 import socket
 import struct
 import subprocess
@@ -225,3 +227,15 @@ def test_on_a_busy_machine_what_has_come_is_read_before_more_is_asked_for(
         assert observer.observe(timeout_sec=3.0), 'not all that the node announced was read'
         found = graph.build(observer.participants.values())
     assert [node.full_name for node in found.nodes] == ['/quiet']
+
+
+def test_a_process_with_many_open_files_reads_the_graph(domain: int) -> None:
+    with contextlib.ExitStack() as opened:
+        before = resource.getrlimit(resource.RLIMIT_NOFILE)
+        _, most = before
+        resource.setrlimit(resource.RLIMIT_NOFILE, (min(most, 4096), most))
+        opened.callback(resource.setrlimit, resource.RLIMIT_NOFILE, before)
+        for _ in range(1100):
+            opened.enter_context(Path(os.devnull).open())
+        with Observer(domain_id=domain) as observer:
+            assert observer.observe(timeout_sec=3.0)
