@@ -107,6 +107,16 @@ def wall_sec_of(listener: Listener, simulated_sec: float) -> float:
     return time.monotonic() - wall_sec
 
 
+def wait_for_real_time(listener: Listener) -> None:
+    """Wait for three simulated seconds that pass in three of the clock on the wall."""
+    # Once more where it had no processor for a moment: it leaves out what it cannot catch up.
+    wait_until(
+        lambda: wall_sec_of(listener, 3.0) == pytest.approx(3.0, abs=0.5),
+        timeout_sec=30.0,
+        what='three simulated seconds in three of the clock on the wall',
+    )
+
+
 @pytest.mark.timeout(60)
 def test_a_launch_serves_the_page_on_the_loopback_alone(processes: Processes) -> None:
     launch = processes.start(
@@ -272,12 +282,7 @@ def test_a_view_that_hangs_does_not_hold_up_the_physics(shown: Shown) -> None:
     listener = shown.nodes.start(Listener, {'/clock': Clock})
     shown.view.signal(signal.SIGSTOP)
     try:
-        # Once more where it had no processor for a moment: it leaves out what it cannot catch up.
-        wait_until(
-            lambda: wall_sec_of(listener, 3.0) == pytest.approx(3.0, abs=0.5),
-            timeout_sec=30.0,
-            what='three simulated seconds in three of the clock on the wall',
-        )
+        wait_for_real_time(listener)
     finally:
         shown.view.signal(signal.SIGCONT)
         shown.nodes.close(listener)
@@ -289,12 +294,7 @@ def test_ten_stalled_tabs_do_not_hold_up_the_physics(shown: Shown) -> None:
     tabs = [stalled_tab(shown.address) for _ in range(10)]
     listener = shown.nodes.start(Listener, {'/clock': Clock})
     try:
-        # Once more where it had no processor for a moment: it leaves out what it cannot catch up.
-        wait_until(
-            lambda: wall_sec_of(listener, 3.0) == pytest.approx(3.0, abs=0.5),
-            timeout_sec=30.0,
-            what='three simulated seconds in three of the clock on the wall',
-        )
+        wait_for_real_time(listener)
     finally:
         for tab in tabs:
             tab.close()
