@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is told of a build, of all that `colcon build` has printed."""
 
-from husky_grader.rubric.colcon_errors import first_error
+from husky_grader.rubric.colcon_errors import first_error, without_own_errors
 
 SECTION = '--- stderr: {package}\n{said}\n---\n{how} <<< {package}\n'
 
@@ -21,3 +21,10 @@ def test_the_time_to_find_an_error_grows_with_what_a_build_prints() -> None:
     said = '--- stderr: a\n' * 140_000 + '---\nsilence'
     printed = SECTION.format(package='a', said=said, how='Failed  ')
     assert first_error(printed) == ''
+
+
+def test_the_time_to_leave_out_errors_of_colcon_grows_with_what_a_build_prints() -> None:
+    # A setup.py writes the file of colcon's frame again and again. This took minutes.
+    frame = '  File "' + '/colcon_core/executor/__init__.py", ' * 10_000
+    printed = f'Traceback (most recent call last):\n{frame}\n' + ' x\n' * 300_000
+    assert without_own_errors(printed) == printed

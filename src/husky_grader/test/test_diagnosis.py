@@ -440,3 +440,9 @@ def test_what_the_grader_has_killed_is_not_told_of_the_kernel() -> None:
     note = '[ended by the grader: it had 501 processes and threads; 500 are allowed]'
     assert how_it_ended(-9, f'here\n\n{note}\n') == f'it ended by itself (SIGKILL): {note}'
     assert reasons(f'here\n{note}', '', [], -9)[0] == f'it crashed (SIGKILL): {note}'
+
+
+@pytest.mark.parametrize('begin', [f'{LAUNCH_FAILED}', '  File "a.py", line 1\nError: '])
+def test_the_time_to_tell_an_end_grows_with_what_was_printed(begin: str) -> None:
+    # As one that raises an error with the bytes of a picture in it. This took minutes.
+    assert how_it_ended(1, f'{begin}{"x" * 2_000_000}\n').endswith('xxx...')

@@ -9,7 +9,7 @@ _CMAKE = 'CMake Error at '
 _TWICE = re.compile(r'Duplicate package names not supported:\n- (.*):\n  - ')
 # What colcon raises where a setup.py that it runs has failed: the error of that is told beside it.
 _OF_COLCON = re.compile(
-    r'^Traceback .*\n  File ".*/colcon_core/executor/__init__\.py", .*\n(?: .*\n)*'
+    r'^Traceback .*\n  File "[^"\n]*/colcon_core/executor/__init__\.py", .*\n(?: .*\n)*'
     r'(?:subprocess\.CalledProcessError: .*\n|AssertionError: Expected .* to pass: )',
     re.MULTILINE,
 )

@@ -41,7 +41,8 @@ _LAUNCH_FAILED = '[ERROR] [launch]: Caught exception in launch (see debug for tr
 _OF_LAUNCH = '[INFO] [launch]: '  # where its logs are, and how much it tells
 _LOADING = re.compile(r'^Caught exception when trying to load file of format \[\w+\]: ')
 # Of a file in share/PACKAGE of a workspace: its package and what follows say which one it is.
-_SHARED = re.compile(r'[^\s\'"(\[]*\binstall/[\w-]+/share/')
+# Sought where a word begins: from each of its letters the time would grow with its square.
+_SHARED = re.compile(r'(?<![^\s\'"(\[])[^\s\'"(\[]*\binstall/[\w-]+/share/')
 _OF_RUN = '[ros2run]: Process exited with failure '  # by `ros2 run`, below what the program says
 _FATAL = 'Fatal Python error: '  # Python lists frames and modules below it
 _NOTE = '[ended by the grader: '
