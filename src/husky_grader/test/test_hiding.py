@@ -68,9 +68,18 @@ def test_nothing_is_looked_for_outside_of_the_workspace(tmp_path: Path) -> None:
     environment = installed(tmp_path / 'built', 'lib/lib/other')
     (tmp_path / 'rclpy.py').touch()
     (tmp_path / 'built' / 'install' / 'lib' / 'lib' / 'lib').symlink_to(tmp_path)
-    environment = {'PYTHONPATH': f'{environment["PYTHONPATH"]}:{tmp_path}'}
+    places = (environment['PYTHONPATH'], tmp_path, tmp_path / 'built' / 'install' / '..' / '..')
+    environment = {'PYTHONPATH': ':'.join(map(str, places))}
     error = "a.py line 3: ModuleNotFoundError: No module named 'rclpy.node'; 'rclpy' is no package"
     assert hiding(error, tmp_path / 'built', environment) == ''
+
+
+def test_a_package_of_that_name_beside_the_others_is_told(tmp_path: Path) -> None:
+    installed(tmp_path, f'numpy/{PLACE}/numpy/__init__.py')
+    # As a hook of a package sets it, which thinks that a package is a module.
+    environment = {'PYTHONPATH': str(tmp_path / 'install')}
+    error = "a.py line 3: AttributeError: module 'numpy' has no attribute 'array'"
+    assert hiding(error, tmp_path, environment).startswith('package numpy has a module numpy')
 
 
 def test_a_program_beside_its_own_rclpy_is_told(tmp_path: Path) -> None:

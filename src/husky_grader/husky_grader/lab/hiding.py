@@ -30,7 +30,7 @@ def hiding(error: str, built: Path, environment: Mapping[str, str]) -> str:
         for folder in _folders(built, environment):
             is_own = is_there(folder / f'{name}.py') or is_there(folder / name)
             if is_own and _is_installed(name):
-                whose = folder.relative_to(built / 'install').parts[0]
+                whose = (folder / name).relative_to(built / 'install').parts[0]
                 return (
                     f'package {whose} has a module {name} of its own, which hides the one that '
                     'is installed: rename it'
@@ -47,10 +47,10 @@ def _named(error: str) -> Iterator[str]:
 
 def _folders(built: Path, environment: Mapping[str, str]) -> Iterator[Path]:
     """Yield the folders of the workspace in which its programs look for modules."""
-    for entry in environment.get('PYTHONPATH', '').split(':'):
-        if Path(entry).is_relative_to(built / 'install'):
-            yield Path(entry)
-    for folder in sorted((built / 'install').glob('*/lib/*')):  # where its programs lie
+    given = map(Path, environment.get('PYTHONPATH', '').split(':'))
+    found = [folder for folder in given if folder.is_relative_to(built / 'install')]
+    found += sorted((built / 'install').glob('*/lib/*'))  # where its programs lie
+    for folder in found:
         if Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(built)):
             yield folder
 
