@@ -13,6 +13,7 @@ import sys
 import time
 
 from husky_grader.jail import find_sandbox, Jail, Limits, NoSandbox, Sandbox
+from husky_grader.lab.build_step import MAX_VARIABLES
 from playpen_testing.jails import (
     as_ordinary_user,
     in_each_of_namespaces,
@@ -167,6 +168,17 @@ def test_input_and_variables_reach_the_command(
         process = jail.start(show, {'GIVEN': 'a word'}, log=log, answers='an answer\n')
         assert process.wait(10.0)
     assert log.read_text() == f'an answer a word {tmp_path}/folder/home\n'
+
+
+@in_each_way
+def test_all_variables_that_a_build_may_set_reach_the_command(
+    sandbox: Sandbox, tmp_path: Path
+) -> None:
+    text = '\udcff' * (MAX_VARIABLES - 100)  # a byte that is no UTF-8: three as Python writes it
+    log, count = tmp_path / 'log', ['bash', '-c', 'LC_ALL=C; echo ${#MUCH}']
+    with jail_in(sandbox, tmp_path) as jail, jail.started(count, {'MUCH': text}, log=log) as run:
+        assert run.wait(10.0)
+    assert int(log.read_text()) == len(text)
 
 
 @in_each_way

@@ -3,7 +3,7 @@
 """
 The last step into a jail: folders, limits, rights; then the command.
 
-A program, `python -I -S inside.py PLAN`, that imports nothing of ours: it has to start quickly,
+A program, `python -I -S inside.py PLAN...`, that imports nothing of ours: it has to start quickly,
 and what it runs with must not come from anybody else. It stays as the parent of the command, in
 most jails as the init of their process namespace, which ends with it. It ends when the command
 does, or when the grader does: then nobody can write any more to the pipe of which it has the
@@ -344,5 +344,5 @@ def main(
 
 
 if __name__ == '__main__':
-    exit_code = main(**marshal.loads(bytes.fromhex(sys.argv[1])))
+    exit_code = main(**marshal.loads(bytes.fromhex(''.join(sys.argv[1:]))))
     os._exit(exit_code)  # without the time that Python takes to tidy up

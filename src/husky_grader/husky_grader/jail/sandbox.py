@@ -30,6 +30,7 @@ CLEAN = {'PATH': '/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin',
 # In a report that of the machine would be nobody's business; this one has an address everywhere.
 HOST_NAME = 'localhost'
 FIRST_USER = 2**30  # above it no system gives numbers to people or services
+_MAX_WORD = 100_000  # bytes; Linux starts no program with one over 128 KiB, see execve(2)
 
 
 class NoSandbox(ValueError):
@@ -151,7 +152,9 @@ def inside(
         'command': list(call.command),
     }
     # As JSON it would take longer to read than all the rest.
-    return [str(PYTHON), '-I', '-S', str(INSIDE), marshal.dumps(plan).hex()]
+    told = marshal.dumps(plan).hex()
+    words = (told[at : at + _MAX_WORD] for at in range(0, len(told), _MAX_WORD))
+    return [str(PYTHON), '-I', '-S', str(INSIDE), *words]
 
 
 def _umask() -> int:
