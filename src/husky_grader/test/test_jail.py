@@ -145,6 +145,13 @@ def has_said(log: Path, text: str) -> None:
     )
 
 
+def kernel_or_skip() -> Sandbox:
+    try:
+        return find_sandbox('kernel')
+    except NoSandbox as failure:
+        pytest.skip(str(failure))
+
+
 @in_each_way
 def test_an_exit_code_a_signal_and_a_missing_program_are_told(
     sandbox: Sandbox, tmp_path: Path
@@ -298,6 +305,15 @@ def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> Non
         process = jail.start(['bash', '-c', many], log=log)
         assert process.wait(10.0)
         assert process.stopped == 'filled its folder with over 5 MB'
+
+
+def test_files_in_memory_stay_within_their_limit(tmp_path: Path) -> None:
+    # bwrap has no word for it; of a container the kernel counts its own memory, too.
+    many = 'import os\nfor i in range(60_000): os.close(os.open(f"/tmp/{i}", os.O_CREAT))'
+    log = tmp_path / 'log'
+    with jail_in(kernel_or_skip(), tmp_path) as jail:
+        assert jail.run([sys.executable, '-c', many], log=log, within_sec=30.0) == 1
+    assert 'No space left on device' in log.read_text()
 
 
 @in_each_way_with_processes  # a container's root may not look at the files of another user

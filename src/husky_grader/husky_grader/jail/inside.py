@@ -38,6 +38,8 @@ _NR_MOUNT_SETATTR = 442  # of every architecture; glibc has it since 2.36
 _DEVICES = ('null', 'zero', 'full', 'random', 'urandom')
 # Who opens /dev/ptmx owns the terminal; the computer has 4096 of them for all.
 _TERMINALS = 'newinstance,ptmxmode=0666,mode=620,max=64'
+# An empty file takes none of the size, but a kilobyte of the kernel's own memory.
+_MEMORY_FILES = 50_000
 _PLACE = '/tmp'  # any folder that is there; others do not see what is mounted on it here
 
 # <linux/landlock.h>; the numbers of the calls are those of every architecture
@@ -105,7 +107,7 @@ def _enter_root(mounts: list[tuple[str, str, str]]) -> None:
                 f'/new{target}',
                 kind='tmpfs',
                 flags=_MS_NOSUID | _MS_NODEV,
-                data=f'mode=1777,size={source}',
+                data=f'mode=1777,size={source},nr_inodes={_MEMORY_FILES}',
             )
         else:
             _bind(f'/host{source}', f'/new{target}')
