@@ -254,6 +254,15 @@ def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -
             load_course(tmp_path / path)
 
 
+@pytest.mark.parametrize(
+    'text', ['speed: *{}', 'speed: &{} 1', 'speed: !{} 1', 'a: {}: 1', '{} = 5\nb: 2\n c: [']
+)
+def test_a_very_long_word_does_not_fill_the_terminal(text: str) -> None:
+    (line,) = problems(text.format('a' * 90_000))
+    assert line.endswith('aaa...')
+    assert len(line) < 1100
+
+
 def test_the_first_waypoint_has_no_yaw_and_no_dwell() -> None:
     text = 'waypoints:\n  - {x: 0, y: 0, yaw: 0, dwell: 3}\n  - [2, 0]\n  - [2, 2]\n'
     why = 'not for the first waypoint, where the drive begins; leave it out'

@@ -21,6 +21,7 @@ from husky_course.printable import printable
 
 MAX_BYTES = 100_000
 MAX_DEPTH = 8
+MAX_MESSAGE = 1000  # characters; some hold a word of the file, which may be all of that
 
 
 @dataclass(frozen=True, order=True)
@@ -35,7 +36,10 @@ class Problem:
     def text(self, file: str) -> str:
         field = f'{self.field}: ' if self.field else ''
         place = f'line {self.line}, column {self.column}: ' if self.line else ''
-        return f'{file}: {place}{field}{self.message}'
+        told = self.message
+        if len(told) > MAX_MESSAGE:
+            told = f'{told[: MAX_MESSAGE - 3]}...'
+        return f'{file}: {place}{field}{told}'
 
 
 class FileRefused(ValueError):
