@@ -62,6 +62,7 @@ class PageClient:
         )
         self.controls: dict[str, dict[str, Any]] = {}  # as viser has described them, by label
         self.looked_at: list[list[float]] = []  # to what its camera was turned
+        self.places: dict[str, list[float]] = {}  # of what stands in the scene, by name
         self.send(CAMERA)
 
     def __enter__(self) -> 'PageClient':
@@ -87,7 +88,7 @@ class PageClient:
         return self.controls[label]
 
     def read(self) -> None:
-        """Wait for messages and register what they say of controls and of the camera."""
+        """Wait for messages and register what they say of controls, places and the camera."""
         raw = self._tab.recv(timeout=20.0)
         assert isinstance(raw, bytes)
         size, length = (int.from_bytes(raw[at : at + 8], 'little') for at in (0, 8))
@@ -97,6 +98,8 @@ class PageClient:
                 self.controls[message['props']['label']] = message
             elif message['type'] == 'GuiUpdateMessage':
                 self._update(message['uuid'], message['updates'])
+            elif message['type'] == 'SetPositionMessage':
+                self.places[message['name']] = message['position']
             elif message['type'] == 'SetCameraLookAtMessage':
                 self.looked_at.append(message['look_at'])
 

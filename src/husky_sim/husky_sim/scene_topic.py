@@ -8,8 +8,8 @@ viewer costs the same whether the simulation runs in real time or fifty times as
 """
 
 from array import array
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 import hashlib
 import time
 from typing import Any
@@ -138,6 +138,15 @@ def origin_of(message: Float64MultiArray) -> tuple[str, str]:
     """Return the key of a message's world and its run; both are empty if it is no scene."""
     labels = [dimension.label for dimension in message.layout.dim]
     return (labels[1], labels[2]) if len(labels) == 3 else ('', '')
+
+
+def joined(scenes: Sequence[Scene]) -> Scene:
+    """Return the newest of some scenes of one run, in order, with the tracks of all."""
+    time_sec, track = (
+        np.concatenate([getattr(scene, name) for scene in scenes])
+        for name in ('time_sec', 'track')
+    )
+    return replace(scenes[-1], time_sec=time_sec, track=track)
 
 
 def read_scene(message: Float64MultiArray, *, robots: int) -> Scene:

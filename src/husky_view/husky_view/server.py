@@ -58,6 +58,11 @@ class PageServer(viser.ViserServer):
         self.tabs.clear()
 
     @property
+    def is_watched(self) -> bool:
+        """Whether a tab is connected, also one that has not told of its camera yet."""
+        return bool(self._websock_server._client_state_from_id)
+
+    @property
     def address(self) -> str:
         """The URL of the page, with the token that opens it."""
         host = self.get_host()

@@ -51,11 +51,11 @@ class CameraPane:
         )
         self._switch.on_update(in_order(lambda _: later(self.look)))
         self._picture = gui.add_image(NOTHING, format='jpeg', visible=False, order=AT_CAMERA)
-        closing.callback(self._end)
+        closing.callback(self.end)
 
     def choose_robot(self, place: int) -> None:
         """Show the camera of another robot."""
-        self._end()
+        self.end()
         self._topic = self._topics[place]
         self.look()
 
@@ -65,7 +65,7 @@ class CameraPane:
         wanted = there and bool(self._switch.value)
         _show(self._switch, there)
         if not wanted:
-            self._end()
+            self.end()
         elif self._subscription is None:
             self._subscription = self._node.create_subscription(
                 Image, self._topic, self._on_image, qos_profile_sensor_data
@@ -90,7 +90,7 @@ class CameraPane:
     def _on_image(self, msg: Image) -> None:
         self._newest = msg
 
-    def _end(self) -> None:
+    def end(self) -> None:
         """Look no more; may be called twice."""
         subscription, self._subscription, self._newest = self._subscription, None, None
         if subscription is not None:

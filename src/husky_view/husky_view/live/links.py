@@ -145,10 +145,13 @@ class RobotLink:
             self._set_waypoints(np.zeros((0, 2)))
             self.waypoints_left = None
 
-    def draw(self, now_sec: float) -> None:
-        """Draw the newest scan; once a frame, however often scans come."""
+    def end_idle_commands(self, now_sec: float) -> None:
+        """Leave the robot to others where the page has not driven it for a while."""
         if now_sec - self._driven_sec > IDLE_SEC:
             self._end_commands()
+
+    def draw(self) -> None:
+        """Draw the newest scan; once a frame, however often scans come."""
         scan, self._scan = self._scan, None
         if scan is not None:
             ranges = np.asarray(scan.ranges, dtype=np.float64)

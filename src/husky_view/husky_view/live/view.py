@@ -12,7 +12,7 @@ import time
 from husky_course.frames import Pose
 from husky_runtime.children import ChildProcess
 from husky_sim.errors import SimulatorError
-from husky_sim.scene_topic import origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
+from husky_sim.scene_topic import joined, origin_of, QOS, RATE_HZ, read_scene, Scene, world_key
 from husky_sim.world import load_world, World
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -32,6 +32,9 @@ FIGURES_HZ = 5.0
 DRIVER = 'follow_path'
 DRIVER_END_SEC = 1.0
 _SELDOM_SEC = 2.0
+
+UNWATCHED_SCENES = 30
+"""While no tab is open, so many are taken at once: only the trails and the plots grow then."""
 
 _WARNINGS = {
     State.HERE: '',
@@ -109,7 +112,9 @@ class LiveView:
         self._check = SceneCheck(world)
         self._factor = RealTimeFactor()
         self._scene: Scene | None = None  # the newest
+        self._unread: list[Scene] = []  # of one run
         self._invalid, self._invalid_sec = '', -math.inf
+        self._is_watched = False  # by a tab; nothing is drawn for nobody
         self._unshown = ''  # why the next world is not shown, as last told
         self._driven = 0  # place of the robot that is driven
         self._figures_due_sec = 0.0
@@ -193,10 +198,22 @@ class LiveView:
         except ValueError as error:
             self._on_invalid(f'~/scene: {error}')
             return
+        self._factor.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
+        if self._unread and self._unread[0].run != scene.run:
+            self._read_scenes()
+        self._unread.append(scene)
+        if self._is_watched or len(self._unread) >= UNWATCHED_SCENES:
+            self._read_scenes()
+
+    def _read_scenes(self) -> None:
+        """Take what has come of one run, as one scene: that costs the same as each of them."""
+        if not self._unread:
+            return
+        scene = joined(self._unread)
+        self._unread = []
         if reason := self._check.error_in(scene):
             self._on_invalid(f'~/scene: {reason}')
             return
-        self._factor.add(wall_sec=now, time_sec=float(scene.time_sec[-1]))
         if self._scene is None:
             for link, stopped in zip(self._links, scene.stopped, strict=True):
                 link.adopt_stop(stopped=stopped)
@@ -226,24 +243,40 @@ class LiveView:
         if command is not None:
             self._links[self._driven].drive(*command, now_sec=now)
         for link in self._links:
-            link.draw(now)
+            link.end_idle_commands(now)
         self._editor.draw()
-        self._picture.draw(now)
+        if self._server.is_watched != self._is_watched:
+            self._is_watched = not self._is_watched
+            self._read_scenes()
+            self._figures_due_sec = now
+            self._look_through_camera()
+        if self._is_watched:
+            for link in self._links:
+                link.draw()
+            self._picture.draw(now)
         if now >= self._figures_due_sec:
             self._figures_due_sec = now + 1.0 / FIGURES_HZ
             state = self._monitor.state(now_sec=now)
             self._panel.show_warning(self._warning(state, now))
-            self._camera.draw()
-            if self._scene is not None:
-                self._show_figures(self._scene, state)
+            if self._is_watched:
+                self._camera.draw()
+                if self._scene is not None:
+                    self._show_figures(self._scene, state)
             if state is State.ANOTHER_WORLD:
                 self._look_for_another_world()
-        self._server.flush()
+        if self._is_watched:
+            self._server.flush()
 
     def _on_seldom(self) -> None:
         self._editor.look_for_files()
         self._control.poll_factor()
-        self._camera.look()
+        self._look_through_camera()
+
+    def _look_through_camera(self) -> None:
+        if self._is_watched:
+            self._camera.look()
+        else:
+            self._camera.end()  # a simulator draws what somebody subscribes to
 
     def _look_for_another_world(self) -> None:
         try:

@@ -109,11 +109,10 @@ class RobotMarks:
         self._place()
 
     def move(self, track: Array) -> None:
-        """Take the newest entries (n, len(TRACK)) of this robot's track."""
+        """Take the newest entries (n, len(TRACK)) of this robot's track; `draw` shows them."""
         self._x_y = track[-1, _X : _X + 2].copy()
         self.yaw = float(track[-1, _YAW])
         self.speed_m_s = float(track[-1, _SPEED])
-        self._place()
         self._true_trail.extend(lifted(track[:, _X : _X + 2], self._height_m + 0.02))
         odometry = to_world(self._start, track[:, _ODOM_X : _ODOM_X + 2])
         self._odometry_trail.extend(lifted(odometry, self._height_m + 0.01))
@@ -124,8 +123,9 @@ class RobotMarks:
         if self._name.visible:
             self._name.position = (x, y, self._name_m)
 
-    def draw_trails(self) -> None:
-        """Send what was added to the trails."""
+    def draw(self) -> None:
+        """Send where it is, and what was added to the trails."""
+        self._place()
         self._true_trail.draw()
         self._odometry_trail.draw()
 
@@ -231,11 +231,14 @@ class Picture:
         self.history = History()
         self._time_sec = 0.0
         self._run = ''
+        self._undrawn: Array | None = None  # joint positions of the newest scene
         self.followed = 0
 
     def show(self, scene: Scene) -> bool:
         """
-        Draw a scene; one of another run, or with a time that goes back, begins a new run.
+        Take a scene; one of another run, or with a time that goes back, begins a new run.
+
+        `draw` shows it. Until then this costs little, as while no page is open.
 
         :return: whether it began one.
         """
@@ -245,8 +248,7 @@ class Picture:
             self.clear()
         self._run = scene.run
         self._time_sec = float(scene.time_sec[-1])
-        self.scene.show(scene.qpos)
-        self._shadows.show(self.scene.outlines())
+        self._undrawn = scene.qpos
         for place, robot in enumerate(self.robots):
             robot.move(scene.track[first:, place])
         track = scene.track[first:, self.followed]
@@ -259,9 +261,13 @@ class Picture:
         return is_new
 
     def draw(self, now_sec: float) -> None:
-        """Send what grew, animate flashes and cameras; now is of a steady wall clock."""
-        for robot in self.robots:
-            robot.draw_trails()
+        """Send what moved and grew, animate flashes and cameras; now is of a steady wall clock."""
+        if self._undrawn is not None:
+            self.scene.show(self._undrawn)
+            self._shadows.show(self.scene.outlines())
+            for robot in self.robots:
+                robot.draw()
+            self._undrawn = None
         self.collisions.update(now_sec)
         self._cameras.follow(self.scene.position(self.followed), now_sec=now_sec)
 
