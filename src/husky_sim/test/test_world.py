@@ -302,6 +302,50 @@ def test_a_fault_in_an_included_file_has_its_file_and_line(
         load_world(path, [RobotStart()])
 
 
+def attaching(file: str) -> str:
+    return mjcf(
+        FLOOR + '<frame pos="0 2 0"><attach model="m" body="crate" prefix="my_"/></frame>',
+        before=f'<asset><model name="m" {file}/></asset>',
+    )
+
+
+def test_a_body_of_another_file_is_an_obstacle(
+    write: Callable[[str], str], tmp_path: Path
+) -> None:
+    crate = '<body name="crate" pos="3 0 0.3"><geom type="box" size="0.3 0.3 0.3"/></body>'
+    (tmp_path / 'model.xml').write_text(mjcf(crate))
+    (outline,) = load_world(write(attaching('file="model.xml"')), [RobotStart()]).obstacles
+    assert (outline.name, outline.x, outline.y) == ('my_crate', 3.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ('file', 'reason'),
+    [
+        ('', r'does not say why; look for .* a <model> without file='),
+        ('file="world.xml"', r"the model 'world\.xml' is made of itself; name .*, line 2$"),
+        ('file="part.xml"', r"the model 'world\.xml' is made of itself; name "),
+        ('file="no.xml"', r"opening file '.*no\.xml' Element 'model', line 2$"),
+    ],
+)
+def test_a_model_that_cannot_be_attached_is_refused(
+    write: Callable[[str], str], tmp_path: Path, file: str, reason: str
+) -> None:
+    (tmp_path / 'part.xml').write_text(attaching('file="world.xml"'))
+    with pytest.raises(WorldError, match=reason):
+        load_world(write(attaching(file)), [RobotStart()])
+
+
+def test_a_soft_body_is_an_obstacle_as_it_stands_at_the_start(write: Callable[[str], str]) -> None:
+    cloth = (
+        '<flexcomp name="{}" type="grid" dim="2" count="5 3 1" spacing="0.1 0.1 0.1" mass="1" '
+        'radius="0.02" pos="{}"/>'
+    )
+    hung = cloth.format('near', '2 1 0.3') + cloth.format('high', '2 -1 2.0')
+    (outline,) = load_world(write(mjcf(FLOOR + hung)), [RobotStart()]).obstacles
+    assert (outline.name, outline.x, outline.y) == ('near', 2.0, 1.0)
+    assert outline.size == pytest.approx((0.44, 0.24))
+
+
 def test_names_in_another_encoding_are_refused(tmp_path: Path) -> None:
     path = tmp_path / 'world.xml'
     door = '<body name="Tür" pos="3 0 1"><geom size="0.1"/></body>'

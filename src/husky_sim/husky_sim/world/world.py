@@ -31,8 +31,14 @@ from husky_sim.world.flat_ground import (
     find_flat_ground,
     FlatGround,
 )
-from husky_sim.world.silhouette import highest_m, lowest_m, outlines_of
+from husky_sim.world.silhouette import (
+    highest_m,
+    lowest_m,
+    outlines_of,
+    outlines_of_flexes,
+)
 from husky_sim.world.world_file import (
+    check_models,
     check_names,
     check_numbers,
     check_settings,
@@ -153,8 +159,15 @@ def _parsed(path: str) -> mujoco.MjSpec:
         raise WorldError(f'world={path!r}: no such file; give the path of an MJCF file (.xml)')
     if Path(path).suffix.lower() != '.xml':
         raise WorldError(f'world={path!r}: not an .xml file; give an MJCF file')
+    check_models(path)
     with _mujoco_refusals(path):
-        spec = mujoco.MjSpec.from_file(path)
+        try:
+            spec = mujoco.MjSpec.from_file(path)
+        except RuntimeError as error:  # as of a model without a file
+            raise ValueError(
+                'MuJoCo cannot read it and does not say why; look for an element that lacks '
+                'something, as a <model> without file=...'
+            ) from error
     spec.compiler.fusestatic = False  # fused bodies lose their names
     return spec
 
@@ -370,4 +383,5 @@ def _outlines(
         ]
         if geoms:
             outlines += outlines_of(names[owner], model, data, geoms, body=body)
+    outlines += outlines_of_flexes(model, data, below_m=above_m)
     return tuple(outlines)

@@ -20,6 +20,8 @@ _NUMBERS = ('pos', 'quat', 'size', 'friction', 'mass', 'inertia', 'ipos', 'axis'
 _HAS_LINE = re.compile(r'\bline\b', re.IGNORECASE)
 _QUOTED = re.compile(r"'([^']+)'")
 _NO_LINE = re.compile(r',? line 0\b')  # what MuJoCo says of all that stands in an included file
+_COMMENT = re.compile(r'<!--.*?-->', re.DOTALL)
+_MODEL = re.compile(r'<model\s[^>]*?file\s*=\s*["\']([^"\']+)["\']')
 _INCLUDE = re.compile(r'<include\s[^>]*?file\s*=\s*["\']([^"\']+)["\']')
 
 
@@ -67,6 +69,38 @@ def _texts(path: str) -> list[tuple[str, str]]:
         texts.append((name, text))
         names += [each for each in _INCLUDE.findall(text) if each not in names]
     return texts
+
+
+def check_models(path: str) -> None:
+    """
+    Check that no model that is attached is made of itself: MuJoCo 4.0 ends the process on that.
+
+    :raises WorldError: if one is.
+    """
+    seen: set[Path] = set()
+
+    def follow(file: Path, above: tuple[Path, ...]) -> None:
+        seen.add(file)
+        for name in _models_of(file):
+            model = (file.parent / name).resolve()
+            if model in above:
+                raise refused(
+                    path,
+                    f'the model {name!r} is made of itself; name a file that does not lead back '
+                    'to it',
+                    word=name,
+                )
+            if model not in seen:
+                follow(model, (*above, model))
+
+    world = Path(path).resolve()
+    follow(world, (world,))
+
+
+def _models_of(file: Path) -> list[str]:
+    """Return the files of the models that a file names, itself or in what it includes."""
+    texts = [_COMMENT.sub('', text) for _, text in _texts(str(file))]
+    return [name for text in texts for name in _MODEL.findall(text)]
 
 
 def steps_per_period(path: str, timestep_sec: float) -> int:
