@@ -158,7 +158,15 @@ def _own_domain() -> int:
 
 
 def check_silent(graph: Graph, domain_id: int) -> Iterator[Finding]:
-    """Find processes of this machine that are in the domain, but do not answer."""
+    """Find processes that are in the domain, but do not answer, or do not tell all they have."""
+    for address in graph.silent_hosts:
+        yield Finding(
+            f'domain {domain_id}',
+            f'a process of the host {address} announces itself and does not tell its nodes; what '
+            'is shown may not be all',
+            f'look on {address} for one that is stopped (Ctrl-Z), or a firewall that lets only '
+            'multicast through',
+        )
     for port in graph.silent_ports:
         if process := _undiscoverable(port):
             yield Finding(
@@ -171,7 +179,7 @@ def check_silent(graph: Graph, domain_id: int) -> Iterator[Finding]:
         yield Finding(
             f'domain {domain_id}',
             f'the process that listens at UDP port {port} does not answer, its nodes are not '
-            'shown and get no messages',
+            '(or not all) shown and get no messages',
             f'it is stopped (Ctrl-Z) or hangs: `fg` continues it, `fuser -k {port}/udp` ends it',
         )
 

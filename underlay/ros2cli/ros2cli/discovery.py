@@ -81,7 +81,9 @@ def read_graph(args: argparse.Namespace | None = None, *, quiet: bool = False) -
             settle_sec=settle_sec,
             check=_check_signals,
         )
-        found = graph.build(observer.participants.values(), observer.unanswered)
+        found = graph.build(
+            observer.participants.values(), observer.unanswered, observer.silent_hosts
+        )
     if not quiet:
         _print_hints(settings, found)
     return found

@@ -96,7 +96,8 @@ class Graph:
 
     nodes: list[Node]
     endpoints: list[Endpoint]
-    silent_ports: tuple[int, ...] = ()
+    silent_ports: tuple[int, ...] = ()  # of this host's participants that did not tell all
+    silent_hosts: tuple[str, ...] = ()  # other ones with such a participant
 
     def topics(self) -> dict[str, list[str]]:
         return types_by_name(
@@ -134,9 +135,13 @@ def _actions(topics: dict[str, list[str]]) -> dict[str, list[str]]:
     }
 
 
-def build(participants: Iterable[Participant], silent_ports: Iterable[int] = ()) -> Graph:
+def build(
+    participants: Iterable[Participant],
+    silent_ports: Iterable[int] = (),
+    silent_hosts: Iterable[str] = (),
+) -> Graph:
     """Put the graph together from what the participants announced."""
-    graph = Graph([], [], tuple(sorted(silent_ports)))
+    graph = Graph([], [], tuple(sorted(silent_ports)), tuple(sorted(silent_hosts)))
     for participant in participants:
         endpoints = {
             guid: endpoint

@@ -46,7 +46,9 @@ class Observer:
     ) -> None:
         self.domain_id = domain_id
         self.participants: dict[bytes, Participant] = {}
-        self.unanswered: set[int] = set()  # ports of this host's participants that kept silent
+        # Ports of this host's participants that kept silent, or have not told all that they have.
+        self.unanswered: set[int] = set()
+        self.silent_hosts: set[str] = set()  # other ones, of which somebody has not told all
         self._stopped: set[int] = set()  # those of them whose process is stopped
         self._subnet = subnet
         self._static_peers = static_peers
@@ -120,10 +122,11 @@ class Observer:
 
     def _is_complete(self, expected: set[int] | None) -> bool:
         answered = {p.discovery_port for p in self.participants.values()}
-        self.unanswered = (expected or set()) - answered
-        if not self.unanswered <= self._stopped:
-            return False
-        return all(p.complete for p in self.participants.values())
+        unfinished = [p for p in self.participants.values() if not p.complete]
+        here = {p.discovery_port for p in unfinished if p.address in self._addresses}
+        self.unanswered = (expected or set()) - answered | here
+        self.silent_hosts = {p.address for p in unfinished if p.address not in self._addresses}
+        return not self.silent_hosts and self.unanswered <= self._stopped
 
     def _count(self) -> set[int] | None:
         """Return the discovery ports of this host's participants; None if it cannot be known.

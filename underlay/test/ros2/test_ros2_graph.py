@@ -19,6 +19,7 @@ from playpen_testing.bags import opened_writer
 from playpen_testing.processes import Processes
 from playpen_testing.waiting import wait_until
 import pytest
+from ros2_diagnosis import nodes
 from rtps_graph import announcements, graph, host, wire
 from rtps_graph.observer import Observer
 from rtps_graph.participant import Participant
@@ -205,6 +206,28 @@ def test_a_stopped_process_is_named_and_the_others_are_shown(
     assert '/udp' in answer.err
 
 
+def test_a_process_that_is_stopped_amid_its_answer_is_not_waited_for(
+    processes: Any, domain: int
+) -> None:
+    processes.node('plain', 'awake')
+    asleep = processes.node('talker', 'asleep')
+    ports = host.ports_of(Path(f'/proc/{asleep.pid}'))
+
+    class Stopping(Observer):
+        def _ask_participant(self, participant: Participant) -> None:
+            if participant.discovery_port in ports:
+                asleep.send_signal(signal.SIGSTOP)
+                os.waitid(os.P_PID, asleep.pid, os.WSTOPPED | os.WNOWAIT)
+            super()._ask_participant(participant)
+
+    start = time.monotonic()
+    with Stopping(domain_id=domain) as observer:
+        assert not observer.observe(timeout_sec=20.0), 'one of them has not told all'
+        assert len(observer.participants) == 2
+        assert observer.unanswered < ports
+    assert time.monotonic() - start < 10.0, 'it waits for one that is stopped'
+
+
 def test_a_signal_ends_a_command_that_reads_the_graph(
     processes: Any, domain: int, tmp_path: Path
 ) -> None:
@@ -289,6 +312,9 @@ def test_one_of_another_host_may_have_the_port_of_one_here(processes: Any, domai
 
         wait_until(is_complete, timeout_sec=20.0, what='all of one of them')
         known = {each.address: each for each in observer.participants.values()}
+        found = graph.build(known.values(), observer.unanswered, observer.silent_hosts)
+    (finding,) = nodes.check_silent(found, domain)
+    assert 'host 127.0.0.2 announces itself and does not tell its nodes; what is ' in str(finding)
     assert known.keys() == {'127.0.0.1', '127.0.0.2'}
     assert known['127.0.0.1'].complete
     assert len({each.discovery_port for each in known.values()}) == 1
