@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 import signal
 
+from ament_index_python.packages import get_package_prefix
 from nav_msgs.msg import Odometry
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Process, Processes
@@ -96,3 +97,31 @@ def test_in_lockstep_a_robot_drives_on_when_another_is_done(
     # One that comes when time waits for commands has missed the odometry that it is to answer.
     again = start_driver('far', 1.0)
     assert again.wait(timeout_sec=30.0) == 0, again.output + simulator.output
+
+
+@pytest.mark.timeout(90)
+def test_in_lockstep_a_driver_that_is_stopped_is_named(
+    processes: Processes, tmp_path: Path
+) -> None:
+    simulator = processes.start(
+        *('ros2', 'run', 'husky_sim', 'husky_sim', '--ros-args', '-p', 'lockstep:=true'),
+        *('-p', "robots:=['near 0 0 0', 'far -3 -1 0']"),
+    )
+    course = tmp_path / 'course.yaml'
+    course.write_text('waypoints: [[0, 0], [1.0, 0]]')
+    program = Path(get_package_prefix('husky_driver')) / 'lib' / 'husky_driver' / 'follow_path'
+    drivers = {
+        name: processes.start(
+            *(str(program), '--waypoints', str(course), '--ros-args', '-r', f'__ns:=/{name}'),
+            *('-p', 'check:=off', '-p', 'startup_timeout_sec:=30.0'),
+        )
+        for name in ('near', 'far')
+    }
+    drivers['far'].wait_for_text(' m left', timeout_sec=30.0)
+    drivers['far'].signal(signal.SIGSTOP)
+    try:
+        simulator.wait_for_text('no driver answers of far', timeout_sec=20.0)
+    finally:
+        drivers['far'].signal(signal.SIGCONT)
+    for driver in drivers.values():
+        assert driver.wait(timeout_sec=30.0) == 0, driver.output + simulator.output

@@ -89,6 +89,7 @@ class SimulatorNode(SettingsNode):
         self.over: Future[None] = Future()
         self.paused = False  # time stands still
         self._looks_at_waiting = 0
+        self._periods_looked_at = 0
         self._has_broken_down = False  # the physics, in this run
         self._topics = SimulationTopics(
             self,
@@ -234,19 +235,24 @@ class SimulatorNode(SettingsNode):
         self._tell_who_waits()
 
     def _tell_who_waits(self) -> None:
-        """Log, once, whose drivers lockstep waits for, where other robots have theirs."""
-        if not isinstance(self._pace, Lockstep) or self._pace.has_begun:
+        """Log, once a wait, whose drivers lockstep waits for, where other robots have theirs."""
+        before, self._periods_looked_at = self._periods_looked_at, self.simulation.periods
+        if not isinstance(self._pace, Lockstep) or self.paused:
             self._looks_at_waiting = 0
             return
-        lack = self._topics.without_driver
-        if 0 < len(lack) < len(self.simulation.robots):
-            self._looks_at_waiting += 1
-            if self._looks_at_waiting == WAITING_LOOKS:
-                self.get_logger().warning(
-                    'in lockstep time begins when each robot has a driver, which reads its '
-                    'odometry/filtered and publishes its commands; so far nobody drives '
-                    f'{", ".join(lack)}'
-                )
+        if self._pace.has_begun:
+            lack = self._topics.without_command if before == self.simulation.periods else []
+            why = 'in lockstep time waits for a command for each robot; no driver answers of '
+        else:
+            lack = self._topics.without_driver
+            why = (
+                'in lockstep time begins when each robot has a driver, which reads its '
+                'odometry/filtered and publishes its commands; so far nobody drives '
+            )
+        waits = 0 < len(lack) < len(self.simulation.robots)
+        self._looks_at_waiting = self._looks_at_waiting + 1 if waits else 0
+        if self._looks_at_waiting == WAITING_LOOKS:
+            self.get_logger().warning(f'{why}{", ".join(lack)}')
 
     def _tell_of_breakdown(self) -> None:
         """Log, once a run, that the physics has failed; seldom, because it takes time to look."""

@@ -102,6 +102,11 @@ class SimulationTopics:
             return False
         return not any(topics.commands.is_commanded() for topics in waits)
 
+    @property
+    def without_command(self) -> list[str]:
+        """Return the names of the robots that were not commanded since then."""
+        return [topics.robot.name for topics in self._robots if not topics.commands.commanded]
+
     def forget_commands(self) -> None:
         """Wait for a new command for every robot."""
         for topics in self._robots:
