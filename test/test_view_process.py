@@ -266,6 +266,13 @@ def test_a_parameter_that_cannot_be_is_refused_in_one_line(
     assert 'Traceback' not in ended.out + ended.err
 
 
+def test_the_record_behind_the_names_of_a_replay_is_no_name(tmp_path: Path) -> None:
+    run = str(tmp_path / 'run')
+    (ended,) = run_forked(('husky_view.replay.replay', '--names', 'lab.example.edu', run))
+    assert ended.status == 2
+    assert ended.err.startswith(f'replay: {run}: ')
+
+
 @pytest.mark.timeout(60)
 def test_a_node_that_is_no_simulator_is_refused_in_one_line(processes: Processes) -> None:
     processes.start('ros2', 'run', 'demo_nodes_py', 'talker')

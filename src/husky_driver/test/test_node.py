@@ -322,22 +322,21 @@ def test_a_new_file_takes_over_and_a_bad_one_is_refused(
     world = course.with_name('world.xml')
     world.write_text(WORLD)
     process = on_its_way(plant_node, follow_path, course, f'world:={world}', check='refuse')
-    other, broken = course.with_name('other.yaml'), course.with_name('broken.yaml')
-    through = course.with_name('through.yaml')
+    names = ('other.yaml', 'broken.yaml', 'through.yaml')
+    other, broken, through = map(course.with_name, names)
     other.write_text('speed: 0.8\nwaypoints: [[1, 1], [2, 2]]\n')
     broken.write_text('speed: fast\n')
     through.write_text('waypoints: [[0, 0], [0, -4]]\n')
 
-    def set_waypoints(path: Path) -> Any:
+    def set_waypoints(path: Path | str) -> Any:
         value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=str(path))
         request = SetParameters.Request(parameters=[Parameter(name='waypoints', value=value)])
-        name = '/follow_path/set_parameters'
-        (result,) = call(plant_node, SetParameters, name, request).results
-        return result
+        return call(plant_node, SetParameters, '/follow_path/set_parameters', request).results[0]
 
     refused = set_waypoints(broken)
     assert not refused.successful
     assert 'broken.yaml: line 1' in refused.reason
+    assert set_waypoints('').reason == "waypoints='': no file; give the path of one .yaml file"
     refused = set_waypoints(through)
     assert not refused.successful
     assert refused.reason.endswith('not driven, it passes too near to obstacles')

@@ -182,6 +182,9 @@ class FollowPath(Node):
         """Change to another waypoint file at once, or refuse it."""
         for parameter in parameters:
             if parameter.name == 'waypoints':
+                if not parameter.value:  # else it would be the current folder
+                    reason = "waypoints='': no file; give the path of one .yaml file"
+                    return SetParametersResult(successful=False, reason=reason)
                 try:
                     route = plan_route(load_course(str(parameter.value)))
                     self._progress.close()  # a warning has a line of its own

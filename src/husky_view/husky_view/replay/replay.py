@@ -125,7 +125,11 @@ def main(args: Sequence[str] | None = None) -> int:
         help='port; the next free one if taken (default: %(default)s)',
     )
     parser.add_argument(
-        '--names', nargs='+', default=(), help='more names under which the page may be asked for'
+        '--names',
+        type=str.split,
+        action='extend',
+        default=[],
+        help='more names under which the page may be asked for; several in quotes',
     )
     parser.add_argument(
         '--waypoints', help=f"the course that was to be driven (the report's {COURSE_NAME})"
