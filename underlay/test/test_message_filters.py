@@ -189,6 +189,10 @@ def test_filters_of_a_chain_come_one_after_another() -> None:
     assert (chain.getFilter(0), chain.getFilter(1)) == (first, second)
     with pytest.raises(RuntimeError, match='Already connected'):
         chain.connectInput(source)
+    alone = Chain()
+    alone.registerCallback(ends.append)
+    alone.add(at(4))  # without an input
+    assert ends[3:] == [at(4)]
 
 
 def test_what_has_not_changed_is_not_let_out() -> None:
