@@ -100,6 +100,16 @@ def test_a_goal_that_takes_too_long_is_canceled(processes: Any, ros2: Any) -> No
     assert answer.status == 1
 
 
+def test_the_timeout_ends_the_wait_for_an_answer_too(processes: Any) -> None:
+    processes.node('count_that_stops_at_goal', 'server')
+    client = processes.ros2(*GOAL, '--timeout', '0.5')
+    out, _ = client.communicate(timeout=20)
+    assert out.endswith(
+        'Failed to cancel goal: the server does not answer, and may still carry it out\n'
+    )
+    assert client.returncode == 1
+
+
 def test_a_server_that_ends_before_its_goal_is_told(processes: Any) -> None:
     server = processes.node('count', 'server')
     client = processes.ros2(*GOAL, ready='Goal accepted')

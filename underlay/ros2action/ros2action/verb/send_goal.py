@@ -105,15 +105,17 @@ def _follow(
 ) -> bool:
     """Print the goal's way to its end; False where the time is over before."""
     action = topics.checked_name(args.action_name)
-    node.spin_until_answered(sending, f'{action}{SEND_GOAL}', client.server_is_ready)
+    end = None if args.timeout is None else time.monotonic() + args.timeout
+    service = f'{action}{SEND_GOAL}'
+    if not node.spin_until_answered(sending, service, client.server_is_ready, args.timeout):
+        return False
     handle = sending.result()
     if not handle.accepted:
         print('Goal was rejected.')
         return True
     print(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
     getting = handle.get_result_async()
-    end = None if args.timeout is None else time.monotonic() + args.timeout
-    node.spin_until(lambda: getting.done() or not client.server_is_ready(), args.timeout)
+    node.spin_until(lambda: getting.done() or not client.server_is_ready(), _left(end))
     # A server may end just after its result, which is on its way then.
     if not node.spin_until(getting.done, _left(end, at_most=_SOON_SEC)):
         if not client.server_is_ready():

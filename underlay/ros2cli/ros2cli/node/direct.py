@@ -99,15 +99,26 @@ class CommandNode:
         return True
 
     def spin_until_answered(
-        self, future: Any, service: str, is_offered: Callable[[], bool]
-    ) -> None:
-        """Spin until a service has answered; where it never will, or is late, say so on stderr."""
+        self,
+        future: Any,
+        service: str,
+        is_offered: Callable[[], bool],
+        timeout_sec: float | None = None,
+    ) -> bool:
+        """Spin until a service has answered; where it never will, or is late, say so on stderr.
+
+        :returns: False where `timeout_sec` passed before that.
+        """
+        end = math.inf if timeout_sec is None else time.monotonic() + timeout_sec
+
+        def has_ended() -> bool:
+            return future.done() or time.monotonic() >= end
 
         def is_over() -> bool:
-            return future.done() or not is_offered()
+            return has_ended() or not is_offered()
 
-        if self.spin_until(future.done, discovery.SOON_SEC):
-            return
+        if self.spin_until(has_ended, discovery.SOON_SEC):
+            return bool(future.done())
         why = discovery.why_unanswered([service]).get(service)
         if why is None and not self.spin_until(is_over, calls.TIMEOUT_SEC):
             why = calls.no_answer(service)
@@ -115,9 +126,10 @@ class CommandNode:
             print(f'hint: {why}', file=sys.stderr)
         self.spin_until(is_over)
         # What a server sent at its end may be on its way.
-        if not self.spin_until(future.done, discovery.SOON_SEC):
+        if not self.spin_until(has_ended, discovery.SOON_SEC):
             print(f'hint: {calls.no_server(service)}; Ctrl-C ends the waiting', file=sys.stderr)
-            self.spin_until(future.done)
+            self.spin_until(has_ended)
+        return bool(future.done())
 
     def destroy(self) -> None:
         if self._check_signals in discovery.signal_checks:
