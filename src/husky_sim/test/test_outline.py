@@ -35,6 +35,7 @@ def measured(geoms: str, *, at: str = 'pos="1 2 0"') -> Outline:
         ('<geom type="capsule" size="0.2 0.5" euler="90 0 0"/>', (0.4, 1.4)),
         ('<geom type="cylinder" size="0.2 0.5" euler="0 90 0"/>', (1.0, 0.4)),
         ('<geom type="box" size="1 0.5 2"/>', (2.0, 1.0)),
+        ('<geom type="box" size="0.5 0.5 1"/>', (1.0, 1.0)),
         ('<geom type="box" size="1 1 1"/><geom size="0.1" pos="2 0 0"/>', (3.1, 2.0)),
     ],
 )
@@ -57,6 +58,13 @@ def test_the_outline_turns_with_the_body() -> None:
     assert outline.size == pytest.approx((2.0, 1.0))
     assert outline.yaw == pytest.approx(math.pi / 6.0)
     assert (outline.x, outline.y) == pytest.approx((1.0, 2.0))
+
+
+def test_an_outline_is_about_the_middle_of_what_stands_there() -> None:
+    box = '<geom type="box" size="1 0.5 2" pos="3 1 0"/>'
+    outline = measured(box, at='pos="1 2 0" euler="0 0 90"')
+    assert outline.size == pytest.approx((2.0, 1.0))
+    assert (outline.x, outline.y) == pytest.approx((0.0, 5.0))
 
 
 def test_a_lying_body_is_seen_as_it_lies() -> None:

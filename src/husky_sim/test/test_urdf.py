@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The URDF against the MJCF that it is made of, read again by MuJoCo."""
 
+from collections import Counter
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -83,6 +84,15 @@ def test_every_shape_stands_where_the_physics_has_it() -> None:
     for name, each in given.items():
         for here, there in zip(each, found[name], strict=True):
             assert there == pytest.approx(here, abs=1e-4), name
+
+
+def test_what_is_seen_has_the_colors_of_the_physics(robot: ElementTree.Element) -> None:
+    ours = mujoco.MjModel.from_xml_path(str(HUSKY))
+    given = Counter(ours.material(each).name for each in ours.geom_matid if each >= 0)
+    assert Counter(each.get('name') for each in robot.findall('.//visual/material')) == given
+    for each in robot.findall('material'):
+        rgba = [float(number) for number in each[0].get('rgba', '').split()]
+        assert rgba == pytest.approx(ours.material(each.get('name')).rgba, abs=1e-5)
 
 
 def test_links_and_joints_are_those_of_tf_and_joint_states(robot: ElementTree.Element) -> None:
