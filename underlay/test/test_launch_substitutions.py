@@ -104,6 +104,8 @@ def test_commands_give_their_output(context: LaunchContext) -> None:
         _perform(context, Command(noisy))
     assert _perform(context, Command(noisy, on_stderr='ignore')) == 'out\n'
     assert _perform(context, Command(noisy, on_stderr='capture')) == 'out\nerr\n'
+    with pytest.raises(SubstitutionFailure, match=r"'quiet', expected one of: fail, ignore, warn"):
+        _perform(context, Command(noisy, on_stderr='quiet'))
 
 
 def test_python_expressions_know_math_and_given_modules(context: LaunchContext) -> None:
@@ -134,6 +136,8 @@ def test_python_expressions_know_math_and_given_modules(context: LaunchContext) 
         (EqualsSubstitution(None, ''), 'true'),
         (NotEqualsSubstitution('a', 'b'), 'true'),
         (IfElseSubstitution('true', 'a', 'b'), 'a'),
+        (IfElseSubstitution('false', 'a', 'b'), 'b'),
+        (IfElseSubstitution('true', else_value='b'), ''),
         (IfElseSubstitution('false', if_value='a'), ''),
     ],
 )
@@ -142,6 +146,8 @@ def test_logic(context: LaunchContext, substitution: Any, expected: str) -> None
 
 
 def test_logic_refuses_what_is_neither_true_nor_false(context: LaunchContext) -> None:
+    with pytest.raises(RuntimeError, match='One of if_value and else_value must be specified'):
+        IfElseSubstitution('true')
     with pytest.raises(SubstitutionFailure, match='perhaps'):
         _perform(context, NotSubstitution('perhaps'))
     with pytest.raises(SubstitutionFailure, match='perhaps'):
