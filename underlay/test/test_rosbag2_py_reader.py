@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import importlib
+import os
 from pathlib import Path
 from typing import Any
 
@@ -212,6 +213,49 @@ def test_bags_of_other_writers_are_read(
         assert (found.depth, found.lifespan) == (7, Duration(seconds=1, nanoseconds=5))
         assert found.reliability == ReliabilityPolicy.BEST_EFFORT
         assert found.durability == DurabilityPolicy.TRANSIENT_LOCAL
+
+
+@pytest.mark.parametrize('compression', [CompressionType.NONE, CompressionType.ZSTD])
+@pytest.mark.parametrize(
+    'without', ['', 'repeat_channels', 'repeat_schemas', 'use_statistics', 'the last chunk']
+)
+def test_files_that_tell_little_at_their_end_are_read(
+    tmp_path: Path, compression: CompressionType, without: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / 'bare.mcap'
+    with file.open('wb') as stream:
+        options = {without: False} if '_' in without else {}
+        writer = Writer(stream, 600, compression, **options)  # type: ignore[arg-type]
+        writer.start('ros2')
+        schema = writer.register_schema('std_msgs/msg/String', 'ros2msg', b'string data')
+        channels = [
+            writer.register_channel('/chatter', 'cdr', schema),
+            writer.register_channel('/bare', 'cdr', 0),
+        ]
+        for time_ns in [*range(50, 100), *range(50)]:
+            writer.add_message(channels[time_ns % 2], time_ns, string(time_ns), time_ns)
+        writer.finish()
+    count = 100
+    if without == 'the last chunk':
+        with file.open('rb') as stream:
+            last = make_reader(stream).get_summary().chunk_indexes[-1]  # type: ignore[union-attr]
+        os.truncate(file, last.chunk_start_offset + last.chunk_length - 1)
+        count = last.message_start_time
+    times = [*range(min(count, 50)), *range(50, 100)]
+    reader = opened_reader(file)
+    types = {topic.name: topic.type for topic in reader.get_all_topics_and_types()}
+    assert types == {'/chatter': 'std_msgs/msg/String', '/bare': ''}
+    assert times_of(reader) == times
+    told = reader.get_metadata()
+    assert (told.message_count, told.starting_time.nanoseconds) == (len(times), 0)
+    assert told.duration.nanoseconds == 99
+    assert ('its recording was killed' in capfd.readouterr().err) == (count < 100)
+    for topics, step in (([], 1), (['/bare'], 2)):
+        reader = opened_reader(file)
+        assert reader.set_read_order(ReadOrder(ReadOrderSortBy.ReceivedTimestamp, reverse=True))
+        reader.set_filter(StorageFilter(topics=topics))
+        reader.seek(99)
+        assert times_of(reader) == [time_ns for time_ns in times[::-1] if step == 1 or time_ns % 2]
 
 
 def test_a_run_is_read_and_plotted(tmp_path: Path) -> None:

@@ -18,6 +18,7 @@ from mcap.records import (
     Channel,
     Chunk,
     ChunkIndex,
+    Footer,
     McapRecord,
     Message,
     Metadata,
@@ -198,7 +199,7 @@ class McapFile(StoredFile):
         try:
             summary = reader.get_summary()
             statistics = summary.statistics if summary else None
-            if summary and statistics and len(summary.channels) == statistics.channel_count:
+            if summary and statistics and _names_all(summary, statistics):
                 told = [each.metadata for each in reader.iter_metadata() if each.name == 'rosbag2']
                 return _Records(summary, statistics, told[-1] if told else {}, True)
         except Exception:  # noqa: S110
@@ -213,8 +214,10 @@ class McapFile(StoredFile):
         summary, told = Summary(), {}
         seen: list[int] = []
         counts: dict[int, int] = defaultdict(int)
+        is_whole = False
         for record in self._records(emit_chunks=True):
             inside = [record]
+            is_whole = isinstance(record, Footer)
             if isinstance(record, Chunk):
                 inside = breakup_chunk(record)
                 channels = {each.channel_id for each in inside if isinstance(each, Message)}
@@ -242,7 +245,13 @@ class McapFile(StoredFile):
             message_end_time=last,
             schema_count=len(summary.schemas),
         )
-        return _Records(summary, statistics, told, is_whole=False)
+        return _Records(summary, statistics, told, is_whole)
+
+
+def _names_all(summary: Summary, statistics: Statistics) -> bool:
+    """Return whether a summary has every channel and its type; a writer may leave them out."""
+    used = {channel.schema_id for channel in summary.channels.values()} - {0}
+    return len(summary.channels) == statistics.channel_count and used <= summary.schemas.keys()
 
 
 def _stored(key: Key, message: Message, topics: dict[int, str]) -> StoredMessage:
