@@ -120,6 +120,19 @@ def test_another_encoding_is_named(folder: Path, name: str, encoding: str, reaso
 
 
 @pytest.mark.parametrize(
+    ('name', 'before', 'line'),
+    [('package.xml', '  <license>', 7), ('setup.cfg', '[install]', 3), ('setup.py', 'setup(', 5)],
+)
+def test_a_merge_conflict_is_told(folder: Path, name: str, before: str, line: int) -> None:
+    ours = f'<<<<<<< HEAD\n# ours\n=======\n# theirs\n>>>>>>> theirs\n{before}'
+    replace(folder / name, f'\n{before}', f'\n{ours}')
+    assert package_files.why_refused(folder) == [
+        f'{name}:{line}: a merge conflict of git begins here: keep one of its two sides, and '
+        'remove the lines that begin with <<<<<<<, ======= and >>>>>>>'
+    ]
+
+
+@pytest.mark.parametrize(
     ('name', 'old', 'new', 'reason'),
     [
         ('package.xml', '</license>', '', 'package.xml: mismatched tag: line 9'),
@@ -246,6 +259,10 @@ def test_a_program_that_is_installed_elsewhere_is_told(folder: Path) -> None:
     told = package_files.why_not_run(folder, 'talk')
     assert told is not None
     assert 'write script_dir=$base/lib/talk below [develop] and build again' in told
+    assert package_files.why_not_run(folder, 'tolk') == (
+        f"but package.xml calls the package 'tolk', and {folder / 'setup.py'} 'talk': write one "
+        'name in both, and build again'
+    )
     replace(folder / 'setup.py', 'console_scripts', 'console_script')
     told = package_files.why_not_run(folder, 'talk')
     assert told == "but not under 'console_scripts' of entry_points; put it there, and build again"

@@ -160,6 +160,11 @@ SAME = 'write both in the same column'
 @pytest.mark.parametrize(
     ('text', 'expected'),
     [
+        (
+            f'frame: odom\n{COURSE}<<<<<<< HEAD\n  - [2, 0]\n=======\n  - [3, 0]\n>>>>>>> theirs\n',
+            '5, column 1: a merge conflict of git begins here; keep one of its two sides, and '
+            'remove the lines that begin with <<<<<<<, ======= and >>>>>>>',
+        ),
         (f'frame odom\n{COURSE}', "1, column 6: a colon is missing; write 'frame: odom'"),
         (
             f'loop: true\nframe odom\n{COURSE}',

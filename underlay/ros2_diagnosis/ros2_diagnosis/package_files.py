@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from configparser import Error, RawConfigParser
 import os
 from pathlib import Path
+import re
 
 from ros2_diagnosis import setup_py
 
@@ -44,6 +45,12 @@ def why_not_run(folder: Path, package: str) -> str | None:
         return f'but colcon cannot build it: {"; ".join(refused)}'
     if not setup_py.has_console_scripts(folder):
         return "but not under 'console_scripts' of entry_points; put it there, and build again"
+    called = setup_py.package_called(folder)
+    if called is not None and called != package:
+        return (
+            f'but package.xml calls the package {package!r}, and {folder / "setup.py"} {called!r}: '
+            'write one name in both, and build again'
+        )
     settings = RawConfigParser()
     settings.read(folder / 'setup.cfg', encoding='utf-8')
     wanted = f'lib/{package}'
@@ -133,6 +140,13 @@ def _check_text(path: Path, absent: str) -> str:
         raise _RefusedError(f'{path.name}: {absent or error.strerror}') from None
     if data.startswith((b'\xff\xfe', b'\xfe\xff')) or b'\0' in data:
         raise _RefusedError(f'{path.name} is saved as UTF-16 (Windows: Unicode): save it as UTF-8')
+    conflict = re.search(rb'^<{7} ', data, re.MULTILINE)
+    if conflict is not None:
+        line = data.count(b'\n', 0, conflict.start()) + 1
+        raise _RefusedError(
+            f'{path.name}:{line}: a merge conflict of git begins here: keep one of its two sides, '
+            'and remove the lines that begin with <<<<<<<, ======= and >>>>>>>'
+        )
     try:
         return data.decode()
     except UnicodeDecodeError as error:

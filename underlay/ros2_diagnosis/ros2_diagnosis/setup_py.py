@@ -178,6 +178,13 @@ def has_console_scripts(folder: Path) -> bool:
     return not names or any(getattr(name, 'value', '') == 'console_scripts' for name in names)
 
 
+def package_called(folder: Path) -> str | None:
+    """Return the name that a setup.py gives its package; None where that is not certain."""
+    tree = _parsed(folder / 'setup.py')
+    node = _argument(_call_of_setup(tree), 'name')
+    return None if node is None else _text(node, _constants(tree))
+
+
 def _parsed(path: Path) -> ast.Module:
     with warnings.catch_warnings():
         warnings.simplefilter('ignore')

@@ -75,7 +75,8 @@ def explain(error: yaml.MarkedYAMLError, text: str) -> Found | None:
     before = [line for line in lines if line.number < problem]
     near += before[-1:]
     return (
-        _odd_space(near, text)
+        _merge_conflict(lines)
+        or _odd_space(near, text)
         or _unclosed(error, text)
         or _first(map(_dash, [*near, *before[::-1]]))
         or _first(map(_colon, near))
@@ -105,6 +106,17 @@ def odd_space(text: str) -> tuple[int, str] | None:
     for place, character in enumerate(text):
         if character in ODD_SPACES:
             return place, f'{ODD_SPACES[character]} (U+{ord(character):04X})'
+    return None
+
+
+def _merge_conflict(lines: list[Line]) -> Found | None:
+    for line in lines:
+        if line.column == 1 and line.text.startswith('<<<<<<< '):
+            message = (
+                'a merge conflict of git begins here; keep one of its two sides, and remove the '
+                'lines that begin with <<<<<<<, ======= and >>>>>>>'
+            )
+            return line.number, 1, message
     return None
 
 
