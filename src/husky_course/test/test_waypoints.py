@@ -247,11 +247,13 @@ def test_a_number_of_80_kB_is_refused_at_once() -> None:
 
 def test_a_file_that_cannot_be_read_is_refused_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / 'square.yaml').write_bytes(b'speed: \xff')
+    (tmp_path / 'mine.yaml.txt').touch()
     (tmp_path / 'large.yaml').write_bytes(b'#' * 200_000)
     for path, reason in {
         'square.yaml': 'line 1, column 8: byte 0xff is not UTF-8',
         'large.yaml': 'line 1, column 1: larger than 100000 bytes',
         'squre.yaml': r'squre.yaml: no such file; did you mean .*square.yaml',
+        'mine.yaml': r'mine.yaml: no such file; did you mean .*mine.yaml.txt\?',
         '.': f'{tmp_path}: not a file',
         'nul\0': 'cannot be read|no such file',
     }.items():

@@ -222,16 +222,28 @@ def test_unpacking_again_replaces_what_was_there(tmp_path: Path) -> None:
     ('files', 'why'),
     [
         ({'main.py': '', 'doc/a.txt': ''}, r'no package in it .* but: doc, main.py; hand in the'),
-        ({}, 'no package in it .* but: nothing; hand in the workspace'),
+        (
+            {},
+            'no package in it .* but: nothing; hand in the workspace, with your packages in src, '
+            'or the waypoint file alone where one is asked for',
+        ),
         (
             {**below('old', SOURCES), **below('new', SOURCES)},
             '2 workspaces in it: new, old; hand in one',
         ),
         (
             {'ws/src/notes': '', 'ws/install/a/share/a/package.xml': ''},
-            'no package in it .* but: ws; hand in',
+            'no package in it .* but: ws/install, ws/src; hand in',
         ),
-        ({'report.pdf': '%PDF-'}, 'only report.pdf is in it; hand in the workspace'),
+        (
+            {'report.pdf': '%PDF-'},
+            'only report.pdf is in it; hand in the workspace, with your packages in src, or the '
+            'waypoint file alone where one is asked for',
+        ),
+        (
+            {'lab/p1.yaml': COURSE, 'lab/p2.yaml': COURSE, 'lab/x.txt': ''},
+            'no package in it .* but: lab/p1.yaml, lab/p2.yaml, lab/x.txt; hand in ',
+        ),
         (
             {'my_path.yaml': COURSE, 'b.yaml': COURSE},
             'no package in it .* but: b.yaml, my_path.yaml; hand in the workspace, with your '
@@ -248,7 +260,16 @@ def test_unpacking_again_replaces_what_was_there(tmp_path: Path) -> None:
         ),
     ],
     ids=[
-        *('no package', 'empty', 'two', 'only built', 'a report', 'two courses', 'an archive'),
+        *(
+            'no package',
+            'empty',
+            'two',
+            'only built',
+            'a report',
+            'courses in a folder',
+            'two courses',
+            'an archive',
+        ),
         'a class',
     ],
 )

@@ -252,6 +252,10 @@ CASES: dict[str, tuple[Callable[[], bytes], str]] = {
     'rar': (lambda: b'Rar!\x1a\x07\x01\0', r'a RAR archive; hand in zip, tar'),
     '7z': (lambda: b"7z\xbc\xaf'\x1c\0\4", r'a 7z archive; hand in zip, tar'),
     'a program': (lambda: b'\x7fELF' * 200, r'no archive that is known here; hand in zip, tar'),
+    'a waypoint file of another name': (
+        lambda: b'\xef\xbb\xbf# ours\r\nwaypoints:\r\n  - [0, 0]\r\n  - [1, 0]\r\n',
+        r'a waypoint file by another name; call it NAME\.yaml \(Windows hides a \.txt behind that\)',
+    ),
     'nothing': (lambda: b'', r'empty; hand in zip, tar'),
 }
 

@@ -118,7 +118,8 @@ def _nearest_file(path: Path) -> str:
     from difflib import get_close_matches
 
     try:
-        found = {other.name for other in path.parent.glob('*.y*ml')}
+        # The Editor of Windows adds .txt, and the Explorer does not show it.
+        found = {other.name for end in ('', '.txt') for other in path.parent.glob(f'*.y*ml{end}')}
     except OSError:
         return ''
     near = get_close_matches(path.name, sorted(found), n=1, cutoff=0.5)

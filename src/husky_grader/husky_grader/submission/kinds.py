@@ -58,6 +58,10 @@ def is_called_archive(name: str) -> bool:
 
 def why_not(head: bytes) -> str:
     """Return in one line why a file of kind unknown cannot be taken."""
+    if re.search(rb'^waypoints\s*:', head, re.MULTILINE):
+        return (
+            'a waypoint file by another name; call it NAME.yaml (Windows hides a .txt behind that)'
+        )
     known = (text for start, text in _NOT_TAKEN.items() if head.startswith(start))
     what = 'empty' if not head else next(known, 'no archive that is known here')
     return f'{what}; hand in {TAKEN}'

@@ -9,12 +9,15 @@ import shutil
 from typing import Literal
 
 from husky_grader.folder_names import folder_names
-from husky_grader.submission.kinds import HEAD_BYTES, is_called_archive, is_called_yaml, kind_of
+from husky_grader.submission.kinds import HEAD_BYTES, is_called_archive, kind_of
 from husky_grader.submission.limits import BUILT, COPY, FOLDERS_OF_COLCON, IGNORED, Refused
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
 _MANIFEST = 'package.xml'
-_HAND_IN = 'hand in the workspace, with your packages in src'
+_HAND_IN = (
+    'hand in the workspace, with your packages in src, or the waypoint file alone where one is '
+    'asked for'
+)
 _MOST_SHOWN = 5
 _MADE = {COPY, BUILT, *FOLDERS_OF_COLCON}
 
@@ -126,10 +129,9 @@ def _instead(tree: TreeWriter) -> str:
         alone = 'hand in that one'
         several = 'hand in one; a whole class is given unpacked, or as the export that it was'
         return f'{_listed(archives)}; {several if len(archives) > 1 else alone}'
-    found = _listed(sorted({parts[:1] for parts in tree.files}))
-    if any(is_called_yaml(parts[-1]) for parts in tree.files):
-        return f'{found}; {_HAND_IN}, or the waypoint file alone where one is asked for'
-    return f'{found}; {_HAND_IN}'
+    depth = len(common_start([parts[:-1] for parts in tree.files])) if tree.files else 0
+    found = sorted({parts[: depth + 1] for parts in tree.files})
+    return f'{_listed(found)}; {_HAND_IN}'
 
 
 def _is_built(parts: Parts) -> bool:
