@@ -85,6 +85,7 @@ def refusal(folder: Path, name: str, text: str, dependencies: str = 'geometry_ms
         ('int64 a\n\nint8 a', "msg/Own.msg:3: 'a' stands in line 1 already: rename one"),
         ('  int64 a', "'int64 a' does not begin at the margin: take the spaces away"),
         ('int8 answer=1', "'answer' is no name of a constant: allowed are capital letters"),
+        ('int8 answer = 1', "; a default has no =: 'int8 answer 1'"),
         ('int8 A=300', "value '300' can not be converted to type 'int8': must be a valid integer"),
         ('uint8 a 256', "value '256' can not be converted to type 'uint8'"),
         ('bool a maybe', "value 'maybe' can not be converted to type 'bool'"),
@@ -111,6 +112,27 @@ def refusal(folder: Path, name: str, text: str, dependencies: str = 'geometry_ms
 )
 def test_a_mistake_in_a_message_is_told_by_its_line(folder: Path, text: str, reason: str) -> None:
     assert reason in refusal(folder, 'msg/Own.msg', text)
+
+
+@pytest.mark.parametrize('names', ['"msg/Known.msg", "msg/Own.msg"', 'msg/Known.msg, msg/Own.msg'])
+def test_a_comma_between_files_is_told(folder: Path, names: str) -> None:
+    write_cmake(folder, f'rosidl_generate_interfaces(${{PROJECT_NAME}} {names})')
+    (folder / 'msg').mkdir()
+    for name in ('Known', 'Own'):
+        (folder / 'msg' / f'{name}.msg').write_text('int8 x')
+    with pytest.raises(
+        BuildError, match='^CMakeLists.txt: CMake parts files by blanks: take the '
+    ):
+        build(folder, folder / 'prefix', link=False)
+
+
+def test_a_merge_conflict_in_a_message_is_told_once(folder: Path) -> None:
+    text = 'bool b\n<<<<<<< HEAD\nint8 a\n=======\nint16 a\n>>>>>>> theirs\n'
+    told = refusal(folder, 'msg/Own.msg', text)
+    assert told == (
+        'msg/Own.msg:2: a merge conflict of git begins here: keep one of its two sides, and '
+        'remove the lines that begin with <<<<<<<, ======= and >>>>>>>'
+    )
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,9 @@ def mistakes(package: str, folder: Path, path: Path, known: Known) -> Iterator[s
 
     :param path: of the definition, in the package's folder.
     """
+    if path.name.endswith(','):
+        yield 'CMakeLists.txt: CMake parts files by blanks: take the comma behind the name away'
+        return
     if not (folder / path).is_file():
         yield f'{path}: there is no such file; CMakeLists.txt names it'
         return
@@ -46,6 +49,14 @@ def mistakes(package: str, folder: Path, path: Path, known: Known) -> Iterator[s
         return
     if text.startswith('\ufeff'):
         yield f'{path}:1: the file begins with a byte order mark: save it as UTF-8 without one'
+        return
+    conflict = re.search('^<{7} ', text, re.MULTILINE)
+    if conflict is not None:
+        line = text.count('\n', 0, conflict.start()) + 1
+        yield (
+            f'{path}:{line}: a merge conflict of git begins here: keep one of its two sides, and '
+            'remove the lines that begin with <<<<<<<, ======= and >>>>>>>'
+        )
         return
     if not parser.is_valid_message_name(path.stem):
         yield (
@@ -131,7 +142,11 @@ def _read_line(package: str, stem: str, line: str) -> tuple[parser.Type, str] | 
     if not name:
         raise ValueError(f"{code!r} is no field: write TYPE NAME, as in 'int64 num'")
     if is_constant and not parser.is_valid_constant_name(name):
-        raise ValueError(f'{name!r} is no name of a constant: allowed are {_CONSTANT_NAME}')
+        value = rest.partition('=')[2].strip()
+        raise ValueError(
+            f'{name!r} is no name of a constant: allowed are {_CONSTANT_NAME}; a default has '
+            f'no =: {f"{kind} {name} {value}"!r}'
+        )
     if not is_constant and not parser.is_valid_field_name(name):
         raise ValueError(f'{name!r} is no name of a field: allowed are {_FIELD_NAME}')
     _check_words(kind)

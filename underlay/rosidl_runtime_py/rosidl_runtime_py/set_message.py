@@ -51,12 +51,14 @@ def set_message_fields(
     return filler.setters
 
 
-def _without_blank(name: object, slots: Iterable[str]) -> str:
-    """Say how YAML wants `data:hello`, which it takes for one name without a value."""
-    field_name, colon, value = str(name).partition(':')
-    if not colon or not value or field_name not in slots:
+def _as_meant(name: object, value: object, slots: Iterable[str]) -> str:
+    """Say how YAML wants `data:hello` and `{x: 0,5}`, in which it finds a name without a value."""
+    if isinstance(name, int) and value is None:
+        return '; decimals have a point, as in 0.5'
+    field_name, colon, text = str(name).partition(':')
+    if not colon or not text or field_name not in slots:
         return ''
-    return f"; write '{field_name}: {value}', with a blank behind the colon"
+    return f"; write '{field_name}: {text}', with a blank behind the colon"
 
 
 @dataclass
@@ -77,7 +79,7 @@ class _Filler:
             if name not in slots:
                 raise AttributeError(
                     f"'{type(message).__name__}' object has no attribute '{name}'; its fields "
-                    f'are {", ".join(slots) or "none"}{_without_blank(name, slots)}'
+                    f'are {", ".join(slots) or "none"}{_as_meant(name, value, slots)}'
                 )
             if not self._asks_for_the_time(message, name, value, slots[name]):
                 field_path = f'{path}.{name}' if path else str(name)

@@ -134,6 +134,11 @@ def test_auto_and_now_give_functions_that_set_the_time() -> None:
             AttributeError,
             "'x:0.5'; its fields are x, y, z; write 'x: 0.5', with a blank behind the colon",
         ),
+        (
+            {'linear': {'x': 0, 5: None}},
+            AttributeError,
+            "no attribute '5'; its fields are x, y, z; decimals have a point, as in 0.5",
+        ),
         ({'linear': 1}, TypeError, 'expected to be a dictionary but is a int'),
         ({'linear': {'x': 'fast'}}, ValueError, r"linear\.x: 'fast' is refused"),
         ([], TypeError, 'expected to be a dictionary'),
