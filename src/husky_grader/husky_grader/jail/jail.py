@@ -42,12 +42,13 @@ class Jail:
         if not folder.is_dir():
             raise ValueError(f'{folder}: no such folder; make the one that the jail may write')
         self._sandbox, self._limits = sandbox, limits
-        self._folder = folder.resolve()
-        self._mounts = mounts_of(self._folder, readable, limits)
+        self._folder, self._readable = folder.resolve(), tuple(readable)
 
     def __enter__(self) -> Jail:
         with ExitStack() as stack:
             self._cell: Cell = stack.enter_context(self._sandbox.open())
+            # To find them takes longer than to hear that a sandbox is not there.
+            self._mounts = mounts_of(self._folder, self._readable, self._limits)
             home_of(self._folder).mkdir(exist_ok=True)
             if self._cell.user is not None:
                 give(self._folder, self._cell.user)
