@@ -32,10 +32,10 @@ def test_nothing_is_wrong_with_two_nodes_that_talk(
     assert 'All 20 checks passed' in answer.lines
 
 
-def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_different_types_on_one_topic(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('stamped_driver', 'driver')
     processes.node('robot', 'husky')
-    answer = ros2('doctor')
+    answer = ros2_here('doctor')
     assert answer.status == 0  # as upstream
     line = answer.of_check('types')
     assert '/driver publishes geometry_msgs/msg/TwistStamped' in line
@@ -44,20 +44,22 @@ def test_different_types_on_one_topic(processes: Any, ros2: Callable[..., Any]) 
     assert 'Failed modules: types' in answer.lines
 
 
-def test_different_types_on_one_service(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_different_types_on_one_service(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('service', 'server')
     hint = (
         '/flip: /server offers std_srvs/srv/SetBool, but a `ros2` command calls '
         'std_srvs/srv/Trigger, so that no call arrives; use one type in both'
     )
     processes.ros2('service', 'call', '/flip', 'std_srvs/srv/Trigger', ready=f'hint: {hint}')
-    assert hint in ros2('doctor').of_check('types')
+    assert hint in ros2_here('doctor').of_check('types')
 
 
-def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_quality_of_service_that_does_not_fit(
+    processes: Any, ros2_here: Callable[..., Any]
+) -> None:
     processes.node('best_effort', 'sensor')
     processes.node('listener', 'listener')
-    answer = ros2('doctor', '--report-failed')
+    answer = ros2_here('doctor', '--report-failed')
     assert 'Failed modules: middleware' in answer.lines
     assert '   QOS COMPATIBILITY LIST' in answer.lines
     assert 'ERROR: Best effort publisher and reliable subscription;' in answer.out
@@ -66,10 +68,10 @@ def test_quality_of_service_that_does_not_fit(processes: Any, ros2: Callable[...
     assert 'reliability=ReliabilityPolicy.BEST_EFFORT' in line
 
 
-def test_two_names_for_one_topic(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_two_names_for_one_topic(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver', '--ros-args', '-r', 'cmd_vel:=speeds')
-    line = ros2('doctor').of_check('partners')
+    line = ros2_here('doctor').of_check('partners')
     assert line.startswith(
         'problem (partners): /cmd_vel: /husky subscribes to this, but /driver publishes /speeds, '
         'of one type, geometry_msgs/msg/Twist, so that nothing arrives; use one name in both, or '
@@ -83,29 +85,31 @@ def test_two_names_for_one_topic(processes: Any, ros2: Callable[..., Any]) -> No
     )
 
 
-def test_two_names_for_one_service(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_two_names_for_one_service(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('service', 'server')
     processes.ros2(
         'service', 'call', '/flop', 'std_srvs/srv/SetBool', ready="nobody offers '/flop'"
     )
-    line = ros2('doctor').of_check('partners')
+    line = ros2_here('doctor').of_check('partners')
     assert 'a `ros2` command calls this, but /server offers /flip, of one type' in line
     assert line.endswith('use one name in both')
 
 
-def test_simulation_time_without_a_clock(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_simulation_time_without_a_clock(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('plain', 'waits', '--ros-args', '-p', 'use_sim_time:=true')
-    line = ros2('wtf').of_check('clock')
+    line = ros2_here('wtf').of_check('clock')
     assert '/waits: use_sim_time is true, but nobody publishes /clock' in line
     assert '`ros2 param set /waits use_sim_time false`' in line
 
 
-def test_words_that_stand_behind_no_ros_args(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_words_that_stand_behind_no_ros_args(
+    processes: Any, ros2_here: Callable[..., Any]
+) -> None:
     processes.node('plain', 'first', '-p', 'rate:=5.0', '--ros-args', '-r', '__node:=one')
     processes.node('plain', 'second', 'rate:=5.0')
     in_launch = 'in a launch file, `parameters` or `remappings` of its Node'
     why = 'ROS takes parameters and other names behind --ros-args alone'
-    answer = ros2('doctor')
+    answer = ros2_here('doctor')
     assert sorted(line for line in answer.lines if ' (parameters): ' in line) == [
         f'problem (parameters): nodes.py -p rate:=5.0: {why}; write '
         f'`nodes.py --ros-args -p rate:=5.0`; {in_launch}',
@@ -115,7 +119,7 @@ def test_words_that_stand_behind_no_ros_args(processes: Any, ros2: Callable[...,
 
 
 def test_options_that_set_and_rename_nothing(
-    processes: Any, ros2: Callable[..., Any], tmp_path: Path
+    processes: Any, ros2_here: Callable[..., Any], tmp_path: Path
 ) -> None:
     file = tmp_path / 'parameters.yaml'
     file.write_text(
@@ -139,7 +143,7 @@ def test_options_that_set_and_rename_nothing(
     processes.start(
         sys.executable, *module, '--ros-args', '-r', 'chater:=said', ready='Publishing'
     )
-    answer = ros2('doctor')
+    answer = ros2_here('doctor')
     found = [line for line in answer.lines if ' (parameters): ' in line]
     assert found == [
         f'problem (parameters): nodes.py --params-file {file}: deep.er sets nothing: no node that '
@@ -182,52 +186,52 @@ def test_a_command_that_waits_for_the_clock_is_told_its_option() -> None:
 
 
 def test_transforms_without_the_time_of_the_simulation(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.node('simulator', 'husky')
     processes.node('transforms', 'looks')
-    line = ros2('doctor').of_check('clock')
+    line = ros2_here('doctor').of_check('clock')
     assert line.startswith(
         'note (clock): /looks: use_sim_time is false, while /tf has the time of'
     )
     assert '`--ros-args -p use_sim_time:=true`' in line
     processes.node('transforms', 'heeds', '--ros-args', '-p', 'use_sim_time:=true')
-    assert '/heeds' not in ros2('doctor').of_check('clock')
+    assert '/heeds' not in ros2_here('doctor').of_check('clock')
 
 
-def test_two_nodes_of_one_name(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_two_nodes_of_one_name(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('plain', 'twin')
     processes.node('plain', 'twin')
-    line = ros2('doctor').of_check('names')
+    line = ros2_here('doctor').of_check('names')
     assert '/twin: 2 nodes have this name' in line
     assert '-r __node:=twin_2' in line
-    assert 'share an exact name' in ros2('node', 'list').err
+    assert 'share an exact name' in ros2_here('node', 'list').err
 
 
-def test_two_simulators_are_told_to_part(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_two_simulators_are_told_to_part(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('simulator', 'husky')
-    assert not [line for line in ros2('doctor').lines if ' (publishers): ' in line]
+    assert not [line for line in ros2_here('doctor').lines if ' (publishers): ' in line]
     processes.node('simulator', 'fake')
-    line = ros2('doctor').of_check('publishers')
+    line = ros2_here('doctor').of_check('publishers')
     assert '/clock, /odometry/filtered: 2 nodes publish this: /fake, /husky' in line
     assert 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID' in line
 
 
 def test_two_simulators_of_one_name_are_told_to_part(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.node('simulator', 'husky')
     processes.node('simulator', 'husky')
-    answer = ros2('doctor')
+    answer = ros2_here('doctor')
     assert '2 nodes publish this: /husky, /husky' in answer.of_check('publishers')
     assert '__node:=' not in answer.out
     assert 'give one its own ROS_DOMAIN_ID' in answer.of_check('names')
 
 
-def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_two_drivers_of_one_robot(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('slow_driver', 'driver')
     processes.node('slow_driver', 'other')
-    answer = ros2('doctor')
+    answer = ros2_here('doctor')
     assert '/cmd_vel: 2 nodes publish this: /driver, /other' in answer.of_check('publishers')
     assert 'note: Publisher without subscriber detected on /cmd_vel' in answer.err
 
@@ -240,23 +244,23 @@ def test_two_drivers_of_one_robot(processes: Any, ros2: Callable[..., Any]) -> N
     ],
 )
 def test_a_clock_that_stands_still(
-    lockstep: str, why: str, processes: Any, ros2: Callable[..., Any]
+    lockstep: str, why: str, processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.node('waiting_simulator', 'husky', '--ros-args', '-p', f'lockstep:={lockstep}')
-    line = ros2('doctor').of_check('clock')
+    line = ros2_here('doctor').of_check('clock')
     assert f'/clock: stands still: /husky {why}, so that timers and sleeps' in line
 
 
 def test_frames_of_another_time_and_a_simulator_that_is_paused(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.start(sys.executable, '-m', 'husky_sim.ros.node', ready='x real time')
-    answer = ros2('doctor')
+    answer = ros2_here('doctor')
     assert ' (clock): ' not in answer.out, answer
     assert ' (frames): ' not in answer.out, answer
 
     broadcaster = processes.node('broadcaster', 'lights')
-    told = [line for line in ros2('doctor').lines if ' (frames): ' in line]
+    told = [line for line in ros2_here('doctor').lines if ' (frames): ' in line]
     assert told[0] == (
         'problem (frames): frame base_link: has several parents, map and odom, so that it jumps '
         'between them; let one node alone publish it, below one parent; on /tf publish '
@@ -271,20 +275,20 @@ def test_frames_of_another_time_and_a_simulator_that_is_paused(
     assert len(told) == 2
     processes.end_one(broadcaster)
     pause = ('service', 'call', '/husky_sim/pause', 'std_srvs/srv/SetBool')
-    ros2(*pause, '{data: true}')
-    line = ros2('doctor').of_check('clock')
+    ros2_here(*pause, '{data: true}')
+    line = ros2_here('doctor').of_check('clock')
     go_on = f'`ros2 {" ".join(pause)} "{{data: false}}"` lets it go on'
     assert '/clock: stands still: /husky_sim is paused' in line
     assert line.endswith(go_on)
 
 
-def test_commands_slower_than_the_timeout(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_commands_slower_than_the_timeout(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver')
     told: list[str] = []
 
     def twice_a_second() -> bool:  # asked again, for on a busy machine a command comes late
-        told.append(ros2('doctor').of_check('commands'))
+        told.append(ros2_here('doctor').of_check('commands'))
         return '/cmd_vel: commands come up to 0.5' in told[-1]
 
     wait_until(twice_a_second, timeout_sec=40.0, what=lambda: f'0.5 s apart: {told}')
@@ -341,33 +345,33 @@ def test_echo_says_why_nothing_comes(processes: Any) -> None:
     processes.ros2(*quiet, ready='hint: /quiet: nobody publishes it')
 
 
-def test_pub_says_why_nobody_hears(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_pub_says_why_nobody_hears(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     words = ('/cmd_vel', 'geometry_msgs/msg/TwistStamped')
-    answer = ros2('topic', 'pub', '-t', '1', '-w', '1', '--max-wait-time-secs', '0.5', *words)
+    answer = ros2_here('topic', 'pub', '-t', '1', '-w', '1', '--max-wait-time-secs', '0.5', *words)
     assert '/husky subscribes to geometry_msgs/msg/Twist' in answer.err
     assert 'Timed out waiting for subscribers' in answer.err
 
 
 def test_a_node_that_waits_in_a_callback_is_named(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.node('talker', 'talker')
     processes.node('waiting', 'waiter')
     words = ('service', 'call', '/flip', 'std_srvs/srv/SetBool')
     call = processes.ros2(*words)
-    line = ros2('doctor').of_check('answers')
+    line = ros2_here('doctor').of_check('answers')
     assert '/waiter: answers nothing: it does not spin, or one of its callbacks' in line
     assert 'talker' not in line
     find_line(call.stdout, "hint: '/flip' gave no answer within 5 s; its node is busy or stopped")
 
 
 def test_a_node_that_sleeps_in_a_callback_is_named(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.node('talker', 'talker')
     processes.node('sleeping', 'sleeper')
-    line = ros2('doctor').of_check('answers')
+    line = ros2_here('doctor').of_check('answers')
     assert line.startswith('note (answers): /sleeper: answers after ')
     assert 's: one of its callbacks takes long, and the others wait; use a timer in the' in line
 

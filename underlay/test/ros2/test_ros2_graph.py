@@ -79,19 +79,19 @@ def test_topics_are_listed_with_their_types(ros2: Callable[..., Any]) -> None:
 
 
 @pytest.mark.usefixtures('few')
-def test_hidden_topics_are_shown_only_when_asked(ros2: Callable[..., Any]) -> None:
+def test_hidden_topics_are_shown_only_when_asked(ros2_here: Callable[..., Any]) -> None:
     hidden = '/flip/_service_event'
-    assert hidden not in ros2('topic', 'list').lines
-    assert hidden in ros2('topic', 'list', '--include-hidden-topics').lines
-    assert hidden in ros2('topic', '--include-hidden-topics', 'list').lines
-    answer = ros2('topic', 'type', hidden)
+    assert hidden not in ros2_here('topic', 'list').lines
+    assert hidden in ros2_here('topic', 'list', '--include-hidden-topics').lines
+    assert hidden in ros2_here('topic', '--include-hidden-topics', 'list').lines
+    answer = ros2_here('topic', 'type', hidden)
     assert (answer.status, answer.out, answer.err) == (1, '', '')
-    assert ros2('topic', '--include-hidden-topics', 'type', hidden).status == 0
+    assert ros2_here('topic', '--include-hidden-topics', 'type', hidden).status == 0
 
 
 @pytest.mark.usefixtures('few')
-def test_the_verbose_list_counts_publishers(ros2: Callable[..., Any]) -> None:
-    published, _, subscribed = ros2('topic', 'list', '-v').out.partition('Subscribed topics:')
+def test_the_verbose_list_counts_publishers(ros2_here: Callable[..., Any]) -> None:
+    published, _, subscribed = ros2_here('topic', 'list', '-v').out.partition('Subscribed topics:')
     assert ' * /chatter [std_msgs/msg/String] 1 publisher\n' in published
     assert f' * /rosout [rcl_interfaces/msg/Log] {len(FEW)} publishers\n' in published
     assert ' * /chatter [std_msgs/msg/String] 1 subscriber\n' in subscribed
@@ -108,10 +108,10 @@ def test_topic_info_tells_type_and_counts(ros2: Callable[..., Any]) -> None:
 
 
 @pytest.mark.usefixtures('few')
-def test_verbose_topic_info_agrees_with_rclpy(ros2: Callable[..., Any]) -> None:
+def test_verbose_topic_info_agrees_with_rclpy(ros2_here: Callable[..., Any]) -> None:
     import rclpy
 
-    out = ros2('topic', 'info', '-v', '/chatter').out
+    out = ros2_here('topic', 'info', '-v', '/chatter').out
     context = rclpy.Context()
     rclpy.init(context=context)
     node = rclpy.create_node('_probe', context=context)
@@ -157,8 +157,8 @@ def test_node_info_has_upstreams_form(ros2: Callable[..., Any]) -> None:
 
 
 @pytest.mark.usefixtures('few')
-def test_an_unknown_node_is_refused_with_the_nearest_name(ros2: Callable[..., Any]) -> None:
-    answer = ros2('node', 'info', '/taker')
+def test_an_unknown_node_is_refused_with_the_nearest_name(ros2_here: Callable[..., Any]) -> None:
+    answer = ros2_here('node', 'info', '/taker')
     assert answer.status == 1
     assert answer.err == "Unable to find node '/taker'; did you mean '/talker'?\n"
 
@@ -265,12 +265,14 @@ def test_a_signal_ends_a_command_that_reads_the_graph(
             assert ('Recording stopped: 0 messages' in output) == (words[1] == 'record')
 
 
-def test_a_node_that_has_ended_is_gone_at_once(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_a_node_that_has_ended_is_gone_at_once(
+    processes: Any, ros2_here: Callable[..., Any]
+) -> None:
     processes.node('plain', 'stays')
     goes = processes.node('plain', 'goes')
     goes.kill()
     goes.wait()
-    assert ros2('node', 'list').lines == ['/stays']
+    assert ros2_here('node', 'list').lines == ['/stays']
 
 
 def test_a_node_that_is_killed_while_it_is_asked_holds_nobody_up(

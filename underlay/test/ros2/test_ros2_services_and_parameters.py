@@ -86,14 +86,14 @@ def test_echo_shows_requests_and_responses(world: Any) -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_parameters_are_listed_with_types(ros2: Callable[..., Any]) -> None:
-    answer = ros2('param', 'list', '/owner', '--param-type')
+def test_parameters_are_listed_with_types(ros2_here: Callable[..., Any]) -> None:
+    answer = ros2_here('param', 'list', '/owner', '--param-type')
     assert '  speed (type: double)' in answer.lines
     assert '  names (type: string array)' in answer.lines
-    everything = ros2('param', 'list')
+    everything = ros2_here('param', 'list')
     assert '/owner:' in everything.lines
     assert '  wheel.radius' in everything.lines
-    assert ros2('param', 'list', 'owner', '--filter', 'wh.*').lines == ['  wheel.radius']
+    assert ros2_here('param', 'list', 'owner', '--filter', 'wh.*').lines == ['  wheel.radius']
 
 
 @pytest.mark.parametrize(
@@ -106,19 +106,19 @@ def test_parameters_are_listed_with_types(ros2: Callable[..., Any]) -> None:
     ],
 )
 @pytest.mark.usefixtures('world')
-def test_a_parameter_is_shown(ros2: Callable[..., Any], name: str, shown: str) -> None:
-    assert ros2('param', 'get', '/owner', name).out == f'{shown}\n'
+def test_a_parameter_is_shown(ros2_here: Callable[..., Any], name: str, shown: str) -> None:
+    assert ros2_here('param', 'get', '/owner', name).out == f'{shown}\n'
 
 
 def test_bytes_are_shown_and_what_is_not_set_is_left_out(
-    domain: int, ros2: Callable[..., Any]
+    domain: int, ros2_here: Callable[..., Any]
 ) -> None:
     with SpunNodes(domain) as nodes:
         node = nodes.start(Node, 'odd')
         node.declare_parameter('raw', [b'A', b'\xff'])
         node.declare_parameter('unset', Parameter.Type.STRING)
-        shown = ros2('param', 'get', '/odd', 'raw').out
-        dump = ros2('param', 'dump', '/odd').out
+        shown = ros2_here('param', 'get', '/odd', 'raw').out
+        dump = ros2_here('param', 'dump', '/odd').out
     assert shown == "Byte values are: [b'A', b'\\xff']\n"
     dumped = yaml.safe_load(dump)['/odd']['ros__parameters']
     assert dumped['raw'] == [b'A', b'\xff']
@@ -147,9 +147,12 @@ def test_a_busy_node_is_waited_for(processes: Any, domain: int) -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_a_parameter_that_is_set_stays_set(ros2: Callable[..., Any]) -> None:
-    assert ros2('param', 'set', '/owner', 'wheel.radius', '7').out == 'Set parameter successful\n'
-    assert ros2('param', 'get', '/owner', 'wheel.radius', '--hide-type').out == '7\n'
+def test_a_parameter_that_is_set_stays_set(ros2_here: Callable[..., Any]) -> None:
+    assert (
+        ros2_here('param', 'set', '/owner', 'wheel.radius', '7').out
+        == 'Set parameter successful\n'
+    )
+    assert ros2_here('param', 'get', '/owner', 'wheel.radius', '--hide-type').out == '7\n'
 
 
 @pytest.mark.usefixtures('world')
@@ -190,18 +193,20 @@ def test_a_dump_can_be_loaded(ros2: Callable[..., Any], tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_a_wildcard_is_loaded_unless_refused(ros2: Callable[..., Any], tmp_path: Path) -> None:
+def test_a_wildcard_is_loaded_unless_refused(
+    ros2_here: Callable[..., Any], tmp_path: Path
+) -> None:
     file = tmp_path / 'any.yaml'
     file.write_text('/**:\n  ros__parameters:\n    speed: 0.25\n    wheel:\n      radius: 9\n')
-    refused = ros2('param', 'load', '/owner', str(file), '--no-use-wildcard')
+    refused = ros2_here('param', 'load', '/owner', str(file), '--no-use-wildcard')
     assert refused.status == 1
     assert 'does not contain selected parameters' in refused.err
-    answer = ros2('param', 'load', '/owner', str(file))
+    answer = ros2_here('param', 'load', '/owner', str(file))
     assert answer.lines == [
         'Set parameter speed successful',
         'Set parameter wheel.radius successful',
     ]
-    assert ros2('param', 'get', '/owner', 'speed').out == 'Double value is: 0.25\n'
+    assert ros2_here('param', 'get', '/owner', 'speed').out == 'Double value is: 0.25\n'
 
 
 @pytest.mark.usefixtures('world')
