@@ -37,8 +37,8 @@ def test_a_discovery_server_is_noted(
     )
 
 
-def _told_of_domains(ros2: Callable[..., Any]) -> str:
-    return ' '.join(line for line in ros2('doctor').lines if ' (domain): ' in line)
+def _told_of_domains(ros2_here: Callable[..., Any]) -> str:
+    return ' '.join(line for line in ros2_here('doctor').lines if ' (domain): ' in line)
 
 
 def _named_in(told: str) -> list[str]:
@@ -46,7 +46,7 @@ def _named_in(told: str) -> list[str]:
 
 
 def test_nodes_in_another_domain(
-    processes: Any, ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
+    processes: Any, ros2_here: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     processes.node('plain', 'elsewhere')
     with OwnDomain() as here:
@@ -54,25 +54,28 @@ def test_nodes_in_another_domain(
         told: list[str] = []
 
         def is_told() -> bool:  # one that has no processor for 0.6 s is not heard
-            told.append(_told_of_domains(ros2))
+            told.append(_told_of_domains(ros2_here))
             return str(domain) in _named_in(told[-1])
 
         wait_until(is_told, timeout_sec=40.0, what=lambda: f'domain {domain}: {told}')
         assert 'export ROS_DOMAIN_ID=' in told[-1]
-        hint = ros2('node', 'list')
+        hint = ros2_here('node', 'list')
     assert hint.out == ''
     assert hint.err.startswith('hint: domain ')
 
 
 def test_a_daemon_in_another_domain_is_no_ros_process(
-    ros2: Callable[..., Any], domain: int, monkeypatch: pytest.MonkeyPatch
+    ros2: Callable[..., Any],
+    ros2_here: Callable[..., Any],
+    domain: int,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert ros2('daemon', 'start').status == 0
     try:
         with OwnDomain() as here, monkeypatch.context() as elsewhere:
             elsewhere.setenv('ROS_DOMAIN_ID', str(here.number))
             # One that has no processor for 0.6 s would not be heard either way.
-            told = [_told_of_domains(ros2) for _ in range(3)]
+            told = [_told_of_domains(ros2_here) for _ in range(3)]
     finally:
         ros2('daemon', 'stop')
     assert str(domain) not in {name for each in told for name in _named_in(each)}

@@ -51,8 +51,8 @@ def test_echo_prints_messages_as_yaml(ros2: Callable[..., Any]) -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_echo_hears_what_was_said_before_it_came(ros2: Callable[..., Any]) -> None:
-    assert ros2('topic', 'echo', '--once', '/latched').lines == ['data: once', '---']
+def test_echo_hears_what_was_said_before_it_came(ros2_here: Callable[..., Any]) -> None:
+    assert ros2_here('topic', 'echo', '--once', '/latched').lines == ['data: once', '---']
 
 
 @pytest.mark.usefixtures('world')
@@ -63,10 +63,10 @@ def test_echo_shows_the_largest_float32(ros2: Callable[..., Any], kind: list[str
 
 
 @pytest.mark.usefixtures('world')
-def test_echo_shows_a_field_or_a_line(ros2: Callable[..., Any]) -> None:
-    field = ros2('topic', 'echo', '--once', '/stamped', '--field', 'twist.linear')
+def test_echo_shows_a_field_or_a_line(ros2_here: Callable[..., Any]) -> None:
+    field = ros2_here('topic', 'echo', '--once', '/stamped', '--field', 'twist.linear')
     assert field.lines == ['x: 1.5', 'y: 0.0', 'z: 0.0', '---']
-    line = ros2('topic', 'echo', '--once', '--csv', '/stamped')
+    line = ros2_here('topic', 'echo', '--once', '--csv', '/stamped')
     assert line.out.endswith(',,1.5,0.0,0.0,0.0,0.0,0.0\n')
 
 
@@ -137,21 +137,21 @@ def test_the_best_available_is_what_all_publishers_offer() -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_echo_filters(ros2: Callable[..., Any]) -> None:
-    answer = ros2('topic', 'echo', '--once', '/chatter', '--filter', "m.data.endswith('0')")
+def test_echo_filters(ros2_here: Callable[..., Any]) -> None:
+    answer = ros2_here('topic', 'echo', '--once', '/chatter', '--filter', "m.data.endswith('0')")
     assert answer.lines[0].endswith('0')
 
 
 @pytest.mark.usefixtures('world')
-def test_echo_shows_raw_bytes(ros2: Callable[..., Any]) -> None:
-    assert b'once' in eval(ros2('topic', 'echo', '--raw', '--once', '/latched').lines[0])
+def test_echo_shows_raw_bytes(ros2_here: Callable[..., Any]) -> None:
+    assert b'once' in eval(ros2_here('topic', 'echo', '--raw', '--once', '/latched').lines[0])
 
 
 @pytest.mark.usefixtures('world')
-def test_what_echo_filters_are_the_bytes_with_raw(ros2: Callable[..., Any]) -> None:
+def test_what_echo_filters_are_the_bytes_with_raw(ros2_here: Callable[..., Any]) -> None:
     words = ('topic', 'echo', '--raw', '/latched', '--timeout', '2', '--filter')
-    assert "b'" in ros2(*words, "b'once' in m").out
-    assert ros2(*words, "b'once' not in m").out == ''
+    assert "b'" in ros2_here(*words, "b'once' in m").out
+    assert ros2_here(*words, "b'once' not in m").out == ''
 
 
 def test_a_depth_of_0_is_that_of_the_preset() -> None:
@@ -160,8 +160,8 @@ def test_a_depth_of_0_is_that_of_the_preset() -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_echo_ends_quietly_at_its_timeout(ros2: Callable[..., Any]) -> None:
-    answer = ros2('topic', 'echo', '/silence', 'std_msgs/msg/String', '--timeout', '0.3')
+def test_echo_ends_quietly_at_its_timeout(ros2_here: Callable[..., Any]) -> None:
+    answer = ros2_here('topic', 'echo', '/silence', 'std_msgs/msg/String', '--timeout', '0.3')
     assert (answer.status, answer.out, answer.err) == (0, '', '')
 
 
@@ -315,8 +315,8 @@ def test_delay_says_when_nothing_new_comes(processes: Any) -> None:
 
 
 @pytest.mark.usefixtures('world')
-def test_delay_needs_a_header(ros2: Callable[..., Any]) -> None:
-    assert ros2('topic', 'delay', '/chatter').err == 'msg does not have header\n'
+def test_delay_needs_a_header(ros2_here: Callable[..., Any]) -> None:
+    assert ros2_here('topic', 'delay', '/chatter').err == 'msg does not have header\n'
 
 
 def test_a_message_published_once_arrives(processes: Any, ros2: Callable[..., Any]) -> None:
@@ -332,11 +332,11 @@ def test_a_message_published_once_arrives(processes: Any, ros2: Callable[..., An
 
 
 def test_a_subscriber_that_pub_waited_for_hears_it(
-    processes: Any, ros2: Callable[..., Any]
+    processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     words = ('pub', '--once', '/late', 'std_msgs/msg/String', 'data: good day')
     processes.ros2('topic', *words, ready='Waiting for at least 1')
-    answer = ros2('topic', 'echo', '--once', '/late', 'std_msgs/msg/String')
+    answer = ros2_here('topic', 'echo', '--once', '/late', 'std_msgs/msg/String')
     assert answer.lines == ['data: good day', '---']
 
 
@@ -347,23 +347,27 @@ def test_pub_ends_although_a_subscriber_has_stopped(
     assert ros2('topic', 'pub', '-t', '2', '/chatter', 'std_msgs/msg/String').status == 0
 
 
-def test_a_topic_without_subscribers_is_given_up(processes: Any, ros2: Callable[..., Any]) -> None:
+def test_a_topic_without_subscribers_is_given_up(
+    processes: Any, ros2_here: Callable[..., Any]
+) -> None:
     processes.node('robot', 'robot')
     words = ('/robot/cmd_vel', 'geometry_msgs/msg/Twist', '--max-wait-time-secs', '0.1')
-    answer = ros2('topic', 'pub', '--once', *words)
+    answer = ros2_here('topic', 'pub', '--once', *words)
     assert answer.status == 1
     assert answer.lines == ['Waiting for at least 1 matching subscription(s)...'] * 2
     assert answer.err.splitlines() == [
         "hint: nobody subscribes to '/robot/cmd_vel'; did you mean '/cmd_vel'?",
         'Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers',
     ]
-    answer = ros2('topic', 'pub', *words)
+    answer = ros2_here('topic', 'pub', *words)
     assert answer.status == 1
     assert answer.err.startswith('--max-wait-time-secs option is only effective with')
 
 
 @pytest.mark.parametrize('ticks', [True, False])
-def test_now_is_the_simulated_time(domain: int, ros2: Callable[..., Any], ticks: bool) -> None:
+def test_now_is_the_simulated_time(
+    domain: int, ros2_here: Callable[..., Any], ticks: bool
+) -> None:
     words = ('topic', 'pub', '-s', '--once', '-w', '0', '/x', 'std_msgs/msg/Header')
     with SpunNodes(domain) as nodes:
         node = nodes.start(Node, 'simulator')
@@ -372,7 +376,7 @@ def test_now_is_the_simulated_time(domain: int, ros2: Callable[..., Any], ticks:
         now.clock.sec = 42
         if ticks:
             node.create_timer(0.1, lambda: clock.publish(now))
-        answer = ros2(*words, '{stamp: now}')
+        answer = ros2_here(*words, '{stamp: now}')
     assert answer.status == 0
     assert f'Time(sec={42 if ticks else 0}, nanosec=0)' in answer.out
     told = 'hint: no time has come on /clock, so that `now` and `auto` are 0\n'
@@ -380,17 +384,17 @@ def test_now_is_the_simulated_time(domain: int, ros2: Callable[..., Any], ticks:
 
 
 @pytest.mark.usefixtures('processes')
-def test_times_and_rate_are_kept(ros2: Callable[..., Any]) -> None:
+def test_times_and_rate_are_kept(ros2_here: Callable[..., Any]) -> None:
     start = time.monotonic()
-    answer = ros2('topic', 'pub', '-t', '5', '-w', '0', '-r', '10', '/x', 'std_msgs/Empty')
+    answer = ros2_here('topic', 'pub', '-t', '5', '-w', '0', '-r', '10', '/x', 'std_msgs/Empty')
     assert answer.out.count('publishing #') == 5
     assert time.monotonic() - start > 0.4
 
 
 @pytest.mark.usefixtures('processes')
-def test_a_header_gets_the_time_when_it_asks_for_it(ros2: Callable[..., Any]) -> None:
+def test_a_header_gets_the_time_when_it_asks_for_it(ros2_here: Callable[..., Any]) -> None:
     words = ('/x', 'std_msgs/msg/Header', '{stamp: now, frame_id: map}')
-    out = ros2('topic', 'pub', '-t', '1', '-w', '0', *words).out
+    out = ros2_here('topic', 'pub', '-t', '1', '-w', '0', *words).out
     (sec,) = [part for part in out.split('sec=') if part[0].isdigit()][:1]
     assert abs(int(sec.partition(',')[0]) - time.time()) < 60
 
