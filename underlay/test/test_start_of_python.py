@@ -8,6 +8,8 @@ import subprocess
 import sys
 import sysconfig
 
+import pytest
+
 SITE = Path(sysconfig.get_path('purelib'))
 
 
@@ -60,3 +62,44 @@ def test_a_line_that_is_logged_has_its_file_without_a_search(tmp_path: Path) -> 
     program = tmp_path / 'program.py'
     program.write_text(LOGGED)
     assert run(str(program)) == f'{{}} <module> {program} 6\n'
+
+
+SETUP = """
+from importlib import metadata
+import sys
+from setuptools import setup
+
+def counted():
+    readings.append(sys.path[0])
+    return read()
+
+readings, read = [], metadata.distributions
+metadata.distributions = counted
+about = {'version': '0.0.0', 'py_modules': []}
+setup(name='one', script_args=['-q', 'egg_info', 'build'], **about)
+sys.path.insert(0, 'later')
+setup(name='two', script_args=['said'], **about)
+print(readings)
+"""
+LATER = """
+from setuptools import Command
+
+class Said(Command):
+    user_options = []
+    initialize_options = finalize_options = lambda self: None
+    run = lambda self: print('found later')
+"""
+
+
+def test_a_setup_py_reads_once_what_is_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    about = tmp_path / 'later' / 'later-1.0.dist-info'
+    about.mkdir(parents=True)
+    (about / 'METADATA').write_text('Metadata-Version: 2.1\nName: later\nVersion: 1.0\n')
+    (about / 'entry_points.txt').write_text('[distutils.commands]\nsaid = later:Said\n')
+    (about.parent / 'later.py').write_text(LATER)
+    (tmp_path / 'setup.py').write_text(SETUP)
+    said = run('setup.py').splitlines()
+    assert said[-2:] == ['found later', f'{[str(tmp_path), "later"]}']
