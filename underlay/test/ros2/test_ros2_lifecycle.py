@@ -17,22 +17,29 @@ def world(shared_processes: Any) -> None:
     shared_processes.node('plain', 'plain')
 
 
-def test_nodes_with_a_lifecycle_are_listed(ros2: Callable[..., Any]) -> None:
+def test_nodes_with_a_lifecycle_are_listed(
+    ros2: Callable[..., Any], ros2_here: Callable[..., Any]
+) -> None:
     assert ros2('lifecycle', 'nodes').lines == ['/motor']
-    assert ros2('lifecycle', 'nodes', '-a').lines == ['/_secret', '/motor']
-    assert ros2('lifecycle', 'nodes', '--all', '--count-nodes').out == '2\n'
-    assert ros2('lifecycle', 'get', '--include-hidden-nodes').lines == [
+    assert ros2_here('lifecycle', 'nodes', '-a').lines == ['/_secret', '/motor']
+    assert ros2_here('lifecycle', 'nodes', '--all', '--count-nodes').out == '2\n'
+    assert ros2_here('lifecycle', 'get', '--include-hidden-nodes').lines == [
         '/_secret: unconfigured [1]',
         '/motor: unconfigured [1]',
     ]
 
 
-def test_a_node_goes_where_it_is_sent(ros2: Callable[..., Any]) -> None:
+def test_a_node_goes_where_it_is_sent(
+    ros2: Callable[..., Any], ros2_here: Callable[..., Any]
+) -> None:
     idle = []
-    for transition, state in (('configure', 'inactive [2]'), ('2', 'unconfigured [1]')):
-        assert ros2('lifecycle', 'set', 'motor', transition).out == 'Transitioning successful\n'
-        assert ros2('lifecycle', 'get', '/motor').out == f'{state}\n'
-        idle.append(ros2('doctor').of_check('lifecycle'))
+    for ask, transition, state in (
+        (ros2, 'configure', 'inactive [2]'),
+        (ros2_here, '2', 'unconfigured [1]'),
+    ):
+        assert ask('lifecycle', 'set', 'motor', transition).out == 'Transitioning successful\n'
+        assert ask('lifecycle', 'get', '/motor').out == f'{state}\n'
+        idle.append(ros2_here('doctor').of_check('lifecycle'))
     assert idle == [
         'note (lifecycle): /motor: is inactive: it has not been activated, and its lifecycle '
         'publishers send nothing; run `ros2 lifecycle set /motor activate`',
@@ -42,11 +49,11 @@ def test_a_node_goes_where_it_is_sent(ros2: Callable[..., Any]) -> None:
     ]
 
 
-def test_transitions_are_listed(ros2: Callable[..., Any]) -> None:
+def test_transitions_are_listed(ros2: Callable[..., Any], ros2_here: Callable[..., Any]) -> None:
     now = ros2('lifecycle', 'list', 'motor').lines
     assert now[:3] == ['- configure [1]', '\tStart: unconfigured', '\tGoal: configuring']
     assert '- activate [3]' not in now
-    assert '- activate [3]' in ros2('lifecycle', 'list', 'motor', '--all').lines
+    assert '- activate [3]' in ros2_here('lifecycle', 'list', 'motor', '--all').lines
 
 
 @pytest.mark.parametrize(
@@ -59,8 +66,8 @@ def test_transitions_are_listed(ros2: Callable[..., Any]) -> None:
     ],
 )
 def test_what_cannot_be_done_is_said(
-    ros2: Callable[..., Any], words: tuple[str, ...], message: str
+    ros2_here: Callable[..., Any], words: tuple[str, ...], message: str
 ) -> None:
-    answer = ros2('lifecycle', *words)
+    answer = ros2_here('lifecycle', *words)
     assert answer.status == 1
     assert message in answer.err
