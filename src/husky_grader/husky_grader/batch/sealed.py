@@ -73,7 +73,7 @@ def _content(file: Path) -> bytes:
         about = os.fstat(stream.fileno())
         if not stat.S_ISREG(about.st_mode) or about.st_size > MOST_BYTES:
             raise OSError(f'{file} is no file of ours')
-        return stream.read(MOST_BYTES)
+        return stream.read(about.st_size)  # for more, room would be made each time
 
 
 def _shared_secret() -> bytes:
