@@ -38,6 +38,7 @@ in_each_sandbox = _each(*_WITH_NETWORKS, 'user')
 in_each_way_with_processes = _each(*_WITH_NETWORKS, 'none')
 in_each_with_network = _each(*_WITH_NETWORKS)
 in_each_of_namespaces = _each(*_OF_NAMESPACES)
+in_that_of_the_kernel = _each('kernel')
 
 
 def as_ordinary_user(command: Sequence[str]) -> list[str]:

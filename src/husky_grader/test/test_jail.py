@@ -21,6 +21,7 @@ from playpen_testing.jails import (
     in_each_way,
     in_each_way_with_processes,
     in_each_with_network,
+    in_that_of_the_kernel,
     running,
 )
 from playpen_testing.waiting import wait_until
@@ -143,13 +144,6 @@ def has_said(log: Path, text: str) -> None:
         timeout_sec=10.0,
         what=f'{text} in {log.name}',
     )
-
-
-def kernel_or_skip() -> Sandbox:
-    try:
-        return find_sandbox('kernel')
-    except NoSandbox as failure:
-        pytest.skip(str(failure))
 
 
 @in_each_way
@@ -307,11 +301,11 @@ def test_files_stay_within_their_limits(sandbox: Sandbox, tmp_path: Path) -> Non
         assert process.stopped == 'filled its folder with over 5 MB'
 
 
-def test_files_in_memory_stay_within_their_limit(tmp_path: Path) -> None:
-    # bwrap has no word for it; of a container the kernel counts its own memory, too.
+@in_that_of_the_kernel  # bwrap has no word for it; a container's own memory is counted, too
+def test_files_in_memory_stay_within_their_limit(sandbox: Sandbox, tmp_path: Path) -> None:
     many = 'import os\nfor i in range(60_000): os.close(os.open(f"/tmp/{i}", os.O_CREAT))'
     log = tmp_path / 'log'
-    with jail_in(kernel_or_skip(), tmp_path) as jail:
+    with jail_in(sandbox, tmp_path) as jail:
         assert jail.run([sys.executable, '-c', many], log=log, within_sec=30.0) == 1
     assert 'No space left on device' in log.read_text()
 
