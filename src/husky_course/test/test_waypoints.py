@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 import re
 from tempfile import TemporaryDirectory
+import time
 from typing import Any
 
 from husky_course.checked_yaml import FileRefused, Problem
@@ -400,10 +401,11 @@ documents = st.one_of(
 
 
 @pytest.mark.timeout(120 + GENERATED_FILES // 20)
-@settings(max_examples=GENERATED_FILES, deadline=2000, database=None)
+@settings(max_examples=GENERATED_FILES, database=None)
 @given(documents)
 def test_any_file_is_either_a_course_or_refused_with_a_line(document: str | bytes) -> None:
     content = document if isinstance(document, bytes) else document.encode(errors='replace')
+    start_sec = time.thread_time()
     try:
         with TemporaryDirectory() as folder:
             file = Path(folder) / 'course.yaml'
@@ -420,3 +422,5 @@ def test_any_file_is_either_a_course_or_refused_with_a_line(document: str | byte
         legs = plan_route(found).legs
         assert legs[-1].last == len(found.stops) - 1
         assert all(map(math.isfinite, plan_speeds(legs[0].curve, legs[0].speeds_m_s)))
+    # Of the processor's time: hypothesis' own deadline is of a clock that a busy machine holds up.
+    assert time.thread_time() - start_sec < 2.0
