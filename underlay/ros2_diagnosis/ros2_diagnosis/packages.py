@@ -337,17 +337,25 @@ def built_in(workspace: Path, package: str) -> Path | None:
 
 
 def undeclared_programs(source: Path, package: str) -> list[str]:
-    """List the modules of an ament_python package that are programs, but that nothing names."""
+    """
+    List the modules of an ament_python package that are programs, but that nothing names.
+
+    One that others import is a part of theirs, and `python3 -m` runs `__main__`.
+    """
     setup = _setup_of(source)
     if 'console_scripts' not in setup:
         return []
     files = sorted((source / package).glob('*.py'))
     texts = {file.stem: file.read_text(encoding='utf-8', errors='replace') for file in files}
+    texts.pop('__main__', None)
     everything = '\n'.join([setup, *texts.values()])
+    lists = re.findall(rf'\bfrom (?:\.|{package}) import (\([^)]*\)|.*)', everything)
+    imported = set(re.findall(r'\w+', '\n'.join(lists)))
     return [
         stem
         for stem, text in texts.items()
         if _PROGRAM.search(text)
+        and stem not in imported
         and not _declares(source, stem)
         and re.search(rf'\b{package}\.{stem}\b|\.{stem} import', everything) is None
     ]

@@ -327,8 +327,16 @@ def test_a_workspace_not_built_not_sourced_or_out_of_date(
     assert ran.err.startswith('hint: mine: ')
     assert ran.out == 'Hi from mine.\n'
 
-    (sources / 'mine' / 'mine' / 'subscriber.py').write_text('def main():\n    pass\n')
+    # One that others import, or that runs by `python3 -m mine`, needs no entry point.
+    for name in ('wheels', 'motors', '__main__'):
+        (sources / 'mine' / 'mine' / f'{name}.py').write_text('def main():\n    pass\n')
+    (sources / 'mine' / 'mine' / 'hello.py').write_text(
+        'from mine import motors\nfrom . import (\n    motors as m,\n    wheels,\n)\n'
+        'def main():\n    print(m, wheels, motors)\n'
+    )
     told = 'subscriber.py has a main(), but no entry point'
+    assert not [x for x in ros2('doctor', folder=tmp_path).lines if told[13:] in x]
+    (sources / 'mine' / 'mine' / 'subscriber.py').write_text('def main():\n    pass\n')
     assert any(told in line for line in ros2('doctor', folder=tmp_path).lines)
     for name in ('subscriber', 'subscriber.py'):
         refused = ros2('run', 'mine', name)
