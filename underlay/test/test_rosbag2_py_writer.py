@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import timedelta
 from itertools import count
 from pathlib import Path
@@ -270,3 +271,17 @@ def test_a_file_that_cannot_be_begun_is_no_part_of_the_bag(tmp_path: Path) -> No
         with pytest.raises(RuntimeError, match="bag' cannot be written: No space left on device"):
             writer.split()
     assert times_of(opened_reader(folder)) == [7]
+
+
+def test_a_bag_interrupted_as_it_begins_leaves_no_folder(tmp_path: Path) -> None:
+    storage, folder = storage_of('mcap'), tmp_path / 'bag'
+
+    def interrupted(path: Path, preset: str) -> Any:
+        storage.write(path, preset).finish(rosbag2_py.BagMetadata())
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        BagWriter(folder, replace(storage, write=interrupted))
+    assert not folder.exists()
+    BagWriter(folder, storage).close()  # under the same name
+    assert (folder / 'metadata.yaml').is_file()

@@ -9,6 +9,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+import shutil
 
 from rosbag2_py import _qos, compression
 from rosbag2_py._compression_options import CompressionMode, FORMATS
@@ -118,8 +119,12 @@ class BagWriter:
         self._compress_message = compression.compressor() if of_messages else None
         self._pool = ThreadPoolExecutor(1) if compress is CompressionMode.FILE else None
         self._compressing: list[Future[None]] = []
-        with self._refusals():
-            self._begin_file()
+        try:
+            with self._refusals():
+                self._begin_file()
+        except BaseException:  # also Ctrl-C, while the storage loads: the name can be used again
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
 
     def __enter__(self) -> BagWriter:
         return self
