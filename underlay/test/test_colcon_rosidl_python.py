@@ -120,10 +120,11 @@ def test_a_comma_between_files_is_told(folder: Path, names: str) -> None:
     (folder / 'msg').mkdir()
     for name in ('Known', 'Own'):
         (folder / 'msg' / f'{name}.msg').write_text('int8 x')
-    with pytest.raises(
-        BuildError, match='^CMakeLists.txt: CMake parts files by blanks: take the '
-    ):
+    with pytest.raises(BuildError) as refused:
         build(folder, folder / 'prefix', link=False)
+    assert str(refused.value).startswith(
+        'CMakeLists.txt: CMake parts files by blanks: take the comma behind the name away'
+    )
 
 
 def test_a_merge_conflict_in_a_message_is_told_once(folder: Path) -> None:

@@ -162,8 +162,8 @@ SAME = 'write both in the same column'
     ('text', 'expected'),
     [
         (
-            f'frame: odom\n{COURSE}<<<<<<< HEAD\n  - [2, 0]\n=======\n  - [3, 0]\n>>>>>>> theirs\n',
-            '5, column 1: a merge conflict of git begins here; keep one of its two sides, and '
+            f'{COURSE}<<<<<<< HEAD\n  - [2, 0]\n=======\n  - [3, 0]\n>>>>>>> theirs\n',
+            '4, column 1: a merge conflict of git begins here; keep one of its two sides, and '
             'remove the lines that begin with <<<<<<<, ======= and >>>>>>>',
         ),
         (f'frame odom\n{COURSE}', "1, column 6: a colon is missing; write 'frame: odom'"),

@@ -254,7 +254,7 @@ CASES: dict[str, tuple[Callable[[], bytes], str]] = {
     'a program': (lambda: b'\x7fELF' * 200, r'no archive that is known here; hand in zip, tar'),
     'a waypoint file of another name': (
         lambda: b'\xef\xbb\xbf# ours\r\nwaypoints:\r\n  - [0, 0]\r\n  - [1, 0]\r\n',
-        r'a waypoint file by another name; call it NAME\.yaml \(Windows hides a \.txt behind that\)',
+        r'a waypoint file by another name; call it NAME\.yaml \(Windows hides a \.txt behind',
     ),
     'nothing': (lambda: b'', r'empty; hand in zip, tar'),
 }

@@ -48,8 +48,8 @@ def why_not_run(folder: Path, package: str) -> str | None:
     called = setup_py.package_called(folder)
     if called is not None and called != package:
         return (
-            f'but package.xml calls the package {package!r}, and {folder / "setup.py"} {called!r}: '
-            'write one name in both, and build again'
+            f'but package.xml calls the package {package!r}, and {folder / "setup.py"} '
+            f'{called!r}: write one name in both, and build again'
         )
     settings = RawConfigParser()
     settings.read(folder / 'setup.cfg', encoding='utf-8')
