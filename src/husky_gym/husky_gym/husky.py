@@ -79,7 +79,7 @@ class Husky:
         data = mujoco.MjData(world.model)
         self._place(data, offset)
         mujoco.mj_forward(world.model, data)
-        owners = world.owners[data.contact.geom]
+        owners = world.touching(data)
         return not ((owners >= 0).all(axis=1) & (owners[:, 0] != owners[:, 1])).any()
 
     def _place(self, data: mujoco.MjData, offset: Pose) -> None:

@@ -132,6 +132,35 @@ def test_leaving_the_asphalt_and_climbing_back_touches_nothing(playpen: Simulati
     assert robot.state.position[2] == pytest.approx(0.18, abs=0.01), 'it should be on it again'
 
 
+@pytest.mark.parametrize('height_m', [0.12, 0.5])  # against wheels alone, and the body, too
+@pytest.mark.parametrize(('name', 'obstacles'), [('mattress', ['mattress']), ('Floor_mat', [])])
+def test_a_soft_body_is_touched_unless_it_is_called_ground(
+    on_asphalt: OnAsphalt, name: str, obstacles: list[str], height_m: float
+) -> None:
+    simulation = on_asphalt(
+        f'<flexcomp name="{name}" type="grid" dim="3" count="3 5 2" mass="20" radius="0.02" '
+        f'spacing="0.2 0.2 {height_m - 0.04}" pos="1.2 0 {height_m / 2}">'
+        '<pin gridrange="0 0 0 2 4 1"/></flexcomp>'
+    )
+    found = touches(simulation, 0.5, seconds=2.5)
+    assert [(touch.robot, touch.obstacle) for touch in found] == [
+        ('husky', obstacle) for obstacle in obstacles
+    ]
+    x, _, z = simulation.robots[0].state.position
+    assert x < 0.8 or z > 0.18, 'it should be held, or stand on it'
+
+
+def test_a_cloth_on_an_obstacle_is_no_touch_of_the_robot(on_asphalt: OnAsphalt) -> None:
+    simulation = on_asphalt(
+        BOX.format(x=2)
+        + '<flexcomp name="cloth" type="grid" dim="2" count="5 5 1" spacing="0.1 0.1 0.1" '
+        'mass="1" radius="0.02" pos="2 0 1.03"/>'
+    )
+    assert touches(simulation, 0.0, seconds=0.5) == []
+    contacts = simulation.data.contact
+    assert (contacts.flex >= 0).any(), 'it should lie on the box'
+
+
 def test_two_robots_that_meet_name_one_another(worlds: Path) -> None:
     robots = (RobotStart(name='alpha'), RobotStart(name='beta', x=2.0, yaw=math.pi))
     simulation = Simulation(SimulationConfig(world=str(worlds / 'empty.xml'), robots=robots))

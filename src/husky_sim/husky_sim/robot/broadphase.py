@@ -9,12 +9,12 @@ MuJoCo sorts the pairs that are left. So contacts and trajectory are the same, b
 no robot can reach anything, nobody need look at the contacts after each step, too: `alone`.
 
 Why nothing that is left out can be touched: it stays where it is, being fixed to the world or
-asleep; while anything but the robots is awake, nothing is left out. A robot that has gone AGAIN_M
-looks around before the next control period. Within a period of 20 ms it goes less than SLACK_M:
-that would take 10 m/s, a robot faster than MAX_SPEED_M_S leaves nothing out, and motors and
-gravity change its speed by less than 1 m/s in that time. What it wakes within the period meets
-its own neighbours, and they theirs; so what is loose is looked at with all around it, as far as
-SLACK_M, too.
+asleep; while anything but the robots is awake, nothing is left out, nor in a world with soft
+bodies, whose bounds are not known here. A robot that has gone AGAIN_M looks around before the
+next control period. Within a period of 20 ms it goes less than SLACK_M: that would take 10 m/s, a
+robot faster than MAX_SPEED_M_S leaves nothing out, and motors and gravity change its speed by
+less than 1 m/s in that time. What it wakes within the period meets its own neighbours, and they
+theirs; so what is loose is looked at with all around it, as far as SLACK_M, too.
 """
 
 from itertools import combinations
@@ -63,6 +63,7 @@ class BroadPhase:
             mujoco.mju_quat2Mat(turn, quaternion)
         # A barrier that stands askew fills little of a box along the axes of the world.
         self._own_boxes = self._boxes_around(model.geom_pos, turns)
+        self._is_soft = model.nflex > 0
         self._boxes: tuple[Array, Array] | None = None  # in world, while all is at rest
         self.reset()
 
@@ -90,9 +91,8 @@ class BroadPhase:
         gone_m = _farthest_m(places, self._before)
         self._before = places
         # Not `<`: what is not a number is no reason to leave something out.
-        if not gone_m <= MAX_SPEED_M_S * CONTROL_PERIOD_SEC or self._data.ntree_awake != len(
-            self._bases
-        ):
+        is_fast = not gone_m <= MAX_SPEED_M_S * CONTROL_PERIOD_SEC
+        if is_fast or self._is_soft or self._data.ntree_awake != len(self._bases):
             if not self._all:
                 self._include_all()
             return

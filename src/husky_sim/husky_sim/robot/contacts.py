@@ -41,7 +41,6 @@ class TouchDetector:
         self._world = world
         self._data = data
         self._robots = len(world.robots)
-        self._solid = (world.owners >= 0).astype(np.int8)
         self._harmless: set[bytes] = set()
         self._contacts: dict[tuple[int, int], _Contact] = {}
         self._force = np.zeros(6)
@@ -54,19 +53,20 @@ class TouchDetector:
         """Read the contacts after a physics step."""
         # Nearly always the pairs are those of an earlier step: wheels and ground.
         pairs = self._data.contact.geom.tobytes()
+        if self._world.flex_owners.size:
+            pairs += self._data.contact.flex.tobytes()
         if pairs in self._harmless:
             return
-        solid = self._solid[self._data.contact.geom]
-        if not (solid[:, 0] & solid[:, 1]).any():
+        owners = self._world.touching(self._data)
+        touches = np.flatnonzero((owners >= 0).all(axis=1) & (owners[:, 0] != owners[:, 1]))
+        if not touches.size:
             if len(self._harmless) < _REMEMBERED:
                 self._harmless.add(pairs)
             return
         now: dict[tuple[int, int], list[tuple[int, int]]] = {}
-        for index, (one, other) in enumerate(self._data.contact.geom.tolist()):
-            owners = int(self._world.owners[one]), int(self._world.owners[other])
-            if min(owners) < 0 or owners[0] == owners[1]:
-                continue
-            for ours, theirs, geom in ((*owners, one), (*owners[::-1], other)):
+        for index in touches.tolist():
+            (one, other), geoms = owners[index].tolist(), self._data.contact.geom[index].tolist()
+            for ours, theirs, geom in ((one, other, geoms[0]), (other, one, geoms[1])):
                 if ours < self._robots:
                     now.setdefault((ours, theirs), []).append((index, geom))
         for pair, contacts in now.items():

@@ -46,6 +46,7 @@ class Tyres:
         solid = (world.owners >= 0) & ~np.isin(np.arange(model.ngeom), wheels)
         model.geom_conaffinity[solid] |= _SOLID
         model.body_conaffinity[model.geom_bodyid[solid]] |= _SOLID
+        model.flex_conaffinity |= _SOLID  # treads do not know soft ground
         model.body_contype[model.geom_bodyid[wheels]] |= _SOLID
         model.body_conaffinity[model.geom_bodyid[wheels]] |= _SOLID
         self._pairs = [self._pairs_of(name) for name in names]

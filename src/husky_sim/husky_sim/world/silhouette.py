@@ -73,27 +73,24 @@ def outline_of(
     return _outline(name, np.max(reaches, axis=0), origin, axes)
 
 
-def outlines_of_flexes(
-    model: mujoco.MjModel, data: mujoco.MjData, *, below_m: float
-) -> list[Outline]:
+def outline_of_flex(
+    name: str, model: mujoco.MjModel, data: mujoco.MjData, flex: int, *, below_m: float
+) -> Outline | None:
     """
-    Measure the soft bodies as they stand in data, each as the rectangle around it.
+    Measure a soft body as it stands in data: the rectangle around it.
 
-    :param below_m: those are left out whose lowest point is above it.
+    :return: None of one that touches nothing, or whose lowest point is above below_m.
     """
-    outlines = []
-    for flex in range(model.nflex):
-        first = model.flex_vertadr[flex]
-        points = data.flexvert_xpos[first : first + model.flex_vertnum[flex]]
-        radius_m = float(model.flex_radius[flex])
-        low, high = points.min(axis=0) - radius_m, points.max(axis=0) + radius_m
-        collides = (model.flex_contype[flex] | model.flex_conaffinity[flex]) & 1
-        if collides and low[2] < below_m:
-            x, y, _ = ((low + high) / 2.0).tolist()
-            size = (float(high[0] - low[0]), float(high[1] - low[1]))
-            name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_FLEX, flex) or f'flex {flex}'
-            outlines.append(Outline(name=name, x=x, y=y, yaw=0.0, size=size))
-    return outlines
+    first = model.flex_vertadr[flex]
+    points = data.flexvert_xpos[first : first + model.flex_vertnum[flex]]
+    radius_m = float(model.flex_radius[flex])
+    low, high = points.min(axis=0) - radius_m, points.max(axis=0) + radius_m
+    collides = (model.flex_contype[flex] | model.flex_conaffinity[flex]) & 1
+    if not collides or low[2] >= below_m:
+        return None
+    x, y, _ = ((low + high) / 2.0).tolist()
+    size = (float(high[0] - low[0]), float(high[1] - low[1]))
+    return Outline(name=name, x=x, y=y, yaw=0.0, size=size)
 
 
 def _outline_along_itself(

@@ -6,7 +6,8 @@ A world file with Huskies in it: loaded, checked, and looked up by name.
 What a file must hold to be a world: something to drive on under every robot's start. A geom is
 ground if it is static and a plane or a height field, or if its name or its body's begins with
 one of GROUND_NAMES. Every other geom that touches belongs to an obstacle, named after the
-outermost body around it (or after itself where it lies in the world body).
+outermost body around it (or after itself where it lies in the world body). A soft body is one, too,
+by its own name, or ground.
 """
 
 from collections.abc import Iterator, Sequence
@@ -31,12 +32,7 @@ from husky_sim.world.flat_ground import (
     find_flat_ground,
     FlatGround,
 )
-from husky_sim.world.silhouette import (
-    highest_m,
-    lowest_m,
-    outlines_of,
-    outlines_of_flexes,
-)
+from husky_sim.world.silhouette import highest_m, lowest_m, outline_of_flex, outlines_of
 from husky_sim.world.world_file import (
     check_models,
     check_names,
@@ -59,7 +55,7 @@ _NOTHING, _GROUND, _FIRST_OWNER = -2, -1, 0
 
 @dataclass(frozen=True, kw_only=True)
 class World:
-    """A compiled model, and the robot or obstacle that each geom belongs to."""
+    """A compiled model, and the robot or obstacle that each geom or soft body belongs to."""
 
     path: str
     husky: str  # the robot's file
@@ -69,13 +65,18 @@ class World:
     flat_ground: tuple[FlatGround, ...]
     names: tuple[str, ...]  # of owners: first the robots, then the obstacles
     owners: Indices  # of every geom: its place in names, or negative
+    flex_owners: Indices  # the same of every soft body
     steps_per_period: int
 
     @cached_property
     def obstacles(self) -> tuple[Outline, ...]:
         """Return the outlines of what stands in it; measured when somebody asks for them."""
         data = _standing(self.path, self.model)
-        return _outlines(self.model, data, self.names, self.owners, len(self.robots))
+        return _outlines(self, data)
+
+    def touching(self, data: mujoco.MjData) -> Indices:
+        """Return the two owners of each contact, shape (n, 2), or negative numbers."""
+        return _touching(data, self.owners, self.flex_owners)
 
     @property
     def digest(self) -> str:
@@ -140,7 +141,8 @@ def load_world(
     # In a model without what is only seen, geoms have other numbers.
     numbers = [geom for geom in range(empty.ngeom) if _is_fixed_obstacle(empty, geom)]
     names, owners = _owners(model, robots, numbers)
-    _check_start(path, data, robots, names, owners)
+    flex_owners = _flex_owners(model, names)
+    _check_start(path, robots, names, _touching(data, owners, flex_owners))
     return World(
         path=path,
         husky=husky,
@@ -150,6 +152,7 @@ def load_world(
         flat_ground=faces,
         names=tuple(names),
         owners=owners,
+        flex_owners=flex_owners,
         steps_per_period=steps,
     )
 
@@ -343,15 +346,30 @@ def _owners(
     return names, owners
 
 
+def _flex_owners(model: mujoco.MjModel, names: list[str]) -> Indices:
+    """Give every soft body to an obstacle of its own, which is added to names, or the ground."""
+    owners = np.full(model.nflex, _GROUND, dtype=np.int64)
+    for flex in range(model.nflex):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_FLEX, flex) or f'flex {flex}'
+        if not name.lower().startswith(GROUND_NAMES):
+            owners[flex] = len(names)
+            names.append(name)
+    return owners
+
+
+def _touching(data: mujoco.MjData, owners: Indices, flex_owners: Indices) -> Indices:
+    found = owners[data.contact.geom]  # of a soft body that is -1
+    if not flex_owners.size:
+        return found
+    flexes = data.contact.flex
+    return np.where(flexes < 0, found, flex_owners[flexes])
+
+
 def _check_start(
-    path: str,
-    data: mujoco.MjData,
-    robots: Sequence[RobotStart],
-    names: Sequence[str],
-    owners: Indices,
+    path: str, robots: Sequence[RobotStart], names: Sequence[str], touching: Indices
 ) -> None:
-    for pair in data.contact.geom.tolist():
-        ours, theirs = sorted(int(owners[geom]) for geom in pair)
+    for pair in touching.tolist():
+        ours, theirs = sorted(pair)
         if ours >= _FIRST_OWNER and ours < len(robots) and theirs != ours:
             robot = robots[ours]
             where = line_of(path, names[theirs]) if theirs >= len(robots) else ''
@@ -362,26 +380,23 @@ def _check_start(
             )
 
 
-def _outlines(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    names: Sequence[str],
-    owners: Indices,
-    robots: int,
-) -> tuple[Outline, ...]:
+def _outlines(world: World, data: mujoco.MjData) -> tuple[Outline, ...]:
     """Measure what a robot can drive against: not what hangs above, as a roof or a bridge."""
-    ground = np.flatnonzero(owners == _GROUND).tolist()
+    model = world.model
+    ground = np.flatnonzero(world.owners == _GROUND).tolist()
     above_m = max(highest_m(model, data, geom) for geom in ground) + _HEADROOM_M
     outlines: list[Outline] = []
-    for owner in range(robots, len(names)):
-        all_geoms = np.flatnonzero(owners == owner).tolist()
-        body = int(model.body_rootid[model.geom_bodyid[all_geoms[0]]])
+    for owner in range(len(world.robots), len(world.names)):
+        for flex in np.flatnonzero(world.flex_owners == owner).tolist():
+            outline = outline_of_flex(world.names[owner], model, data, flex, below_m=above_m)
+            outlines += [outline] if outline else []
+        all_geoms = np.flatnonzero(world.owners == owner).tolist()
         geoms = [
             geom
             for geom in all_geoms
             if model.body_weldid[model.geom_bodyid[geom]] or lowest_m(model, data, geom) < above_m
         ]
         if geoms:
-            outlines += outlines_of(names[owner], model, data, geoms, body=body)
-    outlines += outlines_of_flexes(model, data, below_m=above_m)
+            body = int(model.body_rootid[model.geom_bodyid[geoms[0]]])
+            outlines += outlines_of(world.names[owner], model, data, geoms, body=body)
     return tuple(outlines)
