@@ -6,8 +6,8 @@ A world file with Huskies in it: loaded, checked, and looked up by name.
 What a file must hold to be a world: something to drive on under every robot's start. A geom is
 ground if it is static and a plane or a height field, or if its name or its body's begins with
 one of GROUND_NAMES. Every other geom that touches belongs to an obstacle, named after the
-outermost body around it (or after itself where it lies in the world body). A soft body is one, too,
-by its own name, or ground.
+outermost body around it (or after itself where it lies in the world body). A soft body is an
+obstacle by its own name, or ground.
 """
 
 from collections.abc import Iterator, Sequence
