@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the grader's own node takes for heard, of all that a program prints; how long it waits."""
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 import os
 from pathlib import Path
 import subprocess
@@ -10,7 +12,7 @@ import time
 
 from husky_grader.lab.observer import observe
 from husky_grader.lab.patience import crowding
-from husky_grader.rubric.steps import FieldCheck, ServiceStep, SubscriberStep
+from husky_grader.rubric.steps import FieldCheck, PublisherStep, ServiceStep, SubscriberStep
 from husky_grader.run.printed import MAX_AROUND, MAX_LINES, printed_lines
 from playpen_testing.busy import busy_machine
 from playpen_testing.waiting import wait_until
@@ -60,11 +62,43 @@ WARNING = (
     'failed to send response (timeout): client will not receive response, at rmw_response.cpp'
 )
 
+COUNTS = """
+import sys
+import time
+
+import rclpy
+from std_msgs.msg import Int32
+
+rclpy.init()
+node = rclpy.create_node('counter')
+publisher = node.create_publisher(Int32, 'count', 10)
+while publisher.get_subscription_count() == 0:
+    time.sleep(0.01)
+for number in range(int(sys.argv[1])):
+    publisher.publish(Int32(data=number))
+    time.sleep(0.1)
+rclpy.spin(node)
+"""
+
 
 @pytest.fixture(autouse=True)
 def graph(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+
+
+@contextmanager
+def running(code: str, *words: str, log: Path) -> Iterator[Callable[[], bool]]:
+    """Run a program, and give what tells whether it has ended."""
+    program = [sys.executable, '-c', code, *words]
+    with (
+        log.open('w') as out,
+        subprocess.Popen(program, stdout=out, stderr=subprocess.STDOUT) as process,
+    ):
+        try:
+            yield lambda: process.poll() is not None
+        finally:
+            process.kill()
 
 
 def test_a_number_is_not_heard_by_who_does_not_listen(
@@ -123,13 +157,39 @@ def test_a_response_that_the_machine_has_lost_is_asked_for_again(
         response=(FieldCheck(field='success', equals=True),),
         within_sec=2.0,
     )
-    program = [sys.executable, '-c', LOSES_AN_ANSWER, *warning]
-    with (
-        log.open('w') as out,
-        subprocess.Popen(program, stdout=out, stderr=subprocess.STDOUT) as process,
-    ):
-        try:
-            found = observe(step, lambda: process.poll() is not None, log, tmp_path)
-        finally:
-            process.kill()
+    with running(LOSES_AN_ANSWER, *warning, log=log) as is_over:
+        found = observe(step, is_over, log, tmp_path)
     assert (found.score, found.why[: len(why)]) == (score, why), log.read_text()
+
+
+@pytest.mark.parametrize(
+    ('messages', 'defects'),
+    [
+        (1000, {}),
+        (
+            7,
+            {
+                'rate': 'it stopped: nothing came any more within 5 s; '
+                'the lab asks for 10 messages a second, without an end'
+            },
+        ),
+    ],
+)
+def test_who_stops_after_some_messages_has_no_rate(
+    messages: int, defects: dict[str, str], tmp_path: Path
+) -> None:
+    step = PublisherStep(
+        points=10.0,
+        package='zoo',
+        executable='counts',
+        topic='/count',
+        type='std_msgs/msg/Int32',
+        rate_hz=10.0,
+        within_sec=5.0,
+        listen_sec=1.0,
+    )
+    log = tmp_path / 'log'
+    with running(COUNTS, str(messages), log=log) as is_over:
+        found = observe(step, is_over, log, tmp_path)
+    assert (found.why, found.score) == ('10 Hz on /count, std_msgs/msg/Int32', 100.0)
+    assert found.defects == defects, log.read_text()

@@ -193,7 +193,21 @@ def _published(
         return nothing(why)
     rate = _rate_hz(step, observer, times_sec)
     defects = {'content': complaints[0]} if complaints else {}
+    if _tolerances_off(rate, step) <= 1.0 and (why := _why_stopped(step, observer, times_sec)):
+        defects['rate'] = why
     return _with_rate(step, rate, defects)
+
+
+def _why_stopped(step: PublisherStep, observer: _Observer, times_sec: Sequence[float]) -> str:
+    """Return that a program publishes no more, as after a loop, or nothing."""
+    heard, within_sec = len(times_sec), _lengthened(step.within_sec, step)
+    if step.rate_hz is None or heard >= MAX_MESSAGES:
+        return ''
+    observer.spin_until(lambda: len(times_sec) > heard, within_sec)
+    if len(times_sec) > heard or observer.over():
+        return ''
+    wanted = asked(f'{step.rate_hz:g} messages a second, without an end')
+    return f'it stopped: nothing came any more within {within_sec:g} s; {wanted}'
 
 
 def _with_rate(step: PublisherStep, rate: float, defects: dict[str, str]) -> Finding:
