@@ -46,7 +46,8 @@ class Tyres:
         solid = (world.owners >= 0) & ~np.isin(np.arange(model.ngeom), wheels)
         model.geom_conaffinity[solid] |= _SOLID
         model.body_conaffinity[model.geom_bodyid[solid]] |= _SOLID
-        model.flex_conaffinity |= _SOLID  # treads do not know soft ground
+        soft = (model.flex_contype | model.flex_conaffinity) & 1 != 0  # not what is only seen
+        model.flex_conaffinity[soft] |= _SOLID  # ground, too: treads do not know it
         model.body_contype[model.geom_bodyid[wheels]] |= _SOLID
         model.body_conaffinity[model.geom_bodyid[wheels]] |= _SOLID
         self._pairs = [self._pairs_of(name) for name in names]
