@@ -1,12 +1,13 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A run with a limit ends by itself, also where its driver hangs."""
+"""A run with a limit ends by itself, also where its driver hangs; without one it says who does."""
 
 from collections.abc import Callable
 import time
 from typing import Any
 
 from geometry_msgs.msg import Twist
+from husky_sim.ros import node as node_module
 from husky_sim.ros import pace
 from husky_sim.ros.node import SimulatorNode
 from nav_msgs.msg import Odometry
@@ -92,3 +93,37 @@ def test_a_driver_that_hangs_in_lockstep_ends_the_run(
         domain_id, is_over, AnswersOnce, lockstep=True, real_time_factor=0.0, limit_sec=100.0
     )
     assert simulator.simulation.time_sec < 1.0
+
+
+@pytest.mark.parametrize(
+    ('drivers', 'told'),
+    [
+        (
+            (),
+            'time begins when each robot has a driver, which reads its odometry/filtered and '
+            'publishes its commands; so far nobody drives husky',
+        ),
+        ((AnswersOnce,), 'time waits for a command for each robot; no driver answers of husky'),
+    ],
+    ids=['nobody drives', 'the driver hangs'],
+)
+def test_whom_lockstep_waits_for_is_told_once(
+    drivers: tuple[type[Node], ...],
+    told: str,
+    domain_id: int,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(node_module, 'DIAGNOSTICS_PERIOD_SEC', 0.05)
+    said = ''
+    told_at_sec: list[float] = []
+
+    def has_had_time_to_repeat_it(_: SimulatorNode) -> bool:
+        nonlocal said
+        said += capfd.readouterr().err
+        if told in said:
+            told_at_sec.append(time.monotonic())
+        return bool(told_at_sec) and told_at_sec[-1] - told_at_sec[0] > 1.0
+
+    run_until(domain_id, has_had_time_to_repeat_it, *drivers, lockstep=True, real_time_factor=0.0)
+    assert said.count('in lockstep time') == 1, said

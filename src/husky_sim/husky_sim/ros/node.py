@@ -49,7 +49,10 @@ from husky_sim.ros.simulation_topics import SimulationTopics
 from husky_sim.scene_topic import SceneTopic
 from husky_sim.simulation import Simulation
 
-WAITING_LOOKS = 3  # one a second: drivers that are started together come one after the other
+# How many looks, one a second, until who is waited for is told: drivers that are started together
+# come one after the other, and the first of them when somebody has typed its command.
+WAITING_LOOKS = 3
+WAITING_LOOKS_FOR_ALL = 10
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,8 @@ class SimulatorNode(SettingsNode):
         self._record = open_recorder(self.simulation, self._run.record, self.get_logger().error)
         self.over: Future[None] = Future()
         self.paused = False  # time stands still
-        self._looks_at_waiting = 0
+        self._waited_for: list[str] = []  # robots whose drivers lockstep waited for, at that look
+        self._looks_at_waiting = 0  # since these are the same
         self._periods_looked_at = 0
         self._has_broken_down = False  # the physics, in this run
         self._topics = SimulationTopics(
@@ -235,10 +239,10 @@ class SimulatorNode(SettingsNode):
         self._tell_who_waits()
 
     def _tell_who_waits(self) -> None:
-        """Log, once a wait, whose drivers lockstep waits for, where other robots have theirs."""
+        """Log, once a wait, whose drivers lockstep waits for."""
         before, self._periods_looked_at = self._periods_looked_at, self.simulation.periods
         if not isinstance(self._pace, Lockstep) or self.paused:
-            self._looks_at_waiting = 0
+            self._waited_for = []
             return
         if self._pace.has_begun:
             lack = self._topics.without_command if before == self.simulation.periods else []
@@ -249,9 +253,12 @@ class SimulatorNode(SettingsNode):
                 'in lockstep time begins when each robot has a driver, which reads its '
                 'odometry/filtered and publishes its commands; so far nobody drives '
             )
-        waits = 0 < len(lack) < len(self.simulation.robots)
-        self._looks_at_waiting = self._looks_at_waiting + 1 if waits else 0
-        if self._looks_at_waiting == WAITING_LOOKS:
+        self._looks_at_waiting = self._looks_at_waiting + 1 if lack == self._waited_for else 0
+        self._waited_for = lack
+        for_all = len(lack) == len(self.simulation.robots)
+        if lack and self._looks_at_waiting == (
+            WAITING_LOOKS_FOR_ALL if for_all else WAITING_LOOKS
+        ):
             self.get_logger().warning(f'{why}{", ".join(lack)}')
 
     def _tell_of_breakdown(self) -> None:
