@@ -188,14 +188,23 @@ def _apart(
     )
 
 
+def how_to_switch_on(graph: Graph, topic: str) -> str:
+    """Return what starts the simulator with the sensor of a topic that nobody publishes, or ''."""
+    if any(node.name == _SIMULATOR for node in graph.nodes):
+        for end, option in _OFF_AT_FIRST.items():
+            if topic.endswith(f'/{end}'):
+                return (
+                    f'start the simulator with `--ros-args -p {option}`, or `{option}` behind its '
+                    'launch file'
+                )
+    return ''
+
+
 def _sensors_that_are_off(graph: Graph, waiting: _Uses) -> Iterator[Finding]:
-    if all(node.name != _SIMULATOR for node in graph.nodes) or waiting[0].node.endswith(_VIEW):
-        return
     for each in waiting:
-        for option in (o for end, o in _OFF_AT_FIRST.items() if each.name.endswith(f'/{end}')):
+        if (remedy := how_to_switch_on(graph, each.name)) and not each.node.endswith(_VIEW):
             yield Finding(
                 each.name,
                 f'{each.node} subscribes to this, but that sensor of the simulator is off',
-                f'start the simulator with `--ros-args -p {option}`, or `{option}` behind its '
-                'launch file',
+                remedy,
             )

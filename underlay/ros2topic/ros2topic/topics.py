@@ -7,10 +7,11 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 import re
+import sys
 import time
 from typing import Any
 
-from ros2_diagnosis import nearest
+from ros2_diagnosis import nearest, partners
 from ros2cli import discovery, interfaces, interrupts
 from ros2cli.errors import CommandError
 from rtps_graph import names
@@ -57,6 +58,8 @@ def find(
         if wait and name not in graph.topics():
             interrupts.heed_in_background()
             print(f'WARNING: topic [{name}] does not appear to be published yet')
+            if why := why_unknown(graph, name):
+                print(f"hint: nobody uses '{name}'{why}", file=sys.stderr)
             while name not in graph.topics():
                 time.sleep(_POLL_SEC)
                 graph = discovery.read_graph(args, quiet=True)
@@ -64,13 +67,19 @@ def find(
     return Topic(name, interfaces.message(type_name), graph.with_role(Role.PUBLISHER, name))
 
 
+def why_unknown(graph: Graph, name: str) -> str:
+    """Return a clause for a message on a topic that is not there: what was meant, or is off."""
+    if remedy := partners.how_to_switch_on(graph, name):
+        return f'; that sensor of the simulator is off: {remedy}'
+    return nearest.hint(name, graph.topics(), at_most=0)
+
+
 def _only_type(graph: Graph, topic: str, name: str) -> str:
     topics = graph.topics()
     if name not in topics:
         raise CommandError(
             f'WARNING: topic [{topic}] does not appear to be published yet\n'
-            f'Could not determine the type for the passed topic'
-            f'{nearest.hint(name, topics, at_most=0)}'
+            f'Could not determine the type for the passed topic{why_unknown(graph, name)}'
         )
     types = topics[name]
     if len(types) > 1:

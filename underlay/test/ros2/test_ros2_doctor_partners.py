@@ -8,6 +8,7 @@ import pytest
 from ros2_diagnosis import partners
 from ros2cli import discovery
 from ros2doctor import api
+from ros2topic import topics
 from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
 
 _USUAL = Qos(True, False, None, None, False, None)
@@ -89,6 +90,12 @@ def test_a_sensor_that_is_off_is_named_with_what_turns_it_on() -> None:
     )
     assert str(found).startswith('/front/scan: /follower subscribes to this, but that sensor of')
     assert '`--ros-args -p lidar_rate_hz:=10.0`' in str(found)
+
+
+def test_ros2_topic_names_a_sensor_that_is_off() -> None:
+    clause = topics.why_unknown(_graph(husky_sim=[]), '/front/scan')
+    assert clause.startswith('; that sensor of the simulator is off: start the simulator with `--')
+    assert topics.why_unknown(_graph(other=[]), '/front/scan') == ''
 
 
 def test_a_service_that_nobody_offers_is_noted() -> None:

@@ -206,6 +206,12 @@ def test_hz_measures_the_rate(world: Any) -> None:
     assert process.returncode == signal.SIGINT
 
 
+def test_hz_says_what_was_meant_by_a_topic_that_is_not_there(world: Any) -> None:
+    process = world.ros2('topic', 'hz', '/chater')
+    hint = find_line(process.stdout, '^hint: (.*)')[1]
+    assert hint == "nobody uses '/chater'; did you mean '/chatter'?"
+
+
 def test_hz_tells_of_a_filter_that_lets_nothing_pass(world: Any) -> None:
     process = world.ros2('topic', 'hz', '/chatter', '--filter', "m.data == ''")
     hint = find_line(process.stdout, '^hint: (.*)')[1]

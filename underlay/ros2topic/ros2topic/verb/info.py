@@ -10,6 +10,8 @@ from ros2cli.verb import VerbExtension
 from rtps_graph import names
 from rtps_graph.graph import Endpoint, Graph, Role
 
+from ros2topic import topics
+
 
 class InfoVerb(VerbExtension):
     """Print information about a topic."""
@@ -30,7 +32,7 @@ class InfoVerb(VerbExtension):
         graph = discovery.read_graph(args)
         name, known = names.expand(args.topic_name), graph.topics()
         if name not in known:
-            return f"Unknown topic '{args.topic_name}'{discovery.near(name, known)}"
+            return f"Unknown topic '{args.topic_name}'{topics.why_unknown(graph, name)}"
         types = known[name]
         end = '\n\n' if args.verbose else '\n'
         print(f'Type: {types[0] if len(types) == 1 else types}', end=end)
