@@ -42,9 +42,16 @@ class _Check(DoctorCheck):
 
 
 def _types() -> Iterable[Finding]:
-    found = [*connections.check_types(graph()), *connections.check_service_types(graph())]
+    services = [*connections.check_service_types(graph())]
     # An action is named once, not with each of its topics and services.
-    return [finding for finding in found if '/_action/' not in finding.where]
+    named = {finding.where for finding in services}
+    for finding in [*connections.check_types(graph()), *services]:
+        action, _, part = finding.where.partition('/_action/')
+        if not part:
+            yield finding
+        elif action not in named:
+            named.add(action)
+            yield finding
 
 
 def _clock() -> Iterable[Finding]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import pytest
 from ros2_diagnosis import partners
+from ros2_doctor_checks import checks
 from ros2cli import discovery
 from ros2doctor import api
 from ros2topic import topics
@@ -152,3 +153,35 @@ def test_a_program_without_ros_never_is_a_node(monkeypatch: pytest.MonkeyPatch) 
         assert api.graph().endpoints == made.endpoints
     finally:
         api.graph.cache_clear()
+
+
+def test_an_action_of_two_definitions_is_named_once(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    parts = {'send_goal': Role.SERVER, 'get_result': Role.SERVER, 'feedback': Role.PUBLISHER}
+    used = {Role.SERVER: Role.CLIENT, Role.PUBLISHER: Role.SUBSCRIPTION}
+
+    def told(*changed: str) -> list[str]:
+        offers, calls = (
+            [
+                Endpoint(
+                    f'{node}{part}'.encode(),
+                    offered if node == 'server' else used[offered],
+                    f'/count/_action/{part}',
+                    f'my_msgs/action/Count_{part}',
+                    f'RIHS01_{node if part in changed else "same"}',
+                    _USUAL,
+                )
+                for part, offered in parts.items()
+            ]
+            for node in ('server', 'client')
+        )
+        nodes = [Node('server', '/', offers), Node('client', '/', calls)]
+        monkeypatch.setattr(checks, 'graph', lambda: Graph(nodes, offers + calls))
+        checks.Types().check()
+        return [line.split(': ')[1] for line in capsys.readouterr().out.splitlines()]
+
+    assert told() == []
+    assert told(*parts) == ['/count']
+    assert told('feedback', 'get_result') == ['/count/_action/feedback']
+    assert told('get_result') == ['/count/_action/get_result']

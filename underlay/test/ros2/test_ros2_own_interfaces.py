@@ -216,3 +216,14 @@ def test_a_second_build_makes_only_what_has_changed(
     assert 'Traceback' not in failed.stderr
     assert other.is_file(), 'what was installed before is gone'
     assert 'unit' in module.read_text(), 'what was installed before is gone'
+
+
+def test_two_definitions_of_one_type_are_told_of(workspace: Path, shared_processes: Any) -> None:
+    words = ('topic', 'pub', '-r', '10', '/length', 'tutorial_interfaces/Num', '{num: 7}')
+    shared_processes.ros2(*words, ready='publishing')
+    definition = workspace / 'src' / 'tutorial_interfaces' / 'msg' / 'Num.msg'
+    definition.write_text('int64 num\nfloat64[4] more\n')
+    build = ['colcon', 'build', '--packages-select', 'tutorial_interfaces']
+    subprocess.run(build, cwd=workspace, check=True, capture_output=True)
+    hint = 'have different definitions of tutorial_interfaces/msg/Num, so that what arrives is wr'
+    shared_processes.ros2('topic', 'echo', '/length', ready=f'a `ros2` command {hint}')
