@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms that no listener can use: of another time than the others, or of two parents."""
+"""Transforms and headers that no listener can use: of another time or frame than the others."""
 
 from __future__ import annotations
 
@@ -10,14 +10,17 @@ import itertools
 import time
 from typing import Any
 
-from rclpy.qos import qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
 from ros2_diagnosis import nodes
 from ros2_diagnosis.finding import Finding
 from ros2cli import interfaces
 from ros2cli.node.direct import command_node, CommandNode
 from rtps_graph.graph import Graph, Role
 
-_TRANSFORMS, _CLOCK = '/tf', '/clock'
+from ros2_doctor_checks.headers import check_frame_names, Headers
+
+_TRANSFORMS, _FIXED, _CLOCK = '/tf', '/tf_static', '/clock'
+_KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _FIRST_SEC, _LISTEN_SEC = 2.0, 1.0
 _APART_SEC = 60.0  # no transform is sent so late, or so far ahead
 _BEGINNING_SEC = 1.0  # of a simulation, in which a stamp of 0 may be right
@@ -26,14 +29,16 @@ _SHOWN = 3
 
 @dataclass
 class _Heard:
-    """What comes on /tf while it is listened to.
+    """What comes while it is listened to.
 
     :param times: those that the clock has told meanwhile, in seconds.
-    :param links: the parent and the stamp of each transform, by its child.
+    :param links: the parent and the stamp of each transform on /tf, by its child.
+    :param fixed: the frames of /tf_static.
     """
 
     times: list[float] = field(default_factory=list)
     links: dict[str, list[tuple[str, float]]] = field(default_factory=dict)
+    fixed: set[str] = field(default_factory=set)
 
     def on_clock(self, msg: Any) -> None:
         self.times.append(_seconds(msg.clock))
@@ -43,6 +48,10 @@ class _Heard:
             link = each.header.frame_id, _seconds(each.header.stamp)
             self.links.setdefault(each.child_frame_id, []).append(link)
 
+    def on_fixed(self, msg: Any) -> None:
+        for each in msg.transforms:
+            self.fixed |= {each.header.frame_id, each.child_frame_id}
+
     def is_timely(self, stamp: float) -> bool:
         first, last = min(self.times), max(self.times)
         if stamp == 0.0:
@@ -50,25 +59,36 @@ class _Heard:
         apart = _APART_SEC + last - first  # simulated time may pass a hundred times as fast
         return first - apart < stamp < last + apart
 
+    def frames(self) -> set[str]:
+        parents = {parent for links in self.links.values() for parent, _ in links}
+        return self.fixed | parents | self.links.keys()
+
 
 def check_frames(graph: Graph) -> Iterator[Finding]:
-    """Listen to the transforms, where there are some that can be heard here."""
+    """Listen to the transforms and headers, where there are some that can be heard here."""
     publishers = [graph.node_of(each) for each in graph.with_role(Role.PUBLISHER, _TRANSFORMS)]
-    if not publishers or any(nodes.check_memory(publishers)):
+    if any(nodes.check_memory(publishers)):
         return
     has_clock = bool(graph.with_role(Role.PUBLISHER, _CLOCK))
+    if not publishers and not has_clock:
+        return
     with command_node() as node:
-        heard = _listen(node, has_clock=has_clock)
+        headers = Headers(node, graph)
+        heard = _listen(node, headers, has_clock=has_clock, has_transforms=bool(publishers))
     publishing = sorted({nodes.shown_name(each) for each in publishers})
     yield from _two_parents(heard, ', '.join(publishing))
+    yield from check_frame_names(graph, headers, heard.frames())
     # Where nodes wait for a clock, that is told, and all follows from it.
     waits = not has_clock and bool(graph.with_role(Role.SUBSCRIPTION, _CLOCK))
     if heard.times and not waits:
         clock = _CLOCK if has_clock else 'the clock of this computer'
         yield from _of_another_time(graph, heard, clock)
+        yield from _headers_of_another_time(graph, headers, heard, clock)
 
 
-def _listen(node: CommandNode, *, has_clock: bool) -> _Heard:
+def _listen(
+    node: CommandNode, headers: Headers, *, has_clock: bool, has_transforms: bool
+) -> _Heard:
     heard = _Heard()
     kind = interfaces.message('tf2_msgs/msg/TFMessage')
     if has_clock:
@@ -78,7 +98,10 @@ def _listen(node: CommandNode, *, has_clock: bool) -> _Heard:
     else:
         heard.times.append(time.time())
     node.node.create_subscription(kind, _TRANSFORMS, heard.on_transforms, qos_profile_sensor_data)
-    if node.spin_until(lambda: bool(heard.links), _FIRST_SEC):
+    node.node.create_subscription(kind, _FIXED, heard.on_fixed, _KEPT)
+    if not has_transforms:
+        node.spin_until(lambda: headers.are_here, _LISTEN_SEC)
+    elif node.spin_until(lambda: bool(heard.links), _FIRST_SEC):
         node.spin_until(lambda: False, _LISTEN_SEC)
     return heard
 
@@ -112,25 +135,48 @@ def _of_another_time(graph: Graph, heard: _Heard, clock: str) -> Iterator[Findin
                 apart[child] = stamp
     if not apart:
         return
+    stamp = max(apart.values())
+    by, mend = _blame(graph, _TRANSFORMS, stamp, clock)
+    yield Finding(
+        f'frame {", ".join(sorted(apart)[:_SHOWN])}',
+        f'stamped by {by} with {stamp:.0f} s, while {clock} tells {heard.times[-1]:.0f} s, so '
+        'that lookups fail by extrapolation',
+        mend,
+        serious=bool(frames[True] & frames[False]),
+    )
+
+
+def _headers_of_another_time(
+    graph: Graph, headers: Headers, heard: _Heard, clock: str
+) -> Iterator[Finding]:
+    """Find messages that are never put together with others; those without a stamp say so."""
+    for topic, header in sorted(headers.first.items()):
+        stamp = _seconds(header.stamp)
+        if stamp != 0.0 and not heard.is_timely(stamp):
+            by, mend = _blame(graph, topic, stamp, clock)
+            yield Finding(
+                topic,
+                f'stamped by {by} with {stamp:.0f} s, while {clock} tells {heard.times[-1]:.0f} '
+                's, so that message_filters and tf2 find nothing that goes with it',
+                mend,
+                serious=clock == _CLOCK,
+            )
+
+
+def _blame(graph: Graph, topic: str, stamp: float, clock: str) -> tuple[str, str]:
+    """Return who publishes a topic by another clock, and what to do."""
     told = {id(graph.node_of(each)) for each in graph.with_role(Role.PUBLISHER, _CLOCK)}
     heeding = {id(graph.node_of(each)) for each in graph.with_role(Role.SUBSCRIPTION, _CLOCK)}
-    publishers = list(map(graph.node_of, graph.with_role(Role.PUBLISHER, _TRANSFORMS)))
+    publishers = list(map(graph.node_of, graph.with_role(Role.PUBLISHER, topic)))
     others = [node for node in publishers if id(node) not in told | heeding]
     by = ', '.join(sorted({nodes.shown_name(node) for node in others or publishers}))
-    stamp = max(apart.values())
     if stamp == 0.0 or (not others and clock == _CLOCK):
         mend = 'set header.stamp'
     elif clock == _CLOCK:
         mend = f'start {by} with `--ros-args -p use_sim_time:=true`, and set header.stamp'
     else:
         mend = 'play a bag with --clock and use_sim_time in the others, or set header.stamp'
-    yield Finding(
-        f'frame {", ".join(sorted(apart)[:_SHOWN])}',
-        f'stamped by {by} with {stamp:.0f} s, while {clock} tells {heard.times[-1]:.0f} s, so '
-        'that lookups fail by extrapolation',
-        f'{mend} to `get_clock().now().to_msg()`',
-        serious=bool(frames[True] & frames[False]),
-    )
+    return by, f'{mend} to `get_clock().now().to_msg()`'
 
 
 def _seconds(stamp: Any) -> float:

@@ -26,6 +26,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.service import Service
 from rclpy.service_introspection import ServiceIntrospectionState
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, String
 from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
@@ -221,6 +222,20 @@ def broadcaster(node: Node) -> None:
             frames[name].header.frame_id = parent
         frames['base_link'].header.frame_id = next(parents)
         publisher.publish(TFMessage(transforms=list(frames.values())))
+
+    node.create_timer(0.05, publish)
+
+
+def odd_laser(node: Node) -> None:
+    """Stamp scans by its own clock and with a frame that nobody has, and read them."""
+    publisher = node.create_publisher(LaserScan, 'scan', 10)
+    node.create_subscription(LaserScan, 'scan', lambda _: None, 10)
+
+    def publish() -> None:
+        scan = LaserScan()
+        scan.header.frame_id = 'laser'
+        scan.header.stamp = node.get_clock().now().to_msg()
+        publisher.publish(scan)
 
     node.create_timer(0.05, publish)
 

@@ -259,7 +259,7 @@ def test_frames_of_another_time_and_a_simulator_that_is_paused(
     assert ' (clock): ' not in answer.out, answer
     assert ' (frames): ' not in answer.out, answer
 
-    broadcaster = processes.node('broadcaster', 'lights')
+    odd = [processes.node('broadcaster', 'lights'), processes.node('odd_laser', 'scanner')]
     told = [line for line in ros2_here('doctor').lines if ' (frames): ' in line]
     assert told[0] == (
         'problem (frames): frame base_link: has several parents, map and odom, so that it jumps '
@@ -267,13 +267,19 @@ def test_frames_of_another_time_and_a_simulator_that_is_paused(
         '/husky_sim, /lights'
     )
     another_time = r'problem \(frames\): frame base_link, camera, lamp: stamped by /lights with '
-    assert re.match(another_time + r'\d{10} s, while /clock tells \d+ s, so that lookups', told[1])
-    assert told[1].endswith(
-        '; start /lights with `--ros-args -p use_sim_time:=true`, and set header.stamp to '
-        '`get_clock().now().to_msg()`'
+    assert told[1].startswith(
+        "note (frames): /scan: /scanner names the frame 'laser', of which there is no transform, "
+        "so that nobody can say where that is; set header.frame_id to 'front_laser'"
     )
-    assert len(told) == 2
-    processes.end_one(broadcaster)
+    assert re.match(another_time + r'\d{10} s, while /clock tells \d+ s, so that lookups', told[2])
+    assert told[3].startswith('problem (frames): /scan: stamped by /scanner with ')
+    for name, line in zip(('lights', 'scanner'), told[2:], strict=True):
+        assert line.endswith(
+            f'; start /{name} with `--ros-args -p use_sim_time:=true`, and set header.stamp to '
+            '`get_clock().now().to_msg()`'
+        )
+    for node in odd:
+        processes.end_one(node)
     pause = ('service', 'call', '/husky_sim/pause', 'std_srvs/srv/SetBool')
     ros2_here(*pause, '{data: true}')
     line = ros2_here('doctor').of_check('clock')
