@@ -25,6 +25,8 @@ _SINGLE_PUBLISHER_ENDS = (
     'husky_velocity_controller/odom',
     'cmd_vel',
 )
+# Every buffer of transforms that is given a node answers where its frames are.
+_OFFERED_BY_MANY = ('tf2_msgs/srv/FrameGraph',)
 # The first two bytes of a GUID (dds-foundation.org, "DDS-RTPS vendor and product IDs").
 _VENDORS = {b'\x01\x01': 'Connext DDS', b'\x01\x0f': 'Fast DDS', b'\x01\x10': 'Cyclone DDS'}
 _OWN_VENDOR = 'Fast DDS'  # of the wheels
@@ -60,6 +62,27 @@ def check_publishers(graph: Graph) -> Iterator[Finding]:
             f'{len(publishers)} nodes publish this: {", ".join(publishers)}, so that they '
             'contradict each other',
             _END_ONE,
+        )
+
+
+def check_servers(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that offer the same service or action; all of the same nodes in one line."""
+    services: dict[tuple[str, ...], list[str]] = {}
+    for service, types in graph.services().items():
+        name, _, part = service.partition('/_action/')
+        if part not in ('', 'send_goal') or any(kind in _OFFERED_BY_MANY for kind in types):
+            continue
+        found = map(graph.node_of, graph.with_role(Role.SERVER, service))
+        nodes = list({id(node): node for node in found}.values())
+        # What a node offers below its own name is told of with the name.
+        if len(nodes) > 1 and not name.startswith(f'{nodes[0].full_name}/'):
+            services.setdefault(tuple(sorted(map(shown_name, nodes))), []).append(name)
+    for servers, shared in services.items():
+        yield Finding(
+            ', '.join(shared),
+            f'{len(servers)} nodes offer this: {", ".join(servers)}, so that each carries out '
+            'every call, and the first answer is taken',
+            'end one (Ctrl-C in its terminal), or give one another namespace',
         )
 
 

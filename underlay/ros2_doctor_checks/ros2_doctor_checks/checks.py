@@ -116,7 +116,11 @@ Silent = partial(
     lambda: nodes.check_silent(graph(), discovery.settings_from_environment().domain_id),
 )
 Names = partial(_Check, 'names', lambda: nodes.check_names(graph()))
-Publishers = partial(_Check, 'publishers', lambda: nodes.check_publishers(graph()))
+Publishers = partial(
+    _Check,
+    'publishers',
+    lambda: [*nodes.check_publishers(graph()), *nodes.check_servers(graph())],
+)
 Types = partial(_Check, 'types', _types)
 QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')
 Partners = partial(_Check, 'partners', _partners)

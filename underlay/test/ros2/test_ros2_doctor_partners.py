@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import pytest
-from ros2_diagnosis import partners
+from ros2_diagnosis import nodes, partners
 from ros2_doctor_checks import checks
 from ros2cli import discovery
 from ros2doctor import api
@@ -185,3 +185,20 @@ def test_an_action_of_two_definitions_is_named_once(
     assert told(*parts) == ['/count']
     assert told('feedback', 'get_result') == ['/count/_action/feedback']
     assert told('get_result') == ['/count/_action/get_result']
+
+
+def test_two_servers_of_one_service_are_told_of() -> None:
+    def offers(node: str) -> list[tuple[Role, str, str]]:
+        action = '/count/_action'
+        return [
+            (Role.SERVER, '/add', 'example_interfaces/srv/AddTwoInts'),
+            (Role.SERVER, f'{action}/send_goal', 'my_msgs/action/Count_SendGoal'),
+            (Role.SERVER, f'{action}/cancel_goal', 'action_msgs/srv/CancelGoal'),
+            (Role.SERVER, f'/{node}/get_parameters', 'rcl_interfaces/srv/GetParameters'),
+            (Role.SERVER, '/tf2_frames', 'tf2_msgs/srv/FrameGraph'),  # of each buffer
+        ]
+
+    calls = [(Role.CLIENT, '/add', 'example_interfaces/srv/AddTwoInts')]
+    assert not [*nodes.check_servers(_graph(server=offers('server'), a=calls, b=calls))]
+    (found,) = nodes.check_servers(_graph(server=offers('server'), old=offers('old'), a=calls))
+    assert str(found).startswith('/add, /count: 2 nodes offer this: /old, /server, so that each')
