@@ -13,6 +13,7 @@ from launch import Event, EventHandler, LaunchContext, LaunchDescription, Launch
 from launch.actions import (
     EmitEvent,
     ExecuteProcess,
+    GroupAction,
     OpaqueCoroutine,
     OpaqueFunction,
     RegisterEventHandler,
@@ -23,6 +24,7 @@ from launch.actions import (
 from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
 from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import matches_name, ShutdownProcess
+from launch.substitutions import LaunchConfiguration
 from launch.utilities import AsyncSafeSignalManager
 import psutil
 import pytest
@@ -126,6 +128,18 @@ def test_a_timer_can_be_cancelled() -> None:
     )
     assert notes == []
     assert timer.is_canceled
+
+
+def test_a_timer_asks_whether_the_end_cancels_it_where_it_stands() -> None:
+    notes: list[str] = []
+    timer = TimerAction(
+        period=0.05,
+        actions=[_note(notes, 'rang')],
+        cancel_on_shutdown=LaunchConfiguration('cancelled'),
+    )
+    group = GroupAction([timer], launch_configurations={'cancelled': 'false'})
+    assert _run(group, Shutdown()) == 0
+    assert notes == ['rang']
 
 
 def test_own_events_reach_own_handlers_until_unregistered() -> None:

@@ -46,7 +46,7 @@ XML = """
                   output="screen" name="shell">
         <env name="SHAPE" value="round"/>
       </executable>
-      <timer period="0.05"><log message="later"/></timer>
+      <timer period="0.05" cancel_on_shutdown="$(not true)"><log message="later"/></timer>
       <include file="$(dirname)/inner.launch.yaml">
         <arg name="who" value="$(var mode)"/>
       </include>

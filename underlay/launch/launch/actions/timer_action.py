@@ -58,6 +58,9 @@ class TimerAction(Action):
         period = entity.get_attr('period', data_type=float, optional=False)
         kwargs['period'] = parser.parse_if_substitutions(period)
         kwargs['actions'] = [parser.parse_action(child) for child in entity.children]
+        cancel_on_shutdown = entity.get_attr('cancel_on_shutdown', data_type=bool, optional=True)
+        if cancel_on_shutdown is not None:
+            kwargs['cancel_on_shutdown'] = parser.parse_if_substitutions(cancel_on_shutdown)
         return cls, kwargs
 
     def describe(self) -> str:
@@ -90,9 +93,8 @@ class TimerAction(Action):
         return [] if self.is_canceled else self.actions
 
     def __on_shutdown(self, event: Event, context: LaunchContext) -> None:
-        del event
-        if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
-            self.cancel()
+        del event, context
+        self.cancel()
 
     def _start_alarm(self, context: LaunchContext, period_sec: float, event: TimerEvent) -> Alarm:
         """Have the event emitted after the period; subclasses know other clocks."""
@@ -114,7 +116,8 @@ class TimerAction(Action):
                 handle_once=True,
             )
         )
-        context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
+        if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
+            context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         return self.__completed
