@@ -130,6 +130,38 @@ def test_a_timer_can_be_cancelled() -> None:
     assert timer.is_canceled
 
 
+def test_actions_of_a_timer_know_what_was_known_where_it_stands(
+    launch_file: LaunchFile, python_launch_file: LaunchFile, run_launch: Run
+) -> None:
+    logs_place = '[LogInfo(msg=[ThisLaunchFile()])]'
+    launch_file('<launch><log message="leaf"/></launch>', 'leaf.launch.xml')
+    launch_file(
+        '<launch><log message="timers"/><timer period="0.05"><log message="in $(filename)"/>'
+        '<include file="$(dirname)/leaf.launch.xml"/></timer></launch>',
+        'timers.launch.xml',
+    )
+    outer = python_launch_file(
+        f"""
+        IncludeLaunchDescription([ThisLaunchFileDir(), '/timers.launch.xml']),
+        ENDS,
+        RegisterEventHandler(OnProcessExit(target_action=ENDS, on_exit=[
+            TimerAction(period=0.05, actions=[
+                LogInfo(msg=['ended with ', LocalSubstitution('event.returncode')])])])),
+        RegisterEventHandler(OnShutdown(on_shutdown={logs_place})),
+        """,
+        before="ENDS = ExecuteProcess(cmd=['sh', '-c', 'exit 7'])",
+    )
+    launched = run_launch(outer)
+    logged = [line.partition(']: ')[2] for line in launched.lines if 'launch.user' in line]
+    assert logged == [
+        'timers',
+        f'in {outer.with_name("timers.launch.xml")}',
+        'leaf',
+        'ended with 7',
+        f'{outer}',
+    ]
+
+
 def test_a_timer_asks_whether_the_end_cancels_it_where_it_stands() -> None:
     notes: list[str] = []
     timer = TimerAction(

@@ -50,7 +50,10 @@ XML = """
       <include file="$(dirname)/inner.launch.yaml">
         <arg name="who" value="$(var mode)"/>
       </include>
-      <for len="2" name="i"><log message="turn $(index i)"/></for>
+      <for len="2" name="i">
+        <log message="turn $(index i)"/>
+        <timer period="0.1"><log message="later turn $(index i)"/></timer>
+      </for>
       <for_each values="{x: a}; {x: b}"><log message="each $(for-var x)"/></for_each>
     </launch>
 """
@@ -96,6 +99,8 @@ def test_xml_and_yaml_files_do_what_they_say(
         'each a',
         'each b',
         'later',
+        'later turn 0',
+        'later turn 1',
     ]
     assert '[shell-1] red round slow' in launched.lines
     assert '[echo-2] from yaml' in launched.lines

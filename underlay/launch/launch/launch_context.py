@@ -82,6 +82,9 @@ class LaunchContext:
     def extend_globals(self, extensions: Mapping[str, Any]) -> None:
         self.__globals.update(extensions)
 
+    def _get_globals(self) -> dict[str, Any]:
+        return dict(self.__globals)
+
     def get_locals_as_dict(self) -> dict[str, Any]:
         return {**self.__globals, **self.__locals}
 

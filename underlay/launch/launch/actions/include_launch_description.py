@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 import difflib
 import os
 from pathlib import Path
@@ -62,7 +62,7 @@ class IncludeLaunchDescription(Action):
         if isinstance(launch_arguments, dict):
             launch_arguments = launch_arguments.items()
         self.launch_arguments = tuple(launch_arguments or ())
-        self.__outer_places: list[dict[str, Any]] = []
+        self.__outer_places: list[tuple[dict[str, Any], dict[str, Any]]] = []
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
@@ -112,9 +112,8 @@ class IncludeLaunchDescription(Action):
                 f'a launch file includes itself without end: {again} -> {location}; take that '
                 'include out, or give it a condition'
             )
-        self.__outer_places.append(
-            {_OUTER: ()} | {name: known[name] for name in (*_PLACE, _OUTER) if name in known}
-        )
+        # In the actions of a timer the locals are of the file that it stands in, globals are not.
+        self.__outer_places.append((_place_in(context._get_globals()), _place_in(known)))
         path = Path(location).absolute()
         if path.exists():
             path = Path(os.path.normpath(path))
@@ -127,9 +126,9 @@ class IncludeLaunchDescription(Action):
 
     def _leave(self, context: LaunchContext) -> None:
         if self.__outer_places:  # not where a condition kept it out
-            place = self.__outer_places.pop()
-            context.extend_globals(place)
-            context.extend_locals(place)
+            of_globals, of_locals = self.__outer_places.pop()
+            context.extend_globals(of_globals)
+            context.extend_locals(of_locals)
 
     def __check_arguments(self, context: LaunchContext, description: LaunchDescription) -> None:
         """Refuse a missing argument before anything of the file is started."""
@@ -177,3 +176,7 @@ class IncludeLaunchDescription(Action):
             return False
         is_named = re.search(rf'(?<![\w-]){re.escape(name)}(?![\w-])', text)
         return not is_named and 'include' not in text.lower()
+
+
+def _place_in(known: Mapping[str, Any]) -> dict[str, Any]:
+    return {_OUTER: ()} | {name: known[name] for name in (*_PLACE, _OUTER) if name in known}

@@ -109,10 +109,15 @@ class TimerAction(Action):
         event = TimerEvent(timer_action=self)
         self.__completed = context.asyncio_loop.create_future()
         self.__alarm = self._start_alarm(context, period, event)
+        # Its actions see what they would see now: the launch file, the event that led here, the
+        # variables of a loop. How files include each other, which begins with _, is over then.
+        known = context.get_locals_as_dict()
+        kept = {name: value for name, value in known.items() if not name.startswith('_')}
+        restore = OpaqueFunction(function=lambda context: context.extend_locals(kept))
         context.register_event_handler(
             EventHandler(
                 matcher=lambda other: other is event,
-                entities=OpaqueFunction(function=self.handle),
+                entities=[restore, OpaqueFunction(function=self.handle)],
                 handle_once=True,
             )
         )
