@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 import errno
 import fcntl
+import importlib.util
 import os
 from pathlib import Path
 import shutil
@@ -17,7 +18,7 @@ from husky_grader.autograder.packed_rubric import packed_rubric
 from husky_grader.graded import StepGrade
 from husky_grader.jail import find_sandbox
 from husky_grader.lab.lab import grade_lab
-from husky_grader.rubric.own_types import build_types
+from husky_grader.rubric.own_types import build_types, find_types
 from husky_grader.rubric.rubric_file import load_rubric
 from husky_grader.rubric.steps import BuildStep, PublisherStep, Rubric
 from playpen_testing.which_ros import SOURCED
@@ -213,6 +214,23 @@ def test_types_are_built_once_and_anew_when_need_be(tmp_path: Path) -> None:
         stream.write('bool moving\n')
     build_types.cache_clear()
     assert build_types((package,)) != first
+
+
+@pytest.mark.usefixtures('own_cache')
+def test_types_of_the_rubric_go_before_those_of_a_sourced_workspace(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = Path(shutil.copytree(INTERFACES, tmp_path / 'spare_interfaces'))
+    for file in (path for path in package.rglob('*') if path.is_file()):
+        file.write_text(file.read_text().replace(INTERFACES.name, package.name))
+    sourced = tmp_path / 'workspace' / package.name
+    sourced.mkdir(parents=True)
+    (sourced / '__init__.py').touch()
+    monkeypatch.setattr(sys, 'path', [str(sourced.parent), *sys.path])
+    find_types((package,))
+    found = importlib.util.find_spec(f'{package.name}.msg')
+    assert found is not None
+    assert Path(found.origin or '').is_relative_to(tmp_path / 'cache')
 
 
 @pytest.mark.usefixtures('own_cache')

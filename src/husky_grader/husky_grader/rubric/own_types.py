@@ -48,7 +48,8 @@ def find_types(packages: Sequence[Path]) -> None:
     :raises ValueError: when one cannot be built; the message says why.
     """
     entries = build_types(tuple(packages)).get('PYTHONPATH', '').split(os.pathsep)
-    sys.path += [entry for entry in entries if entry and entry not in sys.path]
+    # First, as in `with_types`: the terminal may have a workspace with packages of these names.
+    sys.path[:0] = [entry for entry in entries if entry and entry not in sys.path]
 
 
 def with_types(environment: Mapping[str, str], packages: Sequence[Path]) -> dict[str, str]:
