@@ -18,7 +18,7 @@ from husky_grader.autograder.packed_rubric import packed_rubric
 from husky_grader.graded import StepGrade
 from husky_grader.jail import find_sandbox
 from husky_grader.lab.lab import grade_lab
-from husky_grader.rubric.own_types import build_types, find_types
+from husky_grader.rubric.own_types import build_types, find_types, with_types
 from husky_grader.rubric.rubric_file import load_rubric
 from husky_grader.rubric.steps import BuildStep, PublisherStep, Rubric
 from playpen_testing.which_ros import SOURCED
@@ -185,9 +185,13 @@ def test_another_definition_of_the_message_is_told_by_its_fields(
 
 @pytest.mark.timeout(90)
 @pytest.mark.usefixtures('cache')
+@pytest.mark.parametrize('is_sourced', [False, True])
 def test_the_types_of_the_grader_are_no_types_of_the_students(
-    tmp_path: Path, package: Path
+    tmp_path: Path, package: Path, monkeypatch: pytest.MonkeyPatch, is_sourced: bool
 ) -> None:
+    if is_sourced:  # as by a terminal in which somebody's solution is sourced
+        for name, value in with_types(os.environ, (INTERFACES,)).items():
+            monkeypatch.setenv(name, value)
     grade = grades_of_distance(tmp_path, package)['odometer']
     assert grade.points == 0
     assert "ModuleNotFoundError: No module named 'odometer_interfaces'" in grade.why

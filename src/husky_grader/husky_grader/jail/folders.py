@@ -33,7 +33,6 @@ OWN_PACKAGES = (
     *('husky_course', 'husky_driver', 'husky_grader', 'husky_gym', 'husky_runtime', 'husky_sim'),
     *('husky_view', 'topic_demo'),
 )
-_OWN_PLACES = (*OWN_PACKAGES, *(f'share/{name}' for name in OWN_PACKAGES))
 
 # Variables that programs of ROS read, and no other: among those are tokens and passwords.
 _ALLOWED = (
@@ -59,31 +58,38 @@ class Mount(NamedTuple):
     target: str
 
 
-def mounts_of(folder: Path, readable: Iterable[Path], limits: Limits) -> list[Mount]:
+def mounts_of(
+    folder: Path, readable: Iterable[Path], limits: Limits, *, without: Iterable[str] = ()
+) -> list[Mount]:
     """
     Return what is in a jail, what holds others before them.
 
     :param folder: what may be written, at the same path as outside.
     :param readable: besides the system and the lab.
+    :param without: packages that the terminal's workspaces must not bring along.
     """
     own = (
         Mount('memory', str(limits.temporary_mb * MB), _TEMPORARY),
         Mount('memory', str(limits.shared_mb * MB), _SHARED),
         Mount('write', str(folder.resolve()), str(folder.resolve())),
     )
-    shown = read_mounts(readable, apart=(folder.resolve(), Path(_TEMPORARY), Path(_SHARED)))
+    apart = (folder.resolve(), Path(_TEMPORARY), Path(_SHARED))
+    shown = read_mounts(readable, apart=apart, without=without)
     return sorted((*shown, *own), key=lambda mount: Path(mount.target).parts)
 
 
-def read_mounts(readable: Iterable[Path], *, apart: Iterable[Path] = ()) -> list[Mount]:
+def read_mounts(
+    readable: Iterable[Path], *, apart: Iterable[Path] = (), without: Iterable[str] = ()
+) -> list[Mount]:
     """
     Return what can only be read in a jail: the system, the lab, and more.
 
     :param apart: what a folder that a variable names must not hold, or it is not shown.
+    :param without: as of `mounts_of`.
     """
     readable = tuple(readable)
     home = Path(os.path.expanduser('~'))  # noqa: PTH111  # the other raises where there is none
-    ros = _ros((*([home] if home.is_absolute() else []), *apart, *readable))
+    ros = _ros((*([home] if home.is_absolute() else []), *apart, *readable), without)
     places = {*map(Path, _SYSTEM), *(Path('/etc', name) for name in _ETC), *ros, *readable}
     ways = {way for place in places for way in (place.absolute(), place.resolve()) if way.exists()}
     return [
@@ -93,7 +99,7 @@ def read_mounts(readable: Iterable[Path], *, apart: Iterable[Path] = ()) -> list
     ]
 
 
-def _ros(apart: Iterable[Path]) -> set[Path]:
+def _ros(apart: Iterable[Path], without: Iterable[str]) -> set[Path]:
     """
     Return where ROS is read from, and the Python by which programs run.
 
@@ -102,7 +108,7 @@ def _ros(apart: Iterable[Path]) -> set[Path]:
     found = {INSIDE.parent, Path(sys.prefix), Path(sys.base_prefix), *_links_of(sys.executable)}
     found |= {CLONE / name for name in _ROS}
     for variable in (*_PATHS, _LIBRARIES, _PROFILES):
-        found |= {Path(entry) for entry in _without_own(os.environ.get(variable, ''))}
+        found |= {Path(entry) for entry in _shown(os.environ.get(variable, ''), without)}
     above = {way for each in apart for way in (each, *each.parents)}
     truly_above = {way for each in apart for way in (each.resolve(), *each.resolve().parents)}
     return {
@@ -112,14 +118,30 @@ def _ros(apart: Iterable[Path]) -> set[Path]:
     }
 
 
-def _without_own(entries: str) -> list[str]:
-    """Return the entries of a list of folders that hold none of the lab's own packages."""
-    return [entry for entry in entries.split(':') if entry and not _holds_own(entry)]
+def _shown(entries: str, without: Iterable[str]) -> list[str]:
+    """
+    Return the entries of a list of folders that hold none of the lab's own packages.
+
+    Nor any of those without which programs run: whoever has sourced a solution would lend it to
+    them. But what holds rclpy is ROS.
+    """
+    own, solved = _places(OWN_PACKAGES), _places(without)
+    return [
+        entry
+        for entry in entries.split(':')
+        if entry
+        and not _holds(entry, own)
+        and (not _holds(entry, solved) or _holds(entry, _places(['rclpy'])))
+    ]
 
 
-def _holds_own(folder: str) -> bool:
+def _places(packages: Iterable[str]) -> list[str]:
+    return [place for name in packages for place in (name, f'share/{name}')]
+
+
+def _holds(folder: str, places: Iterable[str]) -> bool:
     # A thousand of these for each jail: to make a Path takes longer than to look.
-    return any(map(os.path.isdir, (f'{folder}/{name}' for name in _OWN_PLACES)))
+    return any(map(os.path.isdir, (f'{folder}/{place}' for place in places)))
 
 
 def _links_of(program: str) -> list[Path]:
@@ -130,15 +152,21 @@ def _links_of(program: str) -> list[Path]:
     return ways
 
 
-def environment_for(folder: Path, given: Mapping[str, str]) -> dict[str, str]:
-    """Return what a jailed program starts with: variables of ROS, a home, and the given."""
+def environment_for(
+    folder: Path, given: Mapping[str, str], *, without: Iterable[str] = ()
+) -> dict[str, str]:
+    """
+    Return what a jailed program starts with: variables of ROS, a home, and the given.
+
+    :param without: as of `mounts_of`.
+    """
     allowed = {
         name: value
         for name, value in os.environ.items()
         if any(fnmatchcase(name, pattern) for pattern in _ALLOWED)
     }
     for name in allowed.keys() & set(_PATHS):
-        allowed[name] = ':'.join(_without_own(allowed[name]))
+        allowed[name] = ':'.join(_shown(allowed[name], without))
     own = {'HOME': str(home_of(folder)), 'USER': 'student', 'LOGNAME': 'student'}
     own['PYTHONUTF8'] = '1'  # that of the grader's terminal is nothing to a student's program
     # Or numpy starts a thread for each processor in every program: on a large server more than

@@ -24,6 +24,7 @@ class Jail:
 
     :param folder: what the programs may write, at the same path as outside; their home is in it.
     :param readable: files and folders that they may read besides.
+    :param without: packages that are not there of the workspaces that the terminal has sourced.
     """
 
     def __init__(
@@ -32,6 +33,7 @@ class Jail:
         folder: Path,
         *,
         readable: Iterable[Path] = (),
+        without: Iterable[str] = (),
         limits: Limits = Limits(),  # noqa: B008  # frozen
     ) -> None:
         """
@@ -43,12 +45,15 @@ class Jail:
             raise ValueError(f'{folder}: no such folder; make the one that the jail may write')
         self._sandbox, self._limits = sandbox, limits
         self._folder, self._readable = folder.resolve(), tuple(readable)
+        self._without = tuple(without)
 
     def __enter__(self) -> Jail:
         with ExitStack() as stack:
             self._cell: Cell = stack.enter_context(self._sandbox.open())
             # To find them takes longer than to hear that a sandbox is not there.
-            self._mounts = mounts_of(self._folder, self._readable, self._limits)
+            self._mounts = mounts_of(
+                self._folder, self._readable, self._limits, without=self._without
+            )
             home_of(self._folder).mkdir(exist_ok=True)
             if self._cell.user is not None:
                 give(self._folder, self._cell.user)
@@ -85,11 +90,12 @@ class Jail:
         :param answers: what it reads from its standard input.
         :raises OSError: if the log cannot be written.
         """
+        variables = environment_for(self._folder, environment or {}, without=self._without)
         process = JailedProcess(
             self._cell,
             Call(
                 command=command,
-                environment={**environment_for(self._folder, environment or {}), **self.graph},
+                environment={**variables, **self.graph},
                 folder=self._folder,
                 mounts=self._mounts,
                 limits=self._limits,

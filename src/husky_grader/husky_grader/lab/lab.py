@@ -148,7 +148,8 @@ class _Grading:
         built = self._folder / BUILT
         built.mkdir(exist_ok=True)
         (built / IGNORED).touch()  # it stays where this is killed
-        with Jail(self._sandbox, built, readable=[self._workspace]) as jail:
+        asked, readable = self._rubric.packages, [self._workspace]
+        with Jail(self._sandbox, built, readable=readable, without=asked) as jail:
             found = build_step(self._workspace, jail, log, alive=self._alive)
             try:
                 self._programs = Programs(
@@ -158,6 +159,7 @@ class _Grading:
                     self._sandbox,
                     self._rubric.interfaces,
                     self._rubric.world,
+                    asked,
                 )
             except ValueError as error:
                 self._programs, self._not_sourced = None, str(error)

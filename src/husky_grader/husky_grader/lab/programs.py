@@ -48,6 +48,7 @@ class Programs:
     :param environment: that of a terminal in which it was sourced.
     :param interfaces: packages of the types that the grader needs.
     :param world: in which a Husky drives, an MJCF file; empty: the playpen.
+    :param asked: packages that must be the student's own.
     """
 
     workspace: Path
@@ -56,6 +57,7 @@ class Programs:
     sandbox: Sandbox
     interfaces: Sequence[Path] = ()
     world: str = ''
+    asked: Sequence[str] = ()
 
     @property
     def place(self) -> str:
@@ -72,7 +74,8 @@ class Programs:
         """
         folder = Path(mkdtemp(prefix=_RUNNING, dir=self.built.parent))
         try:
-            with Jail(self.sandbox, folder, readable=[self.workspace, self.built]) as jail:
+            readable = [self.workspace, self.built]
+            with Jail(self.sandbox, folder, readable=readable, without=self.asked) as jail:
                 yield jail
         finally:
             remove(folder)

@@ -252,6 +252,13 @@ class Rubric:
         return all(isinstance(step, PathStep) for step in self.steps)
 
     @property
+    def packages(self) -> tuple[str, ...]:
+        """The packages that students are asked for by their names, also those of types."""
+        asking = (step for step in self.steps if isinstance(step, (PackageStep, ProgramStep)))
+        named = (step.package for step in asking if step.package)
+        return tuple(dict.fromkeys((*named, *(folder.name for folder in self.interfaces))))
+
+    @property
     def courses(self) -> tuple[Path, ...]:
         """The waypoint files that are driven, each once."""
         driven: list[Path] = []
