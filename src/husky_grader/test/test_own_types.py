@@ -197,9 +197,18 @@ def test_the_types_of_the_grader_are_no_types_of_the_students(
     assert "ModuleNotFoundError: No module named 'odometer_interfaces'" in grade.why
 
 
+def fill_the_disk(path: Path, *_: object, **__: object) -> None:
+    path.touch()
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
 @pytest.mark.usefixtures('own_cache')
 def test_types_are_built_once_and_anew_when_need_be(tmp_path: Path) -> None:
     package = Path(shutil.copytree(INTERFACES, tmp_path / 'other' / INTERFACES.name))
+    with pytest.MonkeyPatch.context() as full:
+        full.setattr(Path, 'write_text', fill_the_disk)
+        with pytest.raises(OSError, match='No space left'):
+            build_types((package,))
     first = build_types((package,))
     build_types.cache_clear()
     built = Path(first['AMENT_PREFIX_PATH'].split(':')[0])

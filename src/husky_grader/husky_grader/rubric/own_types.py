@@ -20,6 +20,8 @@ import shutil
 import subprocess
 import sys
 
+from husky_course.files import replacing
+
 from husky_grader.rubric.colcon_errors import first_error
 
 Variables = Mapping[str, str]
@@ -77,7 +79,9 @@ def build_types(packages: tuple[Path, ...]) -> Variables:
         found = folder / _FOUND
         if not found.is_file():
             _build(packages, folder)
-            found.write_text(json.dumps(_sourced(folder / 'install')), encoding='utf-8')
+            told = json.dumps(_sourced(folder / 'install'))
+            with replacing(found) as part:
+                part.write_text(told, encoding='utf-8')
         variables: Variables = json.loads(found.read_text(encoding='utf-8'))
         return variables
 
