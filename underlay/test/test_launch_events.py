@@ -162,16 +162,19 @@ def test_actions_of_a_timer_know_what_was_known_where_it_stands(
     ]
 
 
-def test_a_timer_asks_whether_the_end_cancels_it_where_it_stands() -> None:
+@pytest.mark.parametrize(('cancelled', 'expected'), [('false', ['rang']), ('true', [])])
+def test_a_timer_asks_whether_the_end_cancels_it_where_it_stands(
+    cancelled: str, expected: list[str]
+) -> None:
     notes: list[str] = []
     timer = TimerAction(
         period=0.05,
         actions=[_note(notes, 'rang')],
         cancel_on_shutdown=LaunchConfiguration('cancelled'),
     )
-    group = GroupAction([timer], launch_configurations={'cancelled': 'false'})
+    group = GroupAction([timer], launch_configurations={'cancelled': cancelled})
     assert _run(group, Shutdown()) == 0
-    assert notes == ['rang']
+    assert notes == expected
 
 
 def test_own_events_reach_own_handlers_until_unregistered() -> None:
