@@ -364,6 +364,10 @@ def test_a_program_of_a_package_that_failed_is_not_told_of_its_entry_point(tmp_p
         programs_of(workspace).command_of(DRIVE)
     with pytest.raises(ProgramMissing, match='no launch files; its build has failed'):
         programs_of(workspace).command_of(replace(DRIVE, executable='', launch='go.launch.py'))
+    left.unlink()
+    left.symlink_to('/proc/self/mem')  # a file that nobody can read from its beginning
+    with pytest.raises(ProgramMissing, match=r'add .* to console_scripts in its setup'):
+        programs_of(workspace).command_of(DRIVE)
 
 
 def test_what_a_killed_grading_has_left_is_removed(tmp_path: Path) -> None:

@@ -166,12 +166,17 @@ def _check_installed(folder: Path, manifest: Manifest, place: Path, command: str
     if not is_there(folder / 'install' / manifest.name):
         raise ProgramMissing(f'{command} finds nothing: package {manifest.name} was not built')
     # What is listed is told: nobody may point it at a folder of the grader's.
-    # By os.path: Path.resolve fails where links lead in a circle.
-    if not Path(os.path.realpath(place)).is_relative_to(os.path.realpath(folder)):
+    if not _is_below(place, folder):
         raise ProgramMissing(
             f'{command}: {place.relative_to(folder)} leads out of the workspace; let the build '
             'put the files there'
         )
+
+
+def _is_below(place: Path, folder: Path) -> bool:
+    """Tell whether a place lies in a folder when all links are followed."""
+    # By os.path: Path.resolve fails where links lead in a circle.
+    return Path(os.path.realpath(place)).is_relative_to(os.path.realpath(folder))
 
 
 def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
@@ -196,9 +201,13 @@ def find_executable(folder: Path, manifest: Manifest, name: str) -> Path:
 
 
 def _has_failed(folder: Path, package: str) -> bool:
-    """Tell whether the build of a package has failed, by what colcon has left of it."""
+    """
+    Tell whether the build of a package has failed, by what colcon has left of it.
+
+    Another package's build may have put a link there, to what root waits for, as /proc/kmsg.
+    """
     left = folder / 'build' / package / 'colcon_build.rc'
-    if not (is_there(left) and left.is_file()):
+    if not (is_there(left) and left.is_file() and _is_below(left, folder)):
         return False
     with left.open('rb') as stream:
         return stream.read(4).strip() != b'0'
