@@ -321,6 +321,26 @@ def test_what_colcon_does_not_tell_of_a_setup_py_is_told(
     assert told in why
 
 
+HANGS = """import pathlib, sys, time
+if '--version' in sys.argv:
+    print('hello', flush=True)
+    (pathlib.Path(__file__).parents[3] / 'built' / f'asked_{time.time_ns()}').touch()
+    time.sleep(60.0)
+"""
+
+
+def test_all_setup_pys_that_are_asked_have_the_time_of_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr('husky_grader.lab.build_step.SOURCE_WITHIN_SEC', 3.0)
+    for name in ('first', 'second', 'third'):
+        export = '<export><build_type>ament_python</build_type></export>'
+        package = write_package(tmp_path / 'ws' / 'src' / name, ABOUT, export)
+        (package / 'setup.py').write_text(HANGS)
+    assert built(tmp_path).startswith('colcon build failed: ')
+    assert len(list((tmp_path / 'built').glob('asked_*'))) < 2
+
+
 def built_with(text: str, tmp_path: Path) -> str:
     """Build a package with this setup.py; return what is found out."""
     export = '<export><build_type>ament_python</build_type></export>'

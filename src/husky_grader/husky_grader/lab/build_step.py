@@ -91,25 +91,30 @@ def _why_refused(printed: str, workspace: Path, jail: Jail) -> str:
     Return what is wrong in the files of a package that failed; empty if that is not known.
 
     The wheels' colcon would have said it; setuptools does, when colcon does not come between.
+    Each setup.py may wait for ever, so that all of them together have SOURCE_WITHIN_SEC.
     """
     failed = failed_packages(printed)
+    deadline_sec = time.monotonic() + SOURCE_WITHIN_SEC
     for manifest in find_manifests(workspace):
         if manifest.name not in failed:
             continue
-        if known := _said(jail, ['python3', '-c', _SAYS_WHY, str(manifest.folder)]).strip():
+        command = ['python3', '-c', _SAYS_WHY, str(manifest.folder)]
+        if known := _said(jail, command, deadline_sec).strip():
             return f'{manifest.name}: {known.splitlines()[0]}'
         if is_without_setup(printed):
             command = ['bash', '-c', 'cd "$0" && python3 setup.py --version', str(manifest.folder)]
-            said = _said(jail, command)
+            said = _said(jail, command, deadline_sec)
             if why := setuptools_error(said) or ('' if said.strip() else NEVER_CALLED):
                 return f'{manifest.name}: {why}'
+        if time.monotonic() > deadline_sec:
+            break
     return ''
 
 
-def _said(jail: Jail, command: list[str]) -> str:
+def _said(jail: Jail, command: list[str], deadline_sec: float) -> str:
     with TemporaryDirectory() as place:
         log = Path(place) / 'said'
-        jail.run(command, log=log, within_sec=SOURCE_WITHIN_SEC)
+        jail.run(command, log=log, within_sec=max(deadline_sec - time.monotonic(), 0.0))
         return log.read_text(encoding='utf-8', errors='replace')
 
 
