@@ -93,11 +93,12 @@ def test_nothing_is_wrong_with_what_builds(folder: Path) -> None:
 @pytest.mark.parametrize(
     ('old', 'new'),
     [
-        (FILES['setup.py'], 'from of_ours import set_up\n\nset_up()\n'),
+        (FILES['setup.py'], 'from talk.of_ours import set_up\n\nset_up()\n'),
         ('\nsetup(', "\nopen('made.xml', 'w').close()\nsetup("),
         ("= 'talk'", "= 'talk'\nexec(open('about.py').read())\nprint(VERSION)"),
         ('    entry_points', "    cmdclass={'build': 'makes_files'},\n    entry_points"),
         ('\nsetup(', '\ntry:\n    odd()\nexcept NameError:\n    pass\nsetup('),
+        ('\nsetup(', '\ntry:\n    import odd\nexcept ImportError:\n    open("made.xml")\nsetup('),
         ('find_packages, setup', '*\nmake()'),
     ],
 )
@@ -146,6 +147,9 @@ def test_a_merge_conflict_is_told(folder: Path, name: str, before: str, line: in
         ('setup.cfg', '[dev', '\ufeff[dev', 'byte order mark, which setuptools does not read'),
         ('setup.cfg', '[develop]', '', 'setup.cfg: File contains no section headers.'),
         ('setup.py', FILES['setup.py'], '', 'setup.py does not call setup(): `ros2 pkg create`'),
+        ('setup.py', 'from', 'import odd.a\nfrom', ":1: no module 'odd' is installed: noth"),
+        ('setup.py', 'setuptools', 'setuptool', "'setuptool' is installed: did you mean "),
+        ('setup.py', "'talk'", 'odd.N\nimport odd', ":4: no module 'odd' is installed: inst"),
         ('setup.py', "'talk'", '’talk’', "setup.py:3: invalid character '’' (U+2019), which a"),
         ('setup.py', '],\n    entry', '\n    entry', 'setup.py:'),
         ('setup.py', "'hello =", "'hello:", "setup.py:14: 'hello: talk.hello:main' is no entry p"),

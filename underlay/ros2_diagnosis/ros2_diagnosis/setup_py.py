@@ -7,9 +7,11 @@ from __future__ import annotations
 import ast
 import builtins
 from collections.abc import Iterator
+from importlib.machinery import PathFinder
 from importlib.util import find_spec
 from pathlib import Path
 import re
+import sys
 import warnings
 
 from ros2_diagnosis import nearest
@@ -38,6 +40,7 @@ def faults(folder: Path) -> Iterator[str]:
         quotes = ', which a word processor writes: type \' or "' if '(U+201' in error.msg else ''
         yield f'setup.py:{error.lineno}: {error.msg}{quotes}'
         return
+    yield from _missing_modules(tree, folder)
     call = _call_of_setup(tree)
     if call is None:
         if not _called(tree):
@@ -203,6 +206,32 @@ def _called(tree: ast.AST) -> set[str]:
 
 def _name_of(call: ast.Call) -> str:
     return str(getattr(call.func, 'id', getattr(call.func, 'attr', '')))
+
+
+def _missing_modules(tree: ast.Module, folder: Path) -> Iterator[str]:
+    """Name what is imported in no block and is not here, as what an editor adds by itself."""
+    used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    for node in tree.body:
+        if isinstance(node, ast.Import):
+            modules = [each.name for each in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module is not None and not node.level:
+            modules = [node.module]
+        else:
+            continue
+        names = [(each.asname or each.name).partition('.')[0] for each in node.names]
+        for top in dict.fromkeys(module.partition('.')[0] for module in modules):
+            if top in sys.modules or find_spec(top) is not None:
+                continue
+            if PathFinder.find_spec(top, [str(folder)]) is not None:  # setup.py is run there
+                continue
+            near = nearest.names(top, {*sys.stdlib_module_names, 'setuptools'})
+            if not used & {*names} and names != ['*']:
+                remedy = 'nothing below uses it: delete the line'
+            elif near:
+                remedy = f'did you mean {near[0]!r}?'
+            else:
+                remedy = 'install it first'
+            yield f'setup.py:{node.lineno}: no module {top!r} is installed: {remedy}'
 
 
 def _unbound_names(tree: ast.Module) -> Iterator[str]:
