@@ -7,6 +7,7 @@ import json
 import os
 from pathlib import Path
 import re
+import sys
 from typing import Any
 
 from launch import InvalidLaunchFileError, LaunchContext, LaunchDescription, LaunchService
@@ -292,6 +293,15 @@ def test_a_parameter_file_that_no_node_reads_is_warned_about(
     file.write_text('/**:\n\tros__parameters: {a: 1}\n')
     path = python_launch_file(f"node(parameters=['{file}']),", before=BEFORE)
     assert f'{file}: line 2 begins with a tab; YAML takes' in launch_here(path).output
+
+
+def test_a_script_for_the_python_of_ubuntu_runs_by_this_one(
+    python_launch_file: LaunchFile, launch_here: Run, ros_package: Path
+) -> None:
+    program = ros_package / 'lib' / 'some_pkg' / 'plain_node'
+    program.write_text('#!/usr/bin/python3\nimport sys\nprint("runs in", sys.prefix)\n')
+    launched = launch_here(python_launch_file('node(),', before=BEFORE))
+    assert f'[plain_node-1] runs in {sys.prefix}\n' in launched.output
 
 
 def test_a_script_with_line_ends_of_windows_is_warned_about(

@@ -129,6 +129,19 @@ def test_of_several_packages_with_a_file_the_right_one_counts(tmp_path: Path) ->
     assert programs_of(workspace).command_of(DRIVE) == [str(program)]
 
 
+def test_a_script_for_the_python_of_ubuntu_runs_by_the_one_with_ros(tmp_path: Path) -> None:
+    write_package(tmp_path / 'workspace' / 'src' / 'my_driver')
+    program = install(tmp_path / 'workspace', 'my_driver', 'lib/my_driver')
+    command_of = programs_of(tmp_path / 'workspace').command_of
+    for line, by in {
+        '#!/usr/bin/python3\n': [] if sys.prefix == sys.base_prefix else [sys.executable],
+        '#!/usr/bin/python3\r\n': [],  # that is refused
+        '#!/usr/bin/env python3\n': [],
+    }.items():
+        program.write_bytes(line.encode())
+        assert command_of(DRIVE) == [*by, str(program)]
+
+
 def test_a_package_without_setup_py_is_told_of_cmake(tmp_path: Path) -> None:
     workspace = tmp_path / 'workspace'
     write_package(workspace / 'src' / 'my_driver')

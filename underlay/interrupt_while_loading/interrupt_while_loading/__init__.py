@@ -22,7 +22,7 @@ import time
 
 TYPE_CHECKING = False  # typing's own takes its time
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     import signal
     from types import FrameType, TracebackType
 else:
@@ -32,6 +32,7 @@ _IMPORT = ('importlib', 'zipimport')  # parts of their file names
 _RUNPY = ('<frozen runpy>', 'runpy.py')
 _ENTRY_POINT_LOADERS = ('importlib_load_entry_point', 'load_entry_point')
 _AGAIN_SEC = 0.01
+_PYTHONS_OF_SYSTEM = (b'/usr/bin/python3', b'/bin/python3', b'/usr/bin/python3.12')
 # What pybind11 makes of any error, as while rclpy makes an object of a message.
 _LOST_BY_PYBIND11 = "Unable to convert call argument '0' to Python object"
 
@@ -51,14 +52,45 @@ def install() -> None:
 
 def takes_blocked_interrupt(executable: str) -> bool:
     """Tell whether an executable is a script of this Python, which comes by here."""
-    try:
-        with open(executable, 'rb') as file:  # noqa: PTH123 -- pathlib takes its time
-            head = file.read(1024).split(b'\n')
-    except OSError:
-        return False
+    head = _head(executable)
     # The Python stands in the second line where the first one of a script cannot hold its path.
     interpreter = os.fsencode(sys.executable)
-    return head[0].startswith(b'#!') and any(interpreter in line for line in head[:2])
+    return head[0].startswith(b'#!') and (
+        any(interpreter in line for line in head[:2]) or _asks_for_python_of_ros(executable, head)
+    )
+
+
+def words_of(command: 'Sequence[str]') -> 'list[str]':
+    """Return what runs a command: this Python, too, where it is a script for that of ROS.
+
+    On Ubuntu ROS runs by the Python of the system, so that the scripts of many packages begin with
+    #!/usr/bin/python3. The wheels of ROS are installed in a virtual environment, of which that
+    Python knows nothing.
+    """
+    if _asks_for_python_of_ros(command[0], _head(command[0])):
+        return [sys.executable, *command]
+    return [*command]
+
+
+def _asks_for_python_of_ros(executable: str, head: 'list[bytes]') -> bool:
+    """Tell whether a program of a workspace is a script that names the Python of the system."""
+    folder = os.path.dirname(os.path.dirname(executable))  # noqa: PTH120 -- as above
+    return (
+        sys.prefix != sys.base_prefix
+        and head[0][:2] == b'#!'
+        and head[0][2:].strip(b' ') in _PYTHONS_OF_SYSTEM
+        and os.path.basename(folder) == 'lib'  # noqa: PTH119 -- as above
+        and not executable.startswith('/usr/')
+        and os.access(executable, os.X_OK)
+    )
+
+
+def _head(executable: str) -> 'list[bytes]':
+    try:
+        with open(executable, 'rb') as file:  # noqa: PTH123 -- pathlib takes its time
+            return file.read(1024).split(b'\n')
+    except OSError:
+        return [b'']
 
 
 def _on_interrupt(number: int, frame: 'FrameType | None') -> None:

@@ -15,7 +15,7 @@ import signal
 import sys
 from typing import Any, cast
 
-from interrupt_while_loading import takes_blocked_interrupt
+from interrupt_while_loading import takes_blocked_interrupt, words_of
 
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 _ORPHANED_STATUS = 128 + signal.SIGTERM
@@ -197,7 +197,7 @@ async def start_child_process(
             if shell:
                 await loop.subprocess_shell(lambda: child, ' '.join(cmd), **options)
             else:
-                await loop.subprocess_exec(lambda: child, *cmd, **options)
+                await loop.subprocess_exec(lambda: child, *words_of(cmd), **options)
     except BaseException:
         for master, _ in pairs:
             os.close(master)

@@ -12,7 +12,7 @@ import re
 import signal
 import subprocess
 
-from interrupt_while_loading import takes_blocked_interrupt
+from interrupt_while_loading import takes_blocked_interrupt, words_of
 
 _PASSED_ON = {
     *(signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT),
@@ -35,7 +35,7 @@ def run(command: Sequence[str]) -> int:
     witness = Witness()
     try:
         mask = {*before, signal.SIGINT} if takes_blocked_interrupt(command[0]) else before
-        process = subprocess.Popen(command, preexec_fn=_bound_to_this(mask))
+        process = subprocess.Popen(words_of(command), preexec_fn=_bound_to_this(mask))
         while process.poll() is None:
             number = signal.sigwait(awaited)
             if number == signal.SIGCHLD:

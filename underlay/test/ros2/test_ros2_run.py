@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 from pathlib import Path
+import shutil
 import signal
 import subprocess
 import sys
 from typing import Any
 
+from interrupt_while_loading import words_of
 import pytest
 from ros2_diagnosis import programs
 
@@ -42,6 +44,16 @@ def test_a_prefix_goes_before_the_program(
     prefix = installed_package('demo', show=_SHOW)
     answer = ros2('run', '--prefix', 'echo "a b"', 'demo', 'show', 'c')
     assert answer.out == f'a b {prefix}/lib/demo/show c\n'
+
+
+def test_a_script_for_the_python_of_ubuntu_runs_by_this_one(
+    installed_package: Callable[..., Path], ros2: Callable[..., Any]
+) -> None:
+    prints = 'import sys\nprint(sys.prefix, *sys.argv)\n'
+    prefix = installed_package('demo', node=f'#!/usr/bin/python3\n{prints}')
+    assert ros2('run', 'demo', 'node', 'a b').out == f'{sys.prefix} {prefix}/lib/demo/node a b\n'
+    tool = shutil.copy(prefix / 'lib/demo/node', prefix / 'tool')  # in no package: as it says
+    assert words_of([str(tool)]) == [str(tool)]
 
 
 def test_xacro_is_a_package_with_a_program(ros2: Callable[..., Any], tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import json
 import os
 from pathlib import Path
+import sys
 from tempfile import mkdtemp
 
 from husky_grader.jail import Jail, remove, Sandbox
@@ -18,6 +19,8 @@ from husky_grader.rubric.steps import ProgramStep
 
 MAX_DEPTH = 32  # folders in each other below share/PACKAGE, in which a launch file is looked for
 MAX_FIRST_LINE = 256  # bytes; Linux reads no more of one
+# By these a script asks for the Python that has ROS on Ubuntu.
+_OF_UBUNTU = (b'#!/usr/bin/python3', b'#!/bin/python3', b'#!/usr/bin/python3.12')
 _ELF = b'\x7fELF'  # elf(5): a program that was compiled
 _BUILD_FAILED = 'its build has failed'
 _RUNNING = 'running-'  # begins the names of the folders in which programs run
@@ -87,8 +90,9 @@ class Programs:
         :raises PackageMissing: when the package is not there.
         :raises ProgramMissing: when the program is not there.
         """
-        program = str(self._program_of(step))
-        return [*(('ros2', 'launch') if step.launch else ()), program, *given_words(step)]
+        program = self._program_of(step)
+        before = ('ros2', 'launch') if step.launch else _python_for(program)
+        return [*before, str(program), *given_words(step)]
 
     def _program_of(self, step: ProgramStep) -> Path:
         """Return the program; where several packages may be meant, that of the first with it."""
@@ -124,6 +128,15 @@ def wrong_first_line(program: Path) -> str:
         if line.startswith(b'#!') and line.endswith(b'\r\n'):
             return 'its lines end as on Windows (CRLF); save it with those of Linux (LF)'
     return ''
+
+
+def _python_for(program: Path) -> list[str]:
+    """Return this Python for a script that asks for Ubuntu's, which knows no wheels of ROS."""
+    if sys.prefix != sys.base_prefix:
+        with suppress(OSError), program.open('rb') as stream:
+            if stream.readline(MAX_FIRST_LINE).rstrip(b' \n') in _OF_UBUNTU:
+                return [sys.executable]
+    return []
 
 
 def find_launch_file(folder: Path, manifest: Manifest, name: str) -> Path:
