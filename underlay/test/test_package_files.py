@@ -288,12 +288,19 @@ def broken(tmp_path: Path, name: str, file: str, change: Callable[[str], bytes])
     return name
 
 
-def test_colcon_says_that_only_package_xml_is_there(tmp_path: Path) -> None:
-    (tmp_path / 'src/talk').mkdir(parents=True)
-    (tmp_path / 'src/talk/package.xml').write_text(FILES['package.xml'])
-    command = [sys.executable, '-m', 'colcon', 'build']
+def test_colcon_says_that_a_file_is_missing(tmp_path: Path) -> None:
+    for name, file, text in (
+        ('talk', 'package.xml', FILES['package.xml']),
+        ('gone', 'setup.py', FILES['setup.py']),
+        ('lost', 'CMakeLists.txt', 'project(robot)\nfind_package(ament_cmake REQUIRED)\n'),
+    ):
+        (tmp_path / 'src' / name).mkdir(parents=True)
+        (tmp_path / 'src' / name / file).write_text(text)
+    command = [sys.executable, '-m', 'colcon', 'build', '--continue-on-error']
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert 'talk: setup.py: there is none; package.xml says ament_python' in done.stderr
+    for name in ('gone', 'lost'):
+        assert f'{name}: package.xml: there is none, by which ROS knows a pack' in done.stderr
     assert 'Traceback' not in done.stderr
     assert done.returncode == 2
 

@@ -8,6 +8,7 @@ It is installed with the wheels of ROS alone. What is wrong says ros2_diagnosis.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 import sys
 from typing import Any
@@ -18,6 +19,7 @@ from colcon_core.task import TaskExtensionPoint
 from ros2_diagnosis import package_files, packages
 
 _TYPE = 'refused'
+_COPIED = b"['package.xml']"  # as `ros2 pkg create` writes it
 _BESIDE = ('setup.py', 'setup.cfg', 'CMakeLists.txt')  # other systems have a package.xml, too
 _IGNORED = ('AMENT_IGNORE', 'CATKIN_IGNORE')
 
@@ -33,10 +35,10 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
 
     def identify(self, desc: Any) -> None:
         folder = Path(desc.path)
+        manifest = folder / 'package.xml'
         if (
             desc.type is not None
-            or not (folder / 'package.xml').is_file()
-            or not _is_of_ros(folder)
+            or not (_is_of_ros(folder) if manifest.is_file() else _asks_for_ros(folder))
             or any((folder / name).exists() for name in _IGNORED)
         ):
             return
@@ -49,7 +51,7 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
             )
         if package_files.why_refused(folder):
             desc.type = _TYPE
-            desc.name = packages.name_in(folder)
+            desc.name = packages.name_in(folder) if manifest.is_file() else folder.name
 
 
 def _is_of_ros(folder: Path) -> bool:
@@ -60,6 +62,15 @@ def _is_of_ros(folder: Path) -> bool:
         return b'>ament_python</build_type>' in (folder / 'package.xml').read_bytes()
     except OSError:
         return False
+
+
+def _asks_for_ros(folder: Path) -> bool:
+    """Return whether a folder without package.xml was to be a package of ROS."""
+    for name, part in (('CMakeLists.txt', b'find_package(ament_cmake'), ('setup.py', _COPIED)):
+        with suppress(OSError):
+            if part in (folder / name).read_bytes():
+                return True
+    return False
 
 
 class RefusedTask(TaskExtensionPoint):

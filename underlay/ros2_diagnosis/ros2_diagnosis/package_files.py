@@ -83,7 +83,9 @@ def _build_type(folder: Path) -> str:
     # It takes its time, and most commands need not know.
     from catkin_pkg.package import InvalidPackage, parse_package
 
-    _check_text(folder / 'package.xml', 'there is none')
+    _check_text(
+        folder / 'package.xml', 'there is none, by which ROS knows a package; copy that of another'
+    )
     try:
         package = parse_package(str(folder), warnings=[])  # colcon shows those
         package.evaluate_conditions({**os.environ, 'DISABLE_GROUPS_WORKAROUND': '1'})
