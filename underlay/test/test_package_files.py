@@ -352,6 +352,11 @@ def test_colcon_and_ros2_run_say_it(
     monkeypatch.setenv(
         'AMENT_PREFIX_PATH', f'{prefix}{os.pathsep}{os.environ["AMENT_PREFIX_PATH"]}'
     )
+    monkeypatch.setenv('PYTHONPATH', str(prefix / 'lib/python3/site-packages'))
+    (finding,) = workspaces.check_changed('talk', prefix)  # as if it was built as copies before
+    assert str(finding).startswith('talk: built with `--symlink-install` since this terminal was')
+    monkeypatch.setenv('PYTHONPATH', str(tmp_path / 'build' / 'talk'))
+    assert list(workspaces.check_changed('talk', prefix)) == []
     # A second workspace has a package of that name, and is sourced without this one or after it.
     other = tmp_path / 'other'
     shutil.copytree(tmp_path / 'install', other / 'install', symlinks=True)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
+import os
 from pathlib import Path
 import re
 import sys
@@ -181,6 +182,16 @@ def _check_changed(
             f'then run `colcon build --packages-select {package}` in {workspace}',
         )
     yield from _check_left_out(package, prefix, source, workspace)
+    for link in prefix.glob('lib/python3*/site-packages/*.egg-link'):
+        modules = Path(link.read_text().partition('\n')[0])
+        sourced = os.environ.get('PYTHONPATH', '').split(os.pathsep)
+        if modules.name == package and str(modules) not in sourced:
+            yield Finding(
+                package,
+                'built with `--symlink-install` since this terminal was sourced, which looks for '
+                'its modules elsewhere',
+                packages.how_to_source(workspace),
+            )
     changed = changed_file(package, prefix, source, workspace / 'build' / package)
     if changed is not None:
         yield Finding(
