@@ -215,6 +215,35 @@ def test_a_program_beside_the_folder_of_the_programs_is_told(folder: Path) -> No
     assert told.endswith(f'there is no {folder}/talk/hello.py: move {lost} there')
 
 
+def test_what_a_setup_py_says_beside_cmake_counts_for_nothing(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    replace(folder / 'package.xml', 'ament_python', 'ament_cmake')
+    (lists := folder / 'CMakeLists.txt').write_text('project(talk)\nament_package()\n')
+    (folder / 'talk' / 'bye.py').write_text('import rclpy\n\n\ndef main():\n    pass\n')
+    prefix = folder.parents[1] / 'install' / 'talk'
+    index = prefix / 'share/ament_index/resource_index/packages/talk'
+    index.parent.mkdir(parents=True)
+    index.touch()
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(prefix))
+    assert list(workspaces.check_changed('talk', prefix)) == []
+    for name in ('hello', 'bye.py'):
+        script = f'talk/{name.removesuffix(".py")}.py'
+        with pytest.raises(PackageError) as refused:
+            packages.find_executable('talk', name)
+        assert str(refused.value).startswith(
+            f'No executable found: {folder}/{script} is not installed: write install(PROGRAMS '
+            f'{script} DESTINATION lib/${{PROJECT_NAME}}) in {lists}, which alone counts where'
+        )
+    lists.write_text('install(PROGRAMS talk/bye.py DESTINATION lib/${PROJECT_NAME})\n')
+    with pytest.raises(PackageError, match=r'bye\.py is not installed yet: run `colcon build'):
+        packages.find_executable('talk', 'bye')
+    (program := prefix / 'lib' / 'talk' / 'bye.py').parent.mkdir(parents=True)
+    program.touch(mode=0o755)
+    with pytest.raises(PackageError, match="has no 'bye'; did you mean 'bye"):
+        packages.find_executable('talk', 'bye')
+
+
 def test_a_program_in_utf_16_is_told(folder: Path) -> None:
     (folder / 'talk' / 'hello.py').write_text(FILES['talk/hello.py'], encoding='utf-16')
     ((_, told),) = setup_py.broken_programs(folder, 'talk')

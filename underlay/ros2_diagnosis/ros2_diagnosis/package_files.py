@@ -38,6 +38,15 @@ def why_refused(folder: Path) -> list[str]:
     return list(setup_py.faults(folder))
 
 
+def is_of_cmake(folder: Path) -> bool:
+    """Tell whether CMakeLists.txt builds a package, so that colcon reads no setup.py of it."""
+    try:
+        text = (folder / 'package.xml').read_bytes()
+    except OSError:
+        return False
+    return re.search(rb'<build_type>\s*ament_cmake', text) is not None
+
+
 def why_not_run(folder: Path, package: str) -> str | None:
     """Say why `ros2 run` finds no program of a built package; None where nothing is wrong."""
     refused = why_refused(folder)

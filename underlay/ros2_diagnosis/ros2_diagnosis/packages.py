@@ -90,6 +90,10 @@ def find_executable(package: str, name: str) -> Path:
     if why := programs.why_not_executable(prefix_of(package, name) / 'lib' / package / name):
         raise PackageError(f"No executable found: package '{package}' has '{name}', but {why}")
     source = source_of(package)
+    if source is not None and package_files.is_of_cmake(source):
+        if why := _why_not_of_cmake(source, package, name, {path.name for path in known}):
+            raise PackageError(f'No executable found: {why}')
+        source = None  # a setup.py that is left there counts for nothing
     if source is not None and _declares(source, name):
         why = package_files.why_not_run(source, package) or (
             f"but package '{package}' was built before that; run `colcon build --packages-select "
@@ -123,6 +127,23 @@ def find_executable(package: str, name: str) -> Path:
     )
 
 
+def _why_not_of_cmake(source: Path, package: str, name: str, known: set[str]) -> str | None:
+    script = f'{name.removesuffix(".py")}.py'
+    found = None if script in known else next(iter(sorted(source.rglob(script))), None)
+    if found is None:
+        return None
+    workspace = _workspace_of_built(package, source)
+    build = f'run `colcon build --packages-select {package}` in {workspace}'
+    text = (source / 'CMakeLists.txt').read_text(encoding='utf-8', errors='replace')
+    if script in text:
+        return f'{found} is not installed yet: {build}'
+    return (
+        f'{found} is not installed: write install(PROGRAMS {found.relative_to(source)} '
+        f'DESTINATION lib/${{PROJECT_NAME}}) in {source / "CMakeLists.txt"}, which alone counts '
+        f'where package.xml says ament_cmake, {build}, and `ros2 run {package} {script}`'
+    )
+
+
 def launch_files(share: Path) -> list[Path]:
     """List what looks like a launch file below a folder."""
     return [
@@ -139,7 +160,7 @@ def why_not_installed(package: str, name: str) -> str | None:
     folder = found[0].parent.relative_to(source)
     workspace = _workspace_of_built(package, source)
     build = f'run `colcon build --packages-select {package}` in {workspace}'
-    if not (source / 'setup.py').is_file():
+    if package_files.is_of_cmake(source) or not (source / 'setup.py').is_file():
         line = f'install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})'
         return f'{found[0]} is not installed: write {line} in CMakeLists.txt, and {build}'
     if re.search(rf"""['"/]{re.escape(str(folder))}['"/]""", _setup_of(source)):

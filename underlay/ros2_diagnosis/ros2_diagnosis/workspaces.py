@@ -168,20 +168,8 @@ def _check_changed(
     if moved := [*_check_moved(package, workspace)]:
         yield from moved
         return
-    for program in packages.undeclared_programs(source, package):
-        yield Finding(
-            package,
-            f'{program}.py has a main(), but no entry point: `ros2 run` does not know it',
-            packages.how_to_declare(source, package, program),
-            serious=False,
-        )
-    for program, why in setup_py.broken_programs(source, package):
-        yield Finding(
-            package,
-            f'{program} of setup.py cannot start: {why}',
-            f'then run `colcon build --packages-select {package}` in {workspace}',
-        )
-    yield from _check_left_out(package, prefix, source, workspace)
+    if not package_files.is_of_cmake(source):
+        yield from _check_setup_py(package, prefix, source, workspace)
     for link in prefix.glob('lib/python3*/site-packages/*.egg-link'):
         modules = Path(link.read_text().partition('\n')[0])
         sourced = os.environ.get('PYTHONPATH', '').split(os.pathsep)
@@ -199,6 +187,25 @@ def _check_changed(
             f'{changed} has changed since the package was built, so that the old one runs',
             f'run `colcon build --packages-select {package}` in {workspace}',
         )
+
+
+def _check_setup_py(
+    package: str, prefix: Path, source: Path, workspace: Path
+) -> Iterator[Finding]:
+    for program in packages.undeclared_programs(source, package):
+        yield Finding(
+            package,
+            f'{program}.py has a main(), but no entry point: `ros2 run` does not know it',
+            packages.how_to_declare(source, package, program),
+            serious=False,
+        )
+    for program, why in setup_py.broken_programs(source, package):
+        yield Finding(
+            package,
+            f'{program} of setup.py cannot start: {why}',
+            f'then run `colcon build --packages-select {package}` in {workspace}',
+        )
+    yield from _check_left_out(package, prefix, source, workspace)
 
 
 def _check_left_out(
