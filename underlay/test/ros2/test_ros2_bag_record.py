@@ -286,6 +286,12 @@ def test_a_topic_that_is_misspelt_is_told_from_one_to_come(processes: Any, tmp_p
     processes.ros2(*words, ready="Waiting for /chater, /later; did you mean '/chatter'?")
 
 
+def test_a_topic_that_has_only_subscriptions_is_told(processes: Any, tmp_path: Path) -> None:
+    processes.node('listener', 'listener')
+    words = ('bag', 'record', '-o', str(tmp_path / 'bag'), '--topics', CHATTER)
+    processes.ros2(*words, ready=f'Waiting for {CHATTER}; nobody publishes {CHATTER} yet')
+
+
 def test_the_graph_is_worth_reading_while_a_wanted_topic_is_new(
     domain: int, tmp_path: Path
 ) -> None:

@@ -300,6 +300,8 @@ def _hint(missing: list[str], graph: Graph) -> str:
     if any(topic.endswith(EVENTS) for topic in missing):
         return '; a service tells of its calls only while its introspection is on'
     known = graph.topics()
+    if heard := [topic for topic in missing if topic in known]:
+        return f'; nobody publishes {", ".join(heard)} yet'
     return next(filter(None, (discovery.near(each, known) for each in missing)), '')
 
 
