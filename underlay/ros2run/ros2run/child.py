@@ -35,7 +35,7 @@ def run(command: Sequence[str]) -> int:
     witness = Witness()
     try:
         mask = {*before, signal.SIGINT} if takes_blocked_interrupt(command[0]) else before
-        process = subprocess.Popen(words_of(command), preexec_fn=_bound_to_this(mask))
+        process = subprocess.Popen(words_of(command), preexec_fn=_program_of(witness, mask))
         while process.poll() is None:
             number = signal.sigwait(awaited)
             if number == signal.SIGCHLD:
@@ -78,6 +78,18 @@ class Witness:
     def end(self) -> None:
         os.kill(self._pid, signal.SIGKILL)
         os.waitpid(self._pid, 0)
+
+
+def _program_of(witness: Witness, mask: Collection[int]) -> Callable[[], None]:
+    """Return what the program does first: take what the group was sent before it was there."""
+    bind = _bound_to_this(mask)
+
+    def prepare() -> None:
+        for number in filter(witness.has, _PASSED_ON):
+            os.kill(os.getpid(), number)  # blocked yet: what it has got already stays one
+        bind()
+
+    return prepare
 
 
 def _bound_to_this(mask: Collection[int]) -> Callable[[], None]:

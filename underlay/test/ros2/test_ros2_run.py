@@ -117,6 +117,30 @@ def test_a_signal_at_the_start_of_the_program_reaches_it_once(
     assert ends == {1}
 
 
+_BEFORE_IT_IS_THERE = """
+import os, signal, subprocess, sys
+from ros2run import child
+
+start = subprocess.Popen
+
+def start_late(*command, **options):
+    os.killpg(0, signal.SIGINT)
+    return start(*command, **options)
+
+subprocess.Popen = start_late
+sys.exit(child.run(sys.argv[1:]))
+"""
+
+
+def test_ctrl_c_just_before_the_program_is_there_reaches_it_once(
+    installed_package: Callable[..., Path],
+) -> None:
+    program = installed_package('demo', counts=_COUNTS) / 'lib' / 'demo' / 'counts'
+    command = [sys.executable, '-c', _BEFORE_IT_IS_THERE, str(program)]
+    run = subprocess.run(command, start_new_session=True, timeout=10)
+    assert run.returncode == 256 - signal.SIGINT  # Python had it as it started
+
+
 @pytest.mark.parametrize(
     ('words', 'status', 'message'),
     [
