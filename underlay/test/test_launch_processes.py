@@ -147,13 +147,13 @@ def test_emulate_tty_makes_the_child_believe_in_a_terminal(
 
 STUBBORN = """
 ExecuteProcess(
-    cmd=['sh', '-c', 'trap "" INT TERM; echo up; while :; do sleep 0.1; done'],
+    cmd=['sh', '-c', 'trap "" INT TERM HUP; echo up; while :; do sleep 0.1; done'],
     output='screen', sigterm_timeout='0.3', sigkill_timeout='0.3',
 ),
 """
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_stubborn_child_gets_sigint_sigterm_and_sigkill(
     number: signal.Signals, python_launch_file: LaunchFile, interrupt_launch: Run
 ) -> None:

@@ -112,7 +112,7 @@ class LaunchService:
     def run(self, *, shutdown_when_idle: bool = True) -> int:
         """Run until everything has ended, in the event loop of the main thread.
 
-        Handles SIGINT, SIGTERM and SIGQUIT.
+        Handles SIGINT, SIGTERM, SIGQUIT and SIGHUP.
 
         :param shutdown_when_idle: end as soon as nothing runs and no event is left.
         :return: 0, or 1 where launching failed.
@@ -273,6 +273,10 @@ class LaunchService:
         manager.handle(signal.SIGINT, self.__on_sigint)
         manager.handle(signal.SIGTERM, self.__on_termination)
         manager.handle(signal.SIGQUIT, self.__on_termination)
+        # A terminal that is closed sends it; nohup has it ignored. Upstream ends at once, and
+        # leaves its temporary files and each child that takes no notice of it.
+        if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+            manager.handle(signal.SIGHUP, self.__on_termination)
         return manager
 
 
