@@ -213,6 +213,34 @@ def terminal_launch(launch_environment: None) -> Iterator[Callable[[Path, str, b
     os.close(slave)
 
 
+@pytest.fixture
+def launch_in_closed_terminal(launch_environment: None) -> Callable[[Path, str], str]:
+    """Return a function that runs a launch file at a terminal, and closes it after a text."""
+    del launch_environment
+
+    def run(path: Path, until: str) -> str:
+        master, slave = os.openpty()
+        process = subprocess.Popen(
+            ['setsid', '--ctty', sys.executable, '-c', _RUNNER, str(path)],
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+        )
+        os.close(slave)
+        try:
+            output = ''
+            while until not in output:
+                output += os.read(master, 4096).decode(errors='replace')
+            os.close(master)
+            process.wait(10.0)
+        finally:
+            process.kill()
+            process.wait()
+        return output
+
+    return run
+
+
 _NODE = """\
 #!{python}
 import json, sys, rclpy

@@ -3,9 +3,11 @@
 """Log folder, formats and destinations."""
 
 from collections.abc import Callable
+from contextlib import suppress
 import logging
 from pathlib import Path
 import re
+import sys
 import tempfile
 from typing import Any
 
@@ -161,3 +163,14 @@ def test_a_disk_that_is_full_is_said_once_and_stops_nothing(
     assert '[launch.user]: two' in said.out
     assert said.err.startswith('cannot write /dev/full (No space left on device): ')
     assert said.err.count('\n') == 1
+
+
+def test_nor_does_one_that_is_full_where_the_output_goes(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with suppress(OSError), Path('/dev/full').open('w') as full:  # also to close it would fail
+        monkeypatch.setattr(sys, 'stdout', full)
+        assert _run(LogInfo(msg='one'), LogInfo(msg='two')) == 0
+    err = capfd.readouterr().err
+    assert err.startswith('cannot write standard output (No space left on device): ')
+    assert err.count('\n') == 1

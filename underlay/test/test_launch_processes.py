@@ -175,6 +175,14 @@ def test_a_stubborn_child_gets_sigint_sigterm_and_sigkill(
     assert not any(_is_running(pid) for pid in _pids(launched.output))
 
 
+def test_a_closed_terminal_ends_a_stubborn_child(
+    python_launch_file: LaunchFile, launch_in_closed_terminal: Callable[[Path, str], str]
+) -> None:
+    output = launch_in_closed_terminal(python_launch_file(STUBBORN), '[sh-1] up')
+    (child,) = _pids(output)
+    assert not _is_running(child)
+
+
 def test_ctrl_c_ends_every_child(python_launch_file: LaunchFile, interrupt_launch: Run) -> None:
     path = python_launch_file(
         """

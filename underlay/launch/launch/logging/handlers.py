@@ -38,6 +38,8 @@ class StreamHandler(FormatPerLogger, logging.StreamHandler):  # type: ignore[typ
 class ScreenHandler(FormatPerLogger):
     """Writes to whatever is standard output at the moment, whatever its encoding."""
 
+    _fails = False
+
     def emit(self, record: logging.LogRecord) -> None:
         text = self.format(record) + '\n'
         encoding = getattr(sys.stdout, 'encoding', None) or 'utf-8'
@@ -47,6 +49,11 @@ class ScreenHandler(FormatPerLogger):
         except (BrokenPipeError, ValueError):
             # The reader has gone (`ros2 launch ... | head`): the nodes go on, unseen.
             return
+        except OSError as error:
+            # They go on, too, where a disk is full, or end in order where the terminal is closed.
+            if not self._fails:
+                self._fails = True
+                _tell('standard output', error)
 
 
 class FileHandler(FormatPerLogger, logging.FileHandler):
@@ -68,15 +75,20 @@ class FileHandler(FormatPerLogger, logging.FileHandler):
             super().handleError(record)
         elif not self._fails:
             self._fails = True
-            print(
-                f'cannot write {self.baseFilename} ({error.strerror}): what the launch says is '
-                'missing there from here on',
-                file=sys.stderr,
-            )
+            _tell(self.baseFilename, error)
 
     def close(self) -> None:
         with contextlib.suppress(OSError):  # said above
             super().close()
+
+
+def _tell(place: str, error: OSError) -> None:
+    with contextlib.suppress(OSError):  # that may be the same terminal, or disk
+        print(
+            f'cannot write {place} ({error.strerror}): what the launch says is missing there from '
+            'here on',
+            file=sys.stderr,
+        )
 
 
 def __getattr__(name: str) -> type[logging.Handler]:
