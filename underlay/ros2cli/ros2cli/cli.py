@@ -96,8 +96,7 @@ def _run(build: _Build, words: Sequence[str]) -> int:
         answer = command.main(parser=args._command_parser, args=args)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader (`head`, `less`) has closed the pipe; Python must not flush into it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()  # the reader (`head`, `less`) has closed the pipe
         return _BROKEN_PIPE_STATUS
     except CommandError as error:
         print(error, file=sys.stderr)
@@ -109,6 +108,8 @@ def _run(build: _Build, words: Sequence[str]) -> int:
         # A defect of a verb or of what it runs on: the person still gets one line.
         if os.environ.get('ROS2CLI_TRACEBACK'):
             raise
+        if isinstance(error, OSError):
+            _flush_or_discard()
         text = ' '.join(str(error).split()) or 'no further explanation'
         print(f'{type(error).__name__}: {text} (ROS2CLI_TRACEBACK=1 shows where)', file=sys.stderr)
         return 1
@@ -116,6 +117,18 @@ def _run(build: _Build, words: Sequence[str]) -> int:
         print(answer, file=sys.stderr)
         return 1
     return answer or 0
+
+
+def _flush_or_discard() -> None:
+    try:
+        sys.stdout.flush()
+    except OSError:  # the disk is full
+        _discard_output()
+
+
+def _discard_output() -> None:
+    """Let Python not try again at its end, and complain, to write what cannot be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _completed_words() -> list[str]:

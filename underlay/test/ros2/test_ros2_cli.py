@@ -197,6 +197,15 @@ def test_tab_completes_commands_verbs_and_names(processes: Any, tmp_path: Path) 
     assert '--once' in _complete('ros2 topic echo --on', tmp_path)
 
 
+def test_a_disk_without_room_for_the_output_is_told_in_one_line() -> None:
+    with Path('/dev/full').open('w') as full:
+        command = [sys.executable, '-m', 'ros2cli', 'topic', 'hz', '/none']
+        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert ended.returncode == 1
+    assert ended.stderr.count('No space left on device') == 1, ended.stderr
+    assert 'ignored' not in ended.stderr, 'of what Python tries again at its end'
+
+
 def test_a_reader_that_has_seen_enough_ends_the_command_quietly() -> None:
     process = subprocess.Popen(
         [sys.executable, '-m', 'ros2cli', 'interface', 'list'],
