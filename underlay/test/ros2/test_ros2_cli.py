@@ -101,6 +101,10 @@ def test_the_help_imports_nothing_that_takes_long() -> None:
         (('topic', 'lst'), "'lst' is no verb of ros2 topic; did you mean 'list'?"),
         (('topic', 'list', '--nonsense'), 'unrecognized arguments: --nonsense'),
         (('topic', 'list', '--all'), 'is not in Jazzy; use --include-hidden-topics'),
+        (('topic', 'echo', '/t', '--onec'), "--onec; did you mean '--once'?"),
+        (('topic', 'echo', '/t', 'T', '\N{EM DASH}once'), "hyphens: '--once'"),
+        (('topic', 'pub', '/t', 'T', '{a:', '{x: 1}}'), '; a value in YAML stands between'),
+        (('topic', 'pub', '/t', 'T', 'data:', '1'), 'straight quotes: "{field: value}"'),
         (('security',), 'is part of a full ROS 2 and left out here'),
         (
             ('action', 'find', 'x'),

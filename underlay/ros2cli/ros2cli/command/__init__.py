@@ -25,6 +25,8 @@ _AFTER_JAZZY = {
         'find': '`ros2 action list -t` shows each action with its type',
     },
 }
+# What text programs make of two hyphens.
+_LONG_DASHES = '\N{EN DASH}\N{EM DASH}'
 
 
 class CommandExtension(Extension):
@@ -70,6 +72,15 @@ class CommandLineParser(argparse.ArgumentParser):
     words: Sequence[str] = ()
     target = ''  # of the extension whose docstring is the description
     below: Mapping[str, str] = {}  # the extensions that may be typed next, by name
+
+    def parse_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> argparse.Namespace:
+        parsed, left = self.parse_known_args(args, namespace)
+        if left:
+            meant = _meant(left, list(sys.argv[1:] if args is None else args), parsed)
+            self.error(f'unrecognized arguments: {" ".join(left)}{meant}')
+        return parsed
 
     def format_help(self) -> str:
         if self.target:
@@ -135,6 +146,19 @@ def _refuse(
 
     kind = 'command' if group == 'ros2cli.command' else 'verb'
     parser.error(f"'{chosen}' is no {kind} of {cli_name}{nearest.hint(chosen, known)}")
+
+
+def _meant(left: Sequence[str], words: Sequence[str], parsed: argparse.Namespace) -> str:
+    """Return a clause on what was meant by the words of a line for which nothing is there."""
+    if any(word.count('{') != word.count('}') or word.endswith(':') for word in words):
+        return '; a value in YAML stands between straight quotes: "{field: value}"'
+    if long := next((word for word in words if word[0:1] in _LONG_DASHES), None):
+        return f"; an option begins with hyphens: '--{long.lstrip(_LONG_DASHES + '-')}'"
+    from ros2_diagnosis import nearest
+
+    parser = getattr(parsed, '_verb_parser', getattr(parsed, '_command_parser', None))
+    known = parser._option_string_actions if parser is not None else ()
+    return nearest.hint(next((word for word in left if word[0:1] == '-'), ''), known, at_most=0)
 
 
 def _help(target: str) -> str:
