@@ -334,12 +334,22 @@ def test_colcon_says_that_a_file_is_missing(tmp_path: Path) -> None:
     assert done.returncode == 2
 
 
+def test_a_package_xml_of_another_name_is_told(folder: Path) -> None:
+    (folder / 'package.xml').rename(folder / 'package.xml.txt')
+    assert package_files.why_refused(folder) == [
+        'package.xml: there is none, by which ROS knows a package; rename package.xml.txt, if '
+        'that is it'
+    ]
+
+
 def test_colcon_and_ros2_run_say_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
     broken(tmp_path, 'marked', 'setup.cfg', lambda text: f'\ufeff{text}'.encode())
     broken(tmp_path, 'wide', 'package.xml', lambda text: text.encode('utf-16'))
     broken(tmp_path, 'open_tag', 'package.xml', lambda text: text.replace('</name>', '').encode())
+    broken(tmp_path, 'bare', 'setup.py', lambda text: text.encode())
+    (tmp_path / 'src' / 'bare' / 'package.xml').unlink()
     broken(tmp_path, 'ignored', 'setup.py', lambda text: text.encode())
     (tmp_path / 'src' / 'ignored' / 'COLCON_IGNORE').touch()
     (tmp_path / 'src' / 'cpp').mkdir()
@@ -358,6 +368,7 @@ def test_colcon_and_ros2_run_say_it(
         'marked: setup.cfg begins with a byte order mark',
         'wide: package.xml is saved as UTF-16',
         'open_tag: package.xml: mismatched tag: line ',
+        'bare: package.xml: there is none',
     ):
         assert line in done.stderr
 

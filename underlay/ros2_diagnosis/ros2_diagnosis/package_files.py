@@ -92,9 +92,9 @@ def _build_type(folder: Path) -> str:
     # It takes its time, and most commands need not know.
     from catkin_pkg.package import InvalidPackage, parse_package
 
-    _check_text(
-        folder / 'package.xml', 'there is none, by which ROS knows a package; copy that of another'
-    )
+    like = sorted(path.name for path in folder.glob('[Pp]ackage.[Xx]*') if path.is_file())
+    remedy = f'rename {like[0]}, if that is it' if like else 'copy that of another'
+    _check_text(folder / 'package.xml', f'there is none, by which ROS knows a package; {remedy}')
     try:
         package = parse_package(str(folder), warnings=[])  # colcon shows those
         package.evaluate_conditions({**os.environ, 'DISABLE_GROUPS_WORKAROUND': '1'})
