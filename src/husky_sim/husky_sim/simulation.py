@@ -230,6 +230,7 @@ class Simulation:
             for motors in self._motors:
                 motors.step(timestep_sec)
             if not self.broadphase.alone:
+                self._tyres.meet_obstacles()
                 self._detector.update(begin_sec + step * timestep_sec)
 
     @property

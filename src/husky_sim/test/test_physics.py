@@ -202,3 +202,40 @@ def test_wheel_odometry_drifts_in_turns_but_fused_yaw_does_not(
     assert abs(math.remainder(robot.odometry.yaw - robot.state.yaw, math.tau)) > 0.02
     assert robot.filtered.yaw == pytest.approx(robot.state.yaw, abs=0.005)
     assert math.dist((robot.filtered.x, robot.filtered.y), plan(robot)) < 0.05
+
+
+PLANE = '<geom name="ground" type="plane" size="50 50 1"/>'
+
+
+@pytest.mark.parametrize(
+    ('body', 'yaw_rate'),
+    [
+        pytest.param(
+            '<geom name="ground" type="cylinder" size="8 0.1" pos="0 0 -0.1"/>', 0.3, id='a disc'
+        ),
+        pytest.param(
+            PLANE + '<geom type="cylinder" size="0.6 0.03" pos="1.7 0.5 0.03"/>', 0.0, id='a puck'
+        ),
+        pytest.param(
+            PLANE + '<geom type="box" size="0.6 0.6 0.02" pos="1.7 0 0.02"/>', 0.0, id='a step'
+        ),
+        pytest.param(
+            '<geom name="ground" type="capsule" size="50 8" pos="0 0 -50" euler="90 0 0"/>',
+            0.3,
+            id='the back of a hill',
+        ),
+    ],
+)
+def test_what_a_wheel_rolls_over_does_not_throw_the_robot(
+    tmp_path: Path, drive: Drive, body: str, yaw_rate: float
+) -> None:
+    world = tmp_path / 'world.xml'
+    world.write_text(f'<mujoco><worldbody>{body}</worldbody></mujoco>', encoding='utf-8')
+    simulation = Simulation(SimulationConfig(world=str(world)), visual=False)
+    robot = simulation.robots[0]
+    for _ in range(400):
+        drive(simulation, 0.5, yaw_rate, seconds=CONTROL_PERIOD_SEC)
+        speed = math.hypot(*robot.state.velocity)
+        assert speed < 0.9, f'{speed:.2f} m/s of 0.5 after {simulation.time_sec:.2f} s'
+        depth_m = -min(simulation.data.contact.dist, default=0.0)
+        assert depth_m < 0.012, f'{depth_m:.3f} m deep after {simulation.time_sec:.2f} s'

@@ -7,6 +7,11 @@ A tyre has two shapes. On flat ground its tread counts, a capsule that grips alo
 differently (see `world.flat_ground`); everywhere else, at edges and on hills, the wheel, a
 cylinder that grips as much in every direction. What is no ground meets the cylinder, always. Both
 have the same radius and stand on the same two points, and so change places unnoticed.
+
+From 4.0 on MuJoCo gives contacts of cylinders several points, some of them on the wrong face of
+the other shape, up to a metre deep, which throw the robot (its sources of September 2026 mend
+that). So contacts have one point while a wheel touches as a cylinder, and several else: by one
+alone a barrel on a box would never come to rest.
 """
 
 from husky_course.frames import Indices
@@ -25,6 +30,8 @@ UPRIGHT = 0.99
 BELOW_M, ABOVE_M = 0.1, 0.75
 
 _SOLID, _EVERYWHERE = 1 << 30, (1 << 30) | 1
+_ONE_POINT = int(mujoco.mjtDisableBit.mjDSBL_MULTICCD)
+_AGAIN_PERIODS = 50  # a wheel that bounces off an obstacle, or is driven back, meets it again
 
 
 class Tyres:
@@ -32,7 +39,7 @@ class Tyres:
 
     def __init__(self, world: World, data: mujoco.MjData, floor: Floor) -> None:
         model = world.model
-        self._model = model
+        self._model, self._data = model, data
         # Unpacked at once: every robot asks for all of them in every control period.
         self._faces = [(face.middle, *face.axes, face.half_m) for face in world.flat_ground]
         names = [robot.name for robot in world.robots]
@@ -42,6 +49,9 @@ class Tyres:
             [model.geom(f'{name}/{wheel}_wheel').id for wheel in WHEELS] for name in names
         ]
         wheels = np.array(self._wheels).ravel()
+        self._flags = int(model.opt.disableflags)
+        self._is_wheel = np.zeros(model.ngeom + 1, dtype=np.bool_)  # the last: -1, no geom
+        self._is_wheel[wheels] = True
         # What is no ground meets wheels by a bit of its own: theirs of ground comes and goes.
         solid = (world.owners >= 0) & ~np.isin(np.arange(model.ngeom), wheels)
         model.geom_conaffinity[solid] |= _SOLID
@@ -73,6 +83,7 @@ class Tyres:
     def reset(self) -> None:
         """Look again where every robot is; to be called when they were put somewhere else."""
         self._under: list[tuple[int, ...] | None] = [(-1,)] * len(self._poses)
+        self._periods_after_touch = _AGAIN_PERIODS
         self.update()
 
     def update(self) -> None:
@@ -82,6 +93,18 @@ class Tyres:
             if under != self._under[robot]:
                 self._under[robot] = under
                 self._choose(robot, under)
+        self._periods_after_touch += 1
+        self._choose_points()
+
+    def meet_obstacles(self) -> None:
+        """Look what the wheels touch; to be called after a physics step near obstacles."""
+        if self._is_wheel[self._data.contact.geom].any():
+            self._periods_after_touch = 0
+            self._choose_points()
+
+    def _choose_points(self) -> None:
+        one = None in self._under or self._periods_after_touch < _AGAIN_PERIODS
+        self._model.opt.disableflags = self._flags | _ONE_POINT if one else self._flags
 
     def _choose(self, robot: int, under: tuple[int, ...] | None) -> None:
         bits = _EVERYWHERE if under is None else _SOLID
