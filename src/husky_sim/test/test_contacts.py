@@ -201,3 +201,17 @@ def test_a_pushed_obstacle_moves_as_its_mass_says(
     touches(playpen, 0.5, seconds=3.0)
     assert least_m <= math.dist(place[:2], before[:2]) <= most_m
     assert playpen.physics_warnings == 0
+
+
+def test_a_wall_that_is_a_plane_is_touched_as_any_other(on_asphalt: OnAsphalt) -> None:
+    plane = '<geom name="wall" type="plane" size="9 9 1" pos="1.5 0 0" zaxis="-1 0 0"/>'
+    found = touches(on_asphalt(plane), 0.5, seconds=4.0)
+    assert [(touch.obstacle, touch.part) for touch in found] == [('wall', 'front_bumper')]
+
+
+def test_a_robot_stands_on_a_slope_beyond_where_it_is_drawn(on_asphalt: OnAsphalt) -> None:
+    slope = '<geom name="slope" type="plane" size="0.1 0.1 1" pos="9 0 0" zaxis="1 0 3"/>'
+    simulation = on_asphalt(slope)
+    assert touches(simulation, 0.0, seconds=1.0) == []
+    assert simulation.robots[0].state.position[2] > 2.5, 'it stood below, and was thrown'
+    assert math.hypot(*simulation.robots[0].state.velocity) < 0.05

@@ -66,6 +66,7 @@ GATE_POSTS = (
 )
 LINTEL = '<geom type="box" size="0.1 0.9 0.1" pos="0 0 1.1"/>'
 SLANTED = '<geom name="fence" type="box" size="3 0.05 0.4" pos="1.5 2 0.4" euler="0 0 25"/>'
+PLANE = '<geom name="wall" type="plane" size="{size}" pos="6 0 0" zaxis="{zaxis}"/>'
 ROOF = '<geom name="roof" type="box" size="1 1 0.05" pos="0 0 1"/>'
 
 
@@ -76,6 +77,8 @@ ROOF = '<geom name="roof" type="box" size="1 1 0.05" pos="0 0 1"/>'
         (f'<body name="gate" pos="2 0 0">{GATE_POSTS}{LINTEL}</body>', [(0.1,), (0.1,)], 0.36),
         (SLANTED, [(6.0, 0.1)], 0.61),
         (f'<body name="yard">{SLANTED}</body>', [(6.0, 0.1)], 0.61),
+        (PLANE.format(size='4 3 1', zaxis='-1 0 0'), [(0.002, 6.0)], 1.5),
+        (PLANE.format(size='0 0 1', zaxis='-1 -1 0'), [(100.0 * math.sqrt(2.0), 0.002)], 0.82),
         (ROOF, [], None),
         # What hangs may swing or fall down, and on a hill a robot is higher.
         (f'<body name="lamp"><freejoint/>{ROOF}</body>', [(2.0, 2.0)], 0.0),
@@ -156,6 +159,7 @@ GATE = (
 HILLS = '<asset><hfield name="h" nrow="9" ncol="9" size="5 5 0.1 0.1"/></asset>'
 ODD = {
     'an unnamed plane': mjcf('<geom type="plane" size="5 5 1"/>'),
+    'a floor that nobody sees': mjcf('<geom type="plane" size="5 5 1" rgba="0 0 0 0"/>'),
     'a floor with a capital': mjcf('<geom name="Floor" type="box" size="5 5 0.1"/>'),
     'a height field': mjcf('<geom type="hfield" hfield="h"/>', before=HILLS),
     'a roof over the start': mjcf(FLOOR + '<geom type="box" size="1 1 0.05" pos="0 0 1"/>'),
@@ -371,6 +375,14 @@ def test_a_file_that_is_not_there_or_not_xml_is_refused(tmp_path: Path) -> None:
     (tmp_path / 'world.txt').write_text('<mujoco/>', encoding='utf-8')
     with pytest.raises(WorldError, match=r'not an \.xml file'):
         load_world(str(tmp_path / 'world.txt'), [RobotStart()])
+
+
+def test_a_plane_that_nobody_can_drive_on_is_a_wall(write: Callable[[str], str]) -> None:
+    path = write(mjcf(FLOOR + PLANE.format(size='0 0 1', zaxis='-1 0 0.1')))
+    assert load_world(path, [RobotStart()]).names == ('husky', 'wall')
+    write(mjcf(FLOOR + PLANE.format(size='9 9 1', zaxis='1 0 0.1')))  # the same, seen from within
+    with pytest.raises(StartPoseError, match=r'start inside wall \(.*, line 4\)'):
+        load_world(path, [RobotStart()])
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,8 @@ WHEELS = ('front_left', 'front_right', 'rear_left', 'rear_right')
 NEVER_M = -1e9
 """The margin of a contact that does not count: no tread is so deep under an endless plane."""
 
-_UPWARDS = 0.5  # cosine of the steepest face that one drives on
+UPWARDS = 0.5
+"""Cosine of the steepest face that one drives on."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ def find_flat_ground(
     found = []
     for geom in ground:
         kind, axes = int(model.geom_type[geom]), data.geom_xmat[geom].reshape(3, 3).T
-        if axes[2][2] < _UPWARDS:
+        if axes[2][2] < UPWARDS:
             continue
         middle: Array = data.geom_xpos[geom]
         if kind == mujoco.mjtGeom.mjGEOM_PLANE:

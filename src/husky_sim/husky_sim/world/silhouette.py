@@ -16,6 +16,8 @@ _CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=1)
 _ROUND = 0.02  # how far a circle may be from round, as a part of its radius
 _UPRIGHT_RAD = 0.15  # a body tilted less than this is seen along its own axis
 _FULL = 0.9  # of a rectangle, which is filled enough to be seen as a whole
+_ENDLESS_M = 50.0  # half of how long a plane without a size is on a map
+_THIN_M = 0.001  # half of its thickness, which must not be nothing
 _MOST_PARTS = 5000  # of an obstacle; a record holds 10 000 outlines
 
 
@@ -170,4 +172,6 @@ def _reach(
         first = model.mesh_vertadr[mesh]
         points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
         return middle + (local @ points.T).max(axis=1)
+    if shape == kind.mjGEOM_PLANE:  # as far as it is drawn
+        size = np.array([size[0] or _ENDLESS_M, size[1] or _ENDLESS_M, _THIN_M])
     return middle + np.abs(local) @ size

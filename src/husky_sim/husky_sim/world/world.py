@@ -4,10 +4,10 @@
 A world file with Huskies in it: loaded, checked, and looked up by name.
 
 What a file must hold to be a world: something to drive on under every robot's start. A geom is
-ground if it is static and a plane or a height field, or if its name or its body's begins with
-one of GROUND_NAMES. Every other geom that touches belongs to an obstacle, named after the
-outermost body around it (or after itself where it lies in the world body). A soft body is an
-obstacle by its own name, or ground.
+ground if it is static and a height field or a plane that one can drive on, or if its name or its
+body's begins with one of GROUND_NAMES. Every other geom that touches belongs to an obstacle,
+named after the outermost body around it (or after itself where it lies in the world body). A soft
+body is an obstacle by its own name, or ground.
 """
 
 from collections.abc import Iterator, Sequence
@@ -31,6 +31,7 @@ from husky_sim.world.flat_ground import (
     add_planes,
     find_flat_ground,
     FlatGround,
+    UPWARDS,
 )
 from husky_sim.world.silhouette import highest_m, lowest_m, outline_of_flex, outlines_of
 from husky_sim.world.world_file import (
@@ -120,7 +121,8 @@ def load_world(
     check_numbers(path, empty)
     steps = steps_per_period(path, empty.opt.timestep)
     data = _standing(path, empty)
-    ground = {geom for geom in range(empty.ngeom) if _is_ground(empty, geom)}
+    empty.geom_matid[:], empty.geom_rgba[:] = -1, 1.0  # rays go through what nobody sees
+    ground = {geom for geom in range(empty.ngeom) if _is_ground(empty, data, geom)}
     heights = [_height_under(path, empty, data, ground, robot) for robot in robots]
     faces = find_flat_ground(empty, data, ground)
     spec = _parsed(path)
@@ -137,10 +139,10 @@ def load_world(
     if memory > model.narena:
         spec.memory = memory
         model = _compiled(path, spec)
-    data = _standing(path, model)
+    in_file, data = data, _standing(path, model)
     # In a model without what is only seen, geoms have other numbers.
-    numbers = [geom for geom in range(empty.ngeom) if _is_fixed_obstacle(empty, geom)]
-    names, owners = _owners(model, robots, numbers)
+    numbers = [geom for geom in range(empty.ngeom) if _is_fixed_obstacle(empty, in_file, geom)]
+    names, owners = _owners(model, data, robots, numbers)
     flex_owners = _flex_owners(model, names)
     _check_start(path, robots, names, _touching(data, owners, flex_owners))
     return World(
@@ -274,6 +276,7 @@ def _ground_at(
     model: mujoco.MjModel, data: mujoco.MjData, ground: set[int], x: float, y: float
 ) -> float | None:
     """Return the height of the ground, by a ray from above through everything else."""
+    planes = [geom for geom in ground if _is_plane(model, geom) and _is_flat(data, geom)]
     down = np.array([0.0, 0.0, -1.0])
     hit = np.zeros(1, dtype=np.int32)
     z = _ABOVE_M
@@ -283,9 +286,15 @@ def _ground_at(
             return None
         z -= distance
         if int(hit[0]) in ground:
-            return z
+            # A ray meets a plane where it is drawn alone, wheels meet it beyond, too.
+            return max([z, *(_height_of(data, plane, x, y) for plane in planes)])
         z -= 1e-6
     return None
+
+
+def _height_of(data: mujoco.MjData, plane: int, x: float, y: float) -> float:
+    normal, middle = data.geom_xmat[plane][2::3], data.geom_xpos[plane]
+    return float(middle[2] - (normal[:2] @ (np.array([x, y]) - middle[:2])) / normal[2])
 
 
 def _can_touch(model: mujoco.MjModel, geom: int) -> bool:
@@ -293,13 +302,23 @@ def _can_touch(model: mujoco.MjModel, geom: int) -> bool:
     return bool((model.geom_contype[geom] | model.geom_conaffinity[geom]) & 1)
 
 
-def _is_ground(model: mujoco.MjModel, geom: int) -> bool:
+def _is_plane(model: mujoco.MjModel, geom: int) -> bool:
+    return int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_PLANE
+
+
+def _is_flat(data: mujoco.MjData, geom: int) -> bool:
+    return bool(data.geom_xmat[geom][8] >= UPWARDS)
+
+
+def _is_ground(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> bool:
     if not _can_touch(model, geom):
         return False
     body = int(model.geom_bodyid[geom])
     if model.body_weldid[body] != 0:
         return False
-    if int(model.geom_type[geom]) in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+    if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_HFIELD:
+        return True
+    if _is_plane(model, geom) and _is_flat(data, geom):  # else it is a wall
         return True
     names = [model.geom(geom).name]
     while body:
@@ -308,14 +327,17 @@ def _is_ground(model: mujoco.MjModel, geom: int) -> bool:
     return any(name.lower().startswith(GROUND_NAMES) for name in names)
 
 
-def _is_fixed_obstacle(model: mujoco.MjModel, geom: int) -> bool:
+def _is_fixed_obstacle(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> bool:
     """Return whether a geom of a world without robots is an obstacle without a body."""
     fixed = int(model.geom_bodyid[geom]) == 0
-    return fixed and _can_touch(model, geom) and not _is_ground(model, geom)
+    return fixed and _can_touch(model, geom) and not _is_ground(model, data, geom)
 
 
 def _owners(
-    model: mujoco.MjModel, robots: Sequence[RobotStart], numbers: Sequence[int]
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    robots: Sequence[RobotStart],
+    numbers: Sequence[int],
 ) -> tuple[list[str], Indices]:
     """
     Give every geom to a robot, an obstacle, the ground or nothing.
@@ -334,7 +356,7 @@ def _owners(
         if root in bases:
             owners[geom] = bases[root]
             continue
-        if _is_ground(model, geom):
+        if _is_ground(model, data, geom):
             owners[geom] = _GROUND
             continue
         key = ('body', root) if root else ('geom', next(left))
