@@ -271,6 +271,13 @@ def test_a_very_long_word_does_not_fill_the_terminal(text: str) -> None:
     assert len(line) < 1100
 
 
+def test_waypoints_may_be_as_close_as_the_message_allows() -> None:
+    points = ', '.join(f'[{k / 20}, 0]' for k in range(100))  # as in binary: some 1e-17 m closer
+    assert len(parse_course(f'waypoints: [{points}]').waypoints) == 100
+    with pytest.raises(ValueError, match=r'waypoints\[1\]: 0.050 m from'):
+        parse_course('waypoints: [[0, 0], [0.0499999, 0]]')
+
+
 def test_the_first_waypoint_has_no_yaw_and_no_dwell() -> None:
     text = 'waypoints:\n  - {x: 0, y: 0, yaw: 0, dwell: 3}\n  - [2, 0]\n  - [2, 2]\n'
     why = 'not for the first waypoint, where the drive begins; leave it out'
