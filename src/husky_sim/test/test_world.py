@@ -259,6 +259,7 @@ def test_an_odd_world_is_driven_in_like_any_other(
         ),
         (mjcf(FLOOR + '<geom size="0.1" pos="inf 0 1"/>'), r"body 'world': its pos is inf 0 1"),
         (mjcf(before='<option actuatorgroupdisable="0"/>'), r'the motors .* group 0; .*, line 2$'),
+        (mjcf(before='<option iterations="0"/>'), r'iterations="0": without any .*, line 2$'),
         (mjcf(before='<compiler settotalmass="100"/>'), r'would weigh something else; .*line 2$'),
         (
             mjcf('<body name="husky/base_link"/>' + FLOOR),
@@ -278,10 +279,11 @@ def test_a_broken_world_is_refused_with_file_and_reason(
     write: Callable[[str], str], text: str, reason: str
 ) -> None:
     path = write(text)
-    with pytest.raises(WorldError, match=reason) as refused:
-        load_world(path, [RobotStart()])
-    assert path in str(refused.value)
-    assert '\n' not in str(refused.value)
+    for visual in (True, False):  # as with a camera, and without one
+        with pytest.raises(WorldError, match=reason) as refused:
+            load_world(path, [RobotStart()], visual=visual)
+        assert path in str(refused.value)
+        assert '\n' not in str(refused.value)
 
 
 @pytest.mark.parametrize(

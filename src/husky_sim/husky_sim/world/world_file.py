@@ -20,6 +20,8 @@ _NUMBERS = ('pos', 'quat', 'size', 'friction', 'mass', 'inertia', 'ipos', 'axis'
 _HAS_LINE = re.compile(r'\bline\b', re.IGNORECASE)
 _QUOTED = re.compile(r"'([^']+)'")
 _NO_LINE = re.compile(r',? line 0\b')  # what MuJoCo says of all that stands in an included file
+# What it says besides, of its own doing, where the model has no part that is only seen.
+_ASIDE = re.compile(r' The visual elements of the spec were discarded .*?remain so\.')
 _COMMENT = re.compile(r'<!--.*?-->', re.DOTALL)
 _MODEL = re.compile(r'<model\s[^>]*?file\s*=\s*["\']([^"\']+)["\']')
 _INCLUDE = re.compile(r'<include\s[^>]*?file\s*=\s*["\']([^"\']+)["\']')
@@ -33,6 +35,7 @@ def refused(path: str, reason: str | Exception, *, word: str = '') -> WorldError
         default what the reason quotes.
     """
     text = ' '.join(str(reason).split())
+    text = _ASIDE.sub('', text)
     included, text = _NO_LINE.search(text) is not None, _NO_LINE.sub('', text)
     if not _HAS_LINE.search(text):
         quoted = _QUOTED.search(text)
@@ -198,6 +201,13 @@ def check_settings(path: str, spec: mujoco.MjSpec) -> None:
             f'gravity="{given}": the robot needs its weight to drive; use finite numbers, the '
             'last below 0',
             word='gravity',
+        )
+    if spec.option.iterations < 1:
+        raise refused(
+            path,
+            f'iterations="{spec.option.iterations}": without any the wheels have no force; '
+            'use 1 or more, or leave it out',
+            word='iterations',
         )
     if spec.option.disableactuator & 1:
         name = 'actuatorgroupdisable'
