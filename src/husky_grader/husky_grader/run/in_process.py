@@ -8,6 +8,7 @@ the trajectory is the same, bit for bit, in a fraction of the time.
 """
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import lru_cache
 import gc
@@ -105,8 +106,8 @@ def drive_with(
     :raises ValueError: when the world or the start cannot be used, or the physics breaks down.
     """
     simulation = _at_start(world, start, conditions or Conditions())
-    with TemporaryDirectory() as folder:
-        file = record or Path(folder) / FILE_NAME
+    with ExitStack() as stack:
+        file = record or Path(stack.enter_context(TemporaryDirectory())) / FILE_NAME
         with RunRecorder(simulation, file) as recorder:
             (robot,) = simulation.robots
             while simulation.time_sec < limit_sec:
