@@ -11,6 +11,7 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
+import tempfile
 from typing import Any
 
 from husky_grader.batch import key
@@ -19,6 +20,7 @@ from husky_grader.batch.job import Outcome
 from husky_grader.batch.key import key_of, MOST_BYTES
 from husky_grader.batch.sealed import _make_secret
 from husky_grader.batch.tables import names_of
+from husky_grader.batch.temporary_folder import TemporaryFolder
 from husky_grader.batch.workers import workers
 from husky_grader.file_grading import Grade
 from husky_grader.file_job import FileJob
@@ -191,20 +193,32 @@ def test_a_file_on_which_the_grader_hangs_costs_only_itself(
     assert [result.refused for result in results] == [why] * 2
 
 
-def test_a_class_that_is_killed_hard_leaves_no_worker(tmp_path: Path) -> None:
+def test_a_class_that_is_killed_hard_leaves_no_worker_and_no_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / 'temporary').mkdir()
     files = [tmp_path / f'student_{number}.yaml' for number in range(3)]
     for file in files:
         file.write_text('waypoints:\n  - [0, 0]\n' + HOURS)
     command = [sys.executable, '-m', 'husky_grader.grade', *map(str, files), '--jobs', '2']
     command += ['--report', str(tmp_path / 'report')]
-    environment = {**os.environ, 'PYTHONPATH': ':'.join(sys.path), 'TMPDIR': str(tmp_path)}
-    with subprocess.Popen(command, env=environment, start_new_session=True) as running:
+    own = {'PYTHONPATH': ':'.join(sys.path), 'TMPDIR': str(tmp_path / 'temporary')}
+    with subprocess.Popen(command, env={**os.environ, **own}, start_new_session=True) as running:
         records = (tmp_path / 'report' / f'student_{number}' / 'run.record' for number in (0, 1))
         for record in records:
             wait_until(record.exists, what=f'{record}', timeout_sec=20.0)
         running.kill()
         running.wait()
         wait_until(lambda: not living(running.pid), what='their end', timeout_sec=3.0)
+    assert len(list((tmp_path / 'temporary').iterdir())) == 1
+    monkeypatch.setattr(tempfile, 'tempdir', str(tmp_path / 'temporary'))
+    of_another = TemporaryFolder()
+    try:
+        assert list((tmp_path / 'temporary').iterdir()) == [of_another.path]
+        TemporaryFolder().remove()
+        assert list((tmp_path / 'temporary').iterdir()) == [of_another.path], 'it is in use'
+    finally:
+        of_another.remove()
 
 
 def test_a_worker_of_a_dead_grader_does_nothing(tmp_path: Path) -> None:

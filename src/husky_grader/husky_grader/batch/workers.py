@@ -18,7 +18,6 @@ from multiprocessing.context import SpawnProcess
 import os
 from pathlib import Path
 from queue import SimpleQueue
-import shutil
 import signal
 import tempfile
 from threading import current_thread, Lock, main_thread
@@ -26,6 +25,7 @@ from threading import current_thread, Lock, main_thread
 from husky_runtime.parent_death import die_with_parent
 
 from husky_grader.batch.job import Job, Outcome
+from husky_grader.batch.temporary_folder import TemporaryFolder
 from husky_grader.run.diagnosis import how_ended
 
 STALLED_CPU_SEC = 60.0
@@ -59,9 +59,9 @@ def workers(
     # Of multiprocessing: it starts with the first process otherwise, and unblocks SIGINT there.
     with _CHANGING, _safe_path():
         resource_tracker.ensure_running()
-    place = tempfile.mkdtemp()
-    Path(place).chmod(0o711)  # the user of a jail passes it, as it passes /tmp
-    all_workers = [_Worker(place) for _ in range(count)]
+    place = TemporaryFolder()
+    place.path.chmod(0o711)  # the user of a jail passes it, as it passes /tmp
+    all_workers = [_Worker(str(place.path)) for _ in range(count)]
     idle: SimpleQueue[_Worker] = SimpleQueue()
     for worker in all_workers:
         idle.put(worker)
@@ -84,7 +84,7 @@ def workers(
             for worker in all_workers:
                 worker.reap()
             threads.shutdown()
-            shutil.rmtree(place, ignore_errors=True)
+            place.remove()
 
 
 class _Worker:
