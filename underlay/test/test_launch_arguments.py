@@ -191,6 +191,24 @@ def test_an_include_sets_arguments_and_knows_its_file(
     assert _logged(launched.output) == [f'inside given {inner}', f'after given yes {outer}']
 
 
+def test_an_argument_of_an_include_is_refused_where_it_stands(
+    python_launch_file: LaunchFile, launch_here: Run
+) -> None:
+    python_launch_file(INNER, 'inner.launch.py')
+    path = python_launch_file(
+        """
+        IncludeLaunchDescription(
+            [ThisLaunchFileDir(), '/inner.launch.py'],
+            launch_arguments={'name': LaunchConfiguration('unset')}.items(),
+        ),
+        """,
+        'outer.launch.py',
+    )
+    line = path.read_text().split('\n').index('        IncludeLaunchDescription(') + 1
+    told = f"launch configuration 'unset' does not exist (at {path}:{line})"
+    assert told in launch_here(path).output
+
+
 def test_a_group_keeps_an_include_to_itself(
     python_launch_file: LaunchFile, launch_here: Run
 ) -> None:

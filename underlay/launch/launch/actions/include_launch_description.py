@@ -97,10 +97,10 @@ class IncludeLaunchDescription(Action):
             get_logger('launch').warning(
                 f'{location} starts nothing: no action has been added to its launch description'
             )
-        return [
-            *(SetLaunchConfiguration(name, value) for name, value in self.launch_arguments),
-            description,
-        ]
+        given = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
+        for each in given:
+            each._location = self._location  # nobody has written them elsewhere
+        return [*given, description]
 
     def __enter_place(self, context: LaunchContext) -> None:
         known = context.get_locals_as_dict()
