@@ -264,6 +264,7 @@ def test_a_package_that_python_asks_for_is_explained(
     for package, hint in {
         'some_package': f'it is in {source}, but not built; run `colcon build --packages-select',
         'rviz2': 'it has no wheel; here `ros2 launch husky_sim husky_playpen.launch.py`',
+        'nav2_bringup': 'it has no wheel; here nothing does its job, but a sourced ROS 2 Jazzy',
         'some_pk': "did you mean 'some_pkg'?",
     }.items():
         path = python_launch_file(f"LogInfo(msg=share('{package}')),", before=before)

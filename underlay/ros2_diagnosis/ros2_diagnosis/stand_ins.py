@@ -45,9 +45,11 @@ BY_PACKAGE = {
     **dict.fromkeys(('rqt_image_view', 'image_view'), _CAMERA),
     'rqt_plot': '`ros2 topic echo TOPIC --csv` prints the numbers',
     **dict.fromkeys(('gazebo_ros', 'ros_gz_sim', 'ros_gz_bridge', 'webots_ros2_driver'), _HUSKY),
-    **dict.fromkeys(('teleop_twist_keyboard', 'teleop_twist_joy'), _TELEOP),
+    **dict.fromkeys(
+        ('teleop_twist_keyboard', 'teleop_twist_joy', 'joy_teleop', 'rqt_robot_steering'), _TELEOP
+    ),
     'joint_state_publisher_gui': _JOINTS,
-    **dict.fromkeys(('urdf_tutorial', 'dummy_robot_bringup'), _URDF),
+    **dict.fromkeys(('urdf_tutorial', 'urdf_launch', 'dummy_robot_bringup'), _URDF),
     'turtle_tf2_cpp': '`ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py` does the same, and '
     '`ros2 pkg executables turtle_tf2_py` lists its programs',
     'demo_nodes_cpp': f'{_TALK}, and `ros2 pkg executables demo_nodes_py` lists more',
@@ -77,7 +79,10 @@ BY_PACKAGE = {
         (
             *('composition', 'demo_nodes_cpp_native', 'intra_process_demo', 'image_tools'),
             *('examples_rclpy_executors', 'examples_rclpy_guard_conditions'),
-            'examples_rclpy_pointcloud_publisher',
+            *('examples_rclpy_pointcloud_publisher', 'joy', 'controller_manager'),
+            *('nav2_bringup', 'nav2_common', 'nav2_simple_commander', 'nav2_map_server'),
+            *('nav2_amcl', 'nav2_lifecycle_manager', 'nav2_controller', 'nav2_planner'),
+            *('slam_toolbox', 'robot_localization', 'cartographer_ros', 'depth_image_proc'),
         ),
         _NOTHING,
     ),

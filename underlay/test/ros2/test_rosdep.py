@@ -107,6 +107,6 @@ def test_a_bad_call_is_refused(tmp_path: Path, command: str, why: str) -> None:
 
 def test_a_package_is_named_by_itself(tmp_path: Path) -> None:
     assert run('rosdep check husky_sim', tmp_path).returncode == 0
-    done = run('rosdep check nav2_bringup', tmp_path)
+    done = run('rosdep check moveit_ros', tmp_path)
     assert done.returncode == 1
-    assert done.stderr.startswith('rosdep: nav2_bringup is not here; ')
+    assert done.stderr.startswith('rosdep: moveit_ros is not here; ')
