@@ -70,12 +70,12 @@ def yaml_mapping(text: str) -> dict[str, Any]:
     except (yaml.YAMLError, ValueError, OverflowError, RecursionError) as error:
         reason = ' '.join(str(error).split())
         raise CommandError(f'{text!r} is no YAML: {reason}') from None
-    if values is None:
-        return {}
     if not isinstance(values, dict):
+        # Nothing is what an unset variable of a shell or an empty pipe gives: no message of zeros.
+        is_what = 'empty' if values is None else f'a {type(values).__name__}'
         raise CommandError(
             'The passed value needs to be a dictionary in YAML format: '
-            f'"{{field: value}}"; {text!r} is a {type(values).__name__}'
+            f'"{{field: value}}"; {text!r} is {is_what}'
         )
     return values
 

@@ -410,6 +410,7 @@ def test_pub_names_what_it_refuses(ros2: Callable[..., Any]) -> None:
     bad = {
         ('std_msgs/msg/String', 'data: [1'): (1, 'is no YAML'),
         ('std_msgs/msg/String', '5'): (1, 'needs to be a dictionary in YAML format'),
+        ('std_msgs/msg/String', ''): (1, """"{field: value}"; '' is empty"""),
         ('std_msgs/msg/String', 'text: x'): (1, "no attribute 'text'; its fields are data"),
         ('std_msgs/msg/Float32', 'data: 1e39'): (1, '1e+39 does not fit a float32'),
         ('std_msgs/msg/Float32', 'data: 3.4028235e38'): (1, '3.4028235e+38 is refused: a node'),
