@@ -20,6 +20,13 @@ _NEEDED = {
     'exclude_topic_types': _MANY_TOPICS,
     'exclude_services': ('all', 'all_services', 'regex'),
 }
+# Who gives these beside one that takes all means to choose among them, and upstream warns, too.
+_OVERRIDING = {
+    'topics': ('all', 'all_topics'),
+    'services': ('all', 'all_services'),
+    'regex': ('all', 'all_topics', 'all_services'),
+}
+_TAKEN = {'all': 'everything', 'all_topics': 'every topic', 'all_services': 'every service'}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -82,6 +89,21 @@ def selection(args: argparse.Namespace) -> Selection:
     found.exclude_topic_types = args.exclude_topic_types
     found.exclude_services = event_topics(args.exclude_services)
     return found
+
+
+def overridden(args: argparse.Namespace) -> list[str]:
+    """Return a line for each option that leaves nothing out, because another takes all."""
+    given = {**vars(args), 'topics': [*args.topics_positional, *args.topics]}
+    lines = []
+    for name, overriding in _OVERRIDING.items():
+        over = next((each for each in overriding if given[each]), None)
+        if given[name] and over:
+            option = _options([over])
+            lines.append(
+                f'{option} records {_TAKEN[over]}: {_options([name])} beside it leaves none out; '
+                f'to choose, leave out {option}'
+            )
+    return lines
 
 
 def _options(attributes: tuple[str, ...] | list[str]) -> str:

@@ -118,6 +118,20 @@ def test_what_is_chosen_is_recorded(
     assert recording.end() & {CHATTER, FLIPS, SUMS} == expected
 
 
+@pytest.mark.parametrize(
+    ('words', 'told'),
+    [
+        (('-a', '-e', 'flip'), '--all records everything: --regex beside it leaves none out; to'),
+        (('--all-topics', CHATTER), '--all-topics records every topic: --topics beside it leaves'),
+        (('-a', '--services', '/flip'), '--all records everything: --services beside it leaves'),
+    ],
+)
+def test_a_choice_beside_everything_is_told(
+    processes: Any, tmp_path: Path, words: tuple[str, ...], told: str
+) -> None:
+    Recording(processes, tmp_path, *words, ready=told).end()
+
+
 def test_it_counts_who_else_uses_a_topic(graph: Any, shared_domain: int, tmp_path: Path) -> None:
     with SpunNodes(shared_domain) as nodes:
         node = nodes.start(Node, 'student')

@@ -100,6 +100,8 @@ class RecordVerb(VerbExtension):
             command_node(args, name=args.node_name, may_spin_when_interrupted=True) as node,
         ):
             node_options.set_log_level(node, args.log_level)
+            for line in choice.overridden(args):
+                node.node.get_logger().warning(line)
             recorder = Recorder(
                 node,
                 writer,
