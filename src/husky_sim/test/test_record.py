@@ -7,6 +7,7 @@ import math
 import os
 from pathlib import Path
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -276,6 +277,16 @@ def test_what_is_no_record_is_refused_in_one_line(
         read_record(tmp_path / FILE_NAME)
     assert '\n' not in str(refused.value)
     assert str(refused.value).startswith(f'{tmp_path / FILE_NAME}: ')
+
+
+def test_the_record_beside_what_was_given_is_named(tmp_path: Path) -> None:
+    page = tmp_path / 'report.html'
+    page.write_text('<!doctype html>')
+    with pytest.raises(RecordRefused, match=r'; drive it again$'):
+        read_record(page)
+    (tmp_path / FILE_NAME).touch()
+    with pytest.raises(RecordRefused, match=f'; {re.escape(str(tmp_path / FILE_NAME))} beside'):
+        read_record(page)
 
 
 OBSTACLE = {'name': 'cone', 'x': 0.0, 'y': 0.0, 'yaw': 0.0, 'size': [0.2]}

@@ -180,15 +180,18 @@ def read_record(path: str | Path) -> Record:
     except RecordRefused:
         raise
     except (ValueError, KeyError, TypeError, OverflowError, MemoryError) as error:
+        near = file.with_name(FILE_NAME)
+        is_beside = near != file and near.is_file()
+        mend = f'{near} beside it is one' if is_beside else 'drive it again'
         raise RecordRefused(
-            f'{file}: damaged, or not the record of a run ({error}); drive it again'
+            f'{file}: damaged, or not the record of a run ({error}); {mend}'
         ) from error
 
 
 def _read(file: str, blocks: Iterator[Any], size: int) -> Record:
     header = next(blocks, None)
     if not isinstance(header, dict) or header.get('format') != FORMAT:
-        raise RecordRefused(f'{file}: not the record of a run (format is not {FORMAT!r})')
+        raise ValueError(f'format is not {FORMAT!r}')
     if header['version'] != VERSION:
         raise RecordRefused(
             f'{file}: version {header["version"]!r}, but only {VERSION} is known here; drive again'
