@@ -142,6 +142,9 @@ def _wrong_rule(option: str, value: str) -> Iterator[Finding]:
         yield Finding(shown, 'there is no := in it', f'write {mend}')
     elif not new:
         yield Finding(shown, 'nothing stands behind :=', f'write {_form(option)}')
+    elif option in _PARAMETER and new.startswith('[') and not new.rstrip().endswith(']'):
+        mend = f"write the whole in quotes, `{option} '{old}:=[A, B]'`"
+        yield Finding(shown, 'the list has no end: the shell cuts it at each blank', mend)
     elif option in _REMAP:
         kind = old.rpartition(':')[2]
         if kind == '__ns' and not new.startswith('/'):

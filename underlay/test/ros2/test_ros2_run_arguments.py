@@ -32,6 +32,7 @@ _WRITE = 'write NODE: ros__parameters: NAME: VALUE, each on a line of its own, t
         ('-p use_sim_time=true', 'write `-p use_sim_time:=true`'),
         ('-p rate: 5.0', '-p rate:: there is no := in it; write `-p NAME:=VALUE`, in one word'),
         ('-p rate:=', '-p rate:=: nothing stands behind :=; write `-p NAME:=VALUE`'),
+        ('-p start:=[1.0, 3.0]', "at each blank; write the whole in quotes, `-p 'start:=[A, B]'`"),
         ('-r', '-r: nothing stands behind it; write `-r OLD:=NEW`'),
         ('--log-level', '--log-level: nothing stands behind it'),
         ('-r __ns:=robot', 'a namespace begins with /; write `-r __ns:=/robot`'),
