@@ -328,3 +328,10 @@ def test_where_no_cluster_answers_one_line_says_so(
     assert grade([*command, '--executor', 'dask:tcp://127.0.0.1:9']) == 2
     (line,) = (line for line in capsys.readouterr().err.splitlines() if 'dask:' in line)
     assert 'start one: ./lab exec dask scheduler' in line
+
+    def connects(**_: object) -> None:
+        pytest.fail('a client with such an address ends after 40 s, with a traceback')
+
+    monkeypatch.setattr('distributed.Client', connects)
+    assert grade([*command, '--executor', 'dask:127.0.0.1']) == 2
+    assert 'dask:127.0.0.1: missing port number in address' in capsys.readouterr().err

@@ -35,13 +35,18 @@ def cluster(address: str) -> Iterator[Executor]:
     """
     try:
         from distributed import Client
+        from distributed.comm import get_address_host_port
     except ImportError:
         raise ClusterFails(
             f'{ADDRESS}{address} needs distributed, which is not installed here: '
             './lab exec pip install distributed'
         ) from None
     try:
-        where = {'scheduler_file': address} if Path(address).is_file() else {'address': address}
+        where = {'scheduler_file': address}
+        if not Path(address).is_file():
+            # A client with an address that it cannot read ends after 40 s, with a traceback.
+            get_address_host_port(address)
+            where = {'address': address}
         client = Client(**where, timeout=CONNECT_WITHIN_SEC, set_as_default=False)
     except (OSError, ValueError) as error:
         why = str(error).splitlines()[0] if str(error) else 'no answer'
