@@ -247,14 +247,14 @@ def _waypoint_files(given: str) -> list[str]:
     """
     if not Path(given).is_dir():
         return [given]
-    files, inner = _yaml_files(given), _folders_passed_over(given)
+    files = _yaml_files(given)
+    notes = list(filter(None, (_folders_passed_over(given), _names_passed_over(given))))
     if not files:
-        raise ValueError(
-            f'{given}: no waypoint file lies in this folder (*.yaml); what was handed in for a '
-            f'lab is graded by --lab {given}{inner and f"; {inner}"}'
-        )
-    if inner:
-        print(printable(f'{given}: {inner}'), file=sys.stderr)
+        lab = f'what was handed in for a lab is graded by --lab {given}'
+        what = f'no waypoint file lies in this folder (*.yaml); {"; ".join([lab, *notes])}'
+        raise ValueError(f'{given}: {what}')
+    for note in notes:
+        print(printable(f'{given}: {note}'), file=sys.stderr)
     return files
 
 
@@ -273,8 +273,20 @@ def _folders_passed_over(given: str) -> str:
         for folder in sorted(Path(given).glob('[!.]*'))
         if _yaml_files(folder) and not (folder / 'report.json').exists()
     ]
-    few = ', '.join(inner[:3]) + (', ...' if len(inner) > 3 else '')
-    return f'what lies in its folders ({few}) is graded by {Path(given)}/*/' if inner else ''
+    return (
+        f'what lies in its folders ({_few(inner)}) is graded by {Path(given)}/*/' if inner else ''
+    )
+
+
+def _names_passed_over(given: str) -> str:
+    """Return a word about files in a folder which Windows has given a second ending it hides."""
+    names = [file.name for file in sorted(Path(given).glob('[!.]*.[Tt][Xx][Tt]'))]
+    names = [name for name in names if Path(Path(name).stem).suffix.lower() in YAML]
+    return f'take .txt off the names of {_few(names)}, which are passed over' if names else ''
+
+
+def _few(names: list[str]) -> str:
+    return ', '.join(names[:3]) + (', ...' if len(names) > 3 else '')
 
 
 def _make_gradescope(options: argparse.Namespace) -> int:

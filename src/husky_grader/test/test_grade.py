@@ -261,11 +261,13 @@ def test_bad_input_is_refused_with_one_line(
 def test_a_folder_stands_for_its_waypoint_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ('b.yml', 'a.yaml', 'C.YAML', 'notes.txt', '._a.yaml'):
+    for name in ('b.yml', 'a.yaml', 'C.YAML', 'notes.txt', '._a.yaml', 'D.yaml.txt'):
         (tmp_path / name).write_text('waypoints: []\n')
     assert grade([str(tmp_path), '--jobs', '1', '--report', str(tmp_path / 'report')]) == 1
-    lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines[:-1]] == ['C', 'a', 'b']
+    printed = capsys.readouterr()
+    assert [line.split()[0] for line in printed.out.splitlines()[:-1]] == ['C', 'a', 'b']
+    told = f'{tmp_path}: take .txt off the names of D.yaml.txt, which are passed over'
+    assert printed.err.splitlines()[0] == told
 
 
 def test_what_lies_in_folders_of_a_folder_is_named(
