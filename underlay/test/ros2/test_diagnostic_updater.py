@@ -132,14 +132,25 @@ def test_a_publisher_tells_of_its_messages(domain: int) -> None:
         driver = Listener(nodes)
         bound = FrequencyStatusParam({'min': 0.01}, window_size=1)
         points = driver.node.create_publisher(PointStamped, 'points', 10)
+        heard: list[PointStamped] = []
+        driver.node.create_subscription(PointStamped, 'points', heard.append, 10)
+        wait_until(
+            lambda: points.get_subscription_count() == 1,
+            timeout_sec=10.0,
+            what='a subscription of the points',
+        )
         diagnosed = DiagnosedPublisher(points, driver.updater, bound, TimeStampStatusParam())
         message = PointStamped(header=Header(stamp=driver.node.get_clock().now().to_msg()))
         diagnosed.publish(message)
+        wait_until(lambda: heard == [message], timeout_sec=10.0, what='the message itself')
         driver.updater.force_update()
         good = 'Desired frequency met; Timestamps are reasonable.'
         status = driver.until(OK, 'driver: /points topic status', good)
         assert status.values[0].value == '1'
+        diagnosed.tick(driver.node.get_clock().now())
         diagnosed.clear_window()
+        driver.updater.force_update()
+        driver.until(ERROR, 'driver: /points topic status', 'No events recorded.')
         diagnosed.publish(PointStamped(header=Header(stamp=Time(seconds=1).to_msg())))
         driver.updater.force_update()
         late = 'Timestamps too far in past seen.'
@@ -239,6 +250,23 @@ def test_events_are_counted_in_their_window(
         'Minimum acceptable frequency (Hz)': '4.000000',
         'Maximum acceptable frequency (Hz)': '12.000000',
     }
+
+
+def test_what_has_stopped_is_bad_when_its_window_is_over(at: Callable[[float], None]) -> None:
+    status = FrequencyStatus(FrequencyStatusParam({'min': 2.0}, 0.0, 3))
+    told = []
+    for sec in range(1, 9):
+        if sec <= 4:
+            status.tick()
+            status.tick()
+        at(100.0 + sec)
+        stat = status.run(DiagnosticStatusWrapper())
+        told.append((stat.message.split()[-1], stat.values[0].value, stat.values[2].value[:1]))
+    met = ('met', '6', '3')
+    assert told == [
+        *[('met', '2', '1'), ('met', '4', '2'), met, met],
+        *[('low.', '4', '3'), ('low.', '2', '3'), *2 * [('recorded.', '0', '3')]],
+    ]
 
 
 def test_equal_bounds_are_a_target(at: Callable[[float], None]) -> None:
