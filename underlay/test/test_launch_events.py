@@ -162,19 +162,41 @@ def test_actions_of_a_timer_know_what_was_known_where_it_stands(
     ]
 
 
-@pytest.mark.parametrize(('cancelled', 'expected'), [('false', ['rang']), ('true', [])])
+@pytest.mark.parametrize(
+    ('given', 'expected'),
+    [
+        ({'cancel_on_shutdown': LaunchConfiguration('no')}, ['rang']),
+        ({'cancel_on_shutdown': LaunchConfiguration('yes')}, []),
+        ({}, []),
+    ],
+)
 def test_a_timer_asks_whether_the_end_cancels_it_where_it_stands(
-    cancelled: str, expected: list[str]
+    given: dict[str, Any], expected: list[str]
 ) -> None:
     notes: list[str] = []
-    timer = TimerAction(
-        period=0.05,
-        actions=[_note(notes, 'rang')],
-        cancel_on_shutdown=LaunchConfiguration('cancelled'),
-    )
-    group = GroupAction([timer], launch_configurations={'cancelled': cancelled})
+    timer = TimerAction(period=0.05, actions=[_note(notes, 'rang')], **given)
+    group = GroupAction([timer], launch_configurations={'no': 'false', 'yes': 'true'})
     assert _run(group, Shutdown()) == 0
     assert notes == expected
+
+
+def test_a_timer_in_xml_goes_on_at_the_end_where_it_says_so(
+    launch_file: LaunchFile, launch_here: Run
+) -> None:
+    launched = launch_here(
+        launch_file(
+            """
+            <launch>
+              <timer period="0.05"><log message="cancelled"/></timer>
+              <timer period="0.05" cancel_on_shutdown="false"><log message="rang"/></timer>
+              <shutdown/>
+            </launch>
+            """,
+            'test.launch.xml',
+        )
+    )
+    assert '[INFO] [launch.user]: rang' in launched.lines
+    assert 'cancelled' not in launched.output
 
 
 def test_own_events_reach_own_handlers_until_unregistered() -> None:
