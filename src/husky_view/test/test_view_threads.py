@@ -3,13 +3,14 @@
 """Where the thread of the server and the one that draws meet."""
 
 import asyncio
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 import threading
 import time
 
 from husky_view.picture.camera import add_camera_buttons
 from husky_view.picture.page import FOLLOW, TOP
-from husky_view.server import close_server, PageServer
+from husky_view.server import ActionQueue, close_server, MOST_ACTIONS, PageServer
 from playpen_testing.page_client import PageClient
 from playpen_testing.waiting import wait_until
 import pytest
@@ -68,3 +69,25 @@ def test_clicks_that_come_at_once_are_heard_as_they_were_made(server: PageServer
             tab.set('Camera', preset)
         wait_until(lambda: len(heard) == len(clicked), timeout_sec=10.0, what='every click')
     assert heard == clicked
+
+
+def test_what_is_urgent_goes_first_and_is_never_left_out() -> None:
+    actions, done = ActionQueue(), list[object]()
+
+    def doing(what: object) -> Callable[[], None]:
+        return partial(done.append, what)
+
+    for number in range(MOST_ACTIONS + 1):
+        actions.put(doing(number))
+    actions.put(doing('STOP'), urgent=True)
+    actions.run_urgent()
+    assert done == ['STOP']
+    actions.put(doing('STOP again'), urgent=True)
+
+    def are_all_done() -> bool:
+        actions.run()  # as much as fits into a frame
+        return len(done) == MOST_ACTIONS + 2
+
+    wait_until(are_all_done, timeout_sec=10.0, what='every action but the last')
+    actions.run()
+    assert done == ['STOP', 'STOP again', *range(MOST_ACTIONS)]
