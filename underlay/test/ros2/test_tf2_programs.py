@@ -14,7 +14,7 @@ import sys
 import time
 from typing import Any
 
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import PointStamped, TransformStamped
 from playpen_testing.here import run_here
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
@@ -22,6 +22,7 @@ import pytest
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
+import tf2_geometry_msgs  # noqa: F401  # it registers what transforms points
 import tf2_ros
 from tf2_ros import tf2_echo
 
@@ -347,6 +348,29 @@ def test_a_buffer_client_gets_transforms_and_refusals(
     assert client.can_transform_full(*asked)
     with pytest.raises(TypeError, match=r'^Must pass a rclpy.time.Time object.$'):
         client.lookup_transform('odom', 'base', 1.0)
+
+
+def test_a_buffer_client_asks_for_the_times_that_it_is_given(
+    client: tf2_ros.BufferClient,
+) -> None:
+    sender = tf2_ros.TransformBroadcaster(client.node)
+    wait_until(
+        sender.pub_tf.get_subscription_count, timeout_sec=10.0, what='the ear of the server'
+    )
+    moved = []
+    for sec in (1, 3):
+        each = TransformStamped(child_frame_id='base')
+        each.header.frame_id, each.header.stamp.sec = 'odom', sec
+        each.transform.translation.x = float(sec**2)
+        moved.append(each)
+    sender.sendTransform(moved)
+    between = client.lookup_transform('odom', 'base', Time(seconds=2), Duration(seconds=10))
+    assert between.transform.translation.x == 5.0
+    asked = ('base', Time(seconds=1), 'base', Time(seconds=3), 'odom')
+    assert client.lookup_transform_full(*asked).transform.translation.x == 8.0
+    point = tf2_ros.Stamped(PointStamped(), Time(seconds=2).to_msg(), 'base')
+    with pytest.warns(UserWarning, match='Passing a builtin_interfaces.msg.Time'):
+        assert client.transform(point, 'odom').point.x == 5.0
 
 
 def test_a_buffer_client_without_a_server_says_so(domain: int) -> None:

@@ -278,6 +278,8 @@ def test_what_a_package_registers_transforms_and_converts() -> None:
     assert buffer.transform(spot, 'odom', new_type=float) == 2.0
     assert buffer.transform_full(spot, 'base', Time(seconds=3), 'odom').point.x == -1.0
     assert tf2_ros.convert(spot, Spot) is not spot
+    tf2_ros.ConvertRegistration().add_convert((Spot, float), lambda spot: 10.0 * spot.point.x)
+    assert buffer.transform(spot, 'odom', new_type=float) == 20.0  # straight, not by a message
 
 
 @pytest.mark.parametrize(
