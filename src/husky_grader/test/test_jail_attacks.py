@@ -162,6 +162,26 @@ def test_a_temporary_folder_on_pythonpath_hides_no_workspace(
     assert log.read_text() == 'to read'
 
 
+def test_a_jail_goes_without_a_sourced_solution_but_not_without_ros(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    merged, alone, ros, messages = (tmp_path / each for each in ('ws', 'in', 'ros', 'course'))
+    for place in (
+        merged / 'share' / 'solved',
+        alone / 'solved',  # install of a workspace, a folder for each package
+        *(ros / 'share' / name for name in ('rclpy', 'solved')),
+        messages / 'share' / 'course_msgs',
+    ):
+        place.mkdir(parents=True)
+    given = ':'.join(map(str, (merged, alone, ros, messages)))
+    log = tmp_path / 'log'
+    for without, shown in (((), given), (['solved'], f'{ros}:{messages}')):
+        monkeypatch.setenv('COLCON_PREFIX_PATH', given)
+        with Jail(find_sandbox('none'), folder, without=without) as jail:
+            jail.run(['printenv', 'COLCON_PREFIX_PATH'], log=log, within_sec=10.0)
+        assert log.read_text() == f'{shown}\n'
+
+
 @in_each_sandbox
 def test_nothing_is_written_beside_the_folder(sandbox: Sandbox, folder: Path) -> None:
     with Jail(sandbox, folder) as jail:

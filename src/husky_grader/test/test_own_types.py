@@ -279,6 +279,7 @@ def test_a_cache_that_cannot_be_written_is_told(
 @pytest.mark.usefixtures('cache')
 def test_what_a_rubric_is_read_from_holds_its_interfaces() -> None:
     rubric = load_rubric(RUBRIC)
+    assert rubric.packages == ('odometer_interfaces', 'odometer')
     assert rubric.files[0] == RUBRIC
     assert INTERFACES / 'msg' / 'Distance.msg' in rubric.files
     assert RUBRIC.parent / 'courses' / 'short.yaml' in rubric.files
