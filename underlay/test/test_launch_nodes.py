@@ -274,6 +274,11 @@ def test_a_package_that_python_asks_for_is_explained(
         assert f"package '{package}' not found, searching: [" in said
         assert said.count(hint) == 1
         assert f'(at {path}:' in said
+    path = python_launch_file('', before=f'{before}from nav2_common.launch import RewrittenYaml\n')
+    with pytest.raises(InvalidLaunchFileError) as caught:
+        get_launch_description_from_any_launch_file(str(path))
+    said = describe_error(caught.value)
+    assert "No module named 'nav2_common': it has no wheel; here nothing does its job, but" in said
 
 
 def test_a_missing_parameter_file_is_warned_about(

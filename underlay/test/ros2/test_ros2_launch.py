@@ -63,6 +63,13 @@ def test_no_file_of_ros2_launch_is_named_as_the_place_of_an_error(
     assert 'ros2launch' not in answer.out + answer.err
 
 
+def test_an_import_that_has_no_wheel_is_said(package: Path, ros2: Callable[..., Any]) -> None:
+    path = package / 'greet.launch.py'
+    path.write_text(f'import webots_ros2_driver\n{_LAUNCH}')
+    told = "No module named 'webots_ros2_driver': it has no wheel; here `ros2 launch husky_sim"
+    assert ros2('launch', str(path)).out.count(told) == 1
+
+
 @pytest.mark.usefixtures('package')
 def test_arguments_are_shown(ros2: Callable[..., Any]) -> None:
     answer = ros2('launch', 'demo', 'greet.launch.py', '--show-args')

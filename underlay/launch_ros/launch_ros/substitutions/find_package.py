@@ -73,7 +73,11 @@ class FindPackageShare(FindPackage):
 
 
 def _explain(error: BaseException) -> str:
-    """Say why a package is missing that a launch file in Python asked ament_index_python for."""
+    """Say why a package is missing that a launch file in Python asked for, or imports."""
+    if isinstance(error, ModuleNotFoundError):
+        from ros2_diagnosis import stand_ins
+
+        return stand_ins.hint((error.name or '').partition('.')[0])
     packages = sys.modules.get('ament_index_python.packages')
     if packages is None or not isinstance(error, packages.PackageNotFoundError):
         return ''

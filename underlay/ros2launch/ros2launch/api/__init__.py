@@ -18,6 +18,7 @@ from launch.launch_description_sources import (
     get_launch_description_from_any_launch_file,
 )
 from launch.launch_introspector import format_substitutions
+import launch_ros.substitutions  # noqa: F401 -- says why a package is missing, to any file
 from ros2cli.errors import CommandError
 
 from ..option import OptionExtension
