@@ -395,7 +395,8 @@ def test_colcon_and_ros2_run_say_it(
     monkeypatch.setenv('PYTHONPATH', str(prefix / 'lib/python3/site-packages'))
     (finding,) = workspaces.check_changed('talk', prefix)  # as if it was built as copies before
     assert str(finding).startswith('talk: built with `--symlink-install` since this terminal was')
-    monkeypatch.setenv('PYTHONPATH', str(tmp_path / 'build' / 'talk'))
+    (link := tmp_path / 'link').symlink_to(tmp_path)
+    monkeypatch.setenv('PYTHONPATH', str(link / 'build' / 'talk'))
     assert list(workspaces.check_changed('talk', prefix)) == []
     # A second workspace has a package of that name, and is sourced without this one or after it.
     other = tmp_path / 'other'

@@ -172,8 +172,8 @@ def _check_changed(
         yield from _check_setup_py(package, prefix, source, workspace)
     for link in prefix.glob('lib/python3*/site-packages/*.egg-link'):
         modules = Path(link.read_text().partition('\n')[0])
-        sourced = os.environ.get('PYTHONPATH', '').split(os.pathsep)
-        if modules.name == package and str(modules) not in sourced:
+        sourced = map(Path, os.environ.get('PYTHONPATH', '').split(os.pathsep))
+        if modules.name == package and modules.resolve() not in {p.resolve() for p in sourced}:
             yield Finding(
                 package,
                 'built with `--symlink-install` since this terminal was sourced, which looks for '
