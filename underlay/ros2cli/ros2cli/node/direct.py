@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 import math
 import os
 import signal
@@ -208,13 +208,13 @@ def command_node(
     name: str | None = None,
     may_spin_when_interrupted: bool = False,
 ) -> Iterator[CommandNode]:
-    """Give a node for the time of a command; Ctrl-C and SIGTERM end it cleanly.
+    """Give a node for the time of a command; Ctrl-C, SIGTERM and a closed terminal end it cleanly.
 
     :param may_spin_when_interrupted: a signal comes as KeyboardInterrupt from
-        `CommandNode.spin_until`, once, also where the terminal is closed: the node may still be
-        used then, and further signals are ignored, so that the command must end soon.
+        `CommandNode.spin_until`, once: the node may still be used then, and further signals are
+        ignored, so that the command must end soon.
     """
-    with _first_signal() if may_spin_when_interrupted else nullcontext() as interrupted:
+    with _first_signal() if may_spin_when_interrupted else _closed_terminal_ends() as interrupted:
         node = CommandNode(args, node_name=name, interrupted=interrupted)
         try:
             with _ended_by_signals():
@@ -240,6 +240,20 @@ def _ended_by_signals() -> Iterator[None]:
         if rclpy.ok():
             raise
         raise KeyboardInterrupt from None
+
+
+@contextmanager
+def _closed_terminal_ends() -> Iterator[None]:
+    """Let SIGHUP end ROS as SIGTERM does, or the node's shared memory would be left."""
+    before = signal.getsignal(signal.SIGHUP)
+    if before is not signal.SIG_DFL or threading.current_thread() is not threading.main_thread():
+        yield  # under nohup it is ignored
+        return
+    signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 @contextmanager
