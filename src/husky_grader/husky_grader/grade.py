@@ -349,7 +349,9 @@ def _grade_controller(options: argparse.Namespace) -> int:
             )
         )
     run = read_run(live.record)
-    report = live.with_notes(judge(run, route, wall_time_sec=time.monotonic() - begun))
+    took_sec = time.monotonic() - begun
+    judged = judge(run, route, wall_time_sec=took_sec, interface=options.interface)
+    report = live.with_notes(judged)
     grade = Grade(options.controller, as_json(report), summary(report))
     return _show_one(grade, options, _write(folder, report, run, route))
 

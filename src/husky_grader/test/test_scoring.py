@@ -145,10 +145,12 @@ def test_one_that_turned_over_is_told_when_and_where(make_record: Make) -> None:
 
 def test_a_robot_that_never_moves_gets_nothing_and_is_told_why(make_record: Make) -> None:
     for course in (STRAIGHT, LOOP):
-        report = judge(read_run(make_record([(0.0, 0.0)] * 50)), course)
+        run = read_run(make_record([(0.0, 0.0)] * 50))
+        report = judge(run, course)
         assert report.score == 0.0
         assert not report.completed
-        assert 'no command that moves it arrived' in report.reasons[0]
+        assert 'no command that moves it arrived on husky_veloc' in report.reasons[0]
+        assert 'it arrived on cmd_vel; ' in judge(run, course, interface='clearpath').reasons[0]
 
 
 @pytest.mark.parametrize(

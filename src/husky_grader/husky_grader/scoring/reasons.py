@@ -20,6 +20,9 @@ from husky_grader.scoring.measurement import (
     STANDING_RAD_S,
 )
 
+COMMANDS = {'lab': 'husky_velocity_controller/cmd_vel', 'clearpath': 'cmd_vel'}
+"""The topic of commands that is told, by interface."""
+
 MAX_LINES = 4  # of one kind
 MOVED_M = 0.05
 
@@ -39,13 +42,13 @@ FRAMES: dict[str, Frame] = {
 }
 
 
-def reasons_for(run: Run, route: Route, measured: Measurement) -> tuple[str, ...]:
+def reasons_for(run: Run, route: Route, measured: Measurement, interface: str) -> tuple[str, ...]:
     """Return one line for each thing that went wrong, most important first."""
     course = route.course
     first = [*disturbance_lines(run), *_early_end(run)]
     if not _moved(run) and not measured.completed:
         # Nobody knows what came after a record broke off: its first two seconds are one block.
-        found = [_why_still(run)] if run.complete else []
+        found = [_why_still(run, interface)] if run.complete else []
     else:
         found = [*_collisions(run), *_overturn(run), *_missed(run, course, measured.visits)]
         found += _ending(run, course, all(measured.visits)) if run.complete else []
@@ -92,12 +95,11 @@ def _moved(run: Run) -> bool:
     return bool(np.hypot(run.x - run.x[0], run.y - run.y[0]).max() > MOVED_M)
 
 
-def _why_still(run: Run) -> str:
+def _why_still(run: Run, interface: str) -> str:
     if not run.command_speed_m_s.any() and not run.command_yaw_rate_rad_s.any():
         return (
-            'it never moved: no command that moves it arrived on '
-            'husky_velocity_controller/cmd_vel; check the topic name, the message type and the '
-            'values, and that the node spins'
+            f'it never moved: no command that moves it arrived on {COMMANDS[interface]}; check '
+            'the topic name, the message type and the values, and that the node spins'
         )
     if not run.command_speed_m_s.any():
         return 'it never moved from its place: it was only told to turn (linear.x was always 0)'

@@ -70,10 +70,16 @@ class Report(Measurement):
         return self.completed and not trouble
 
 
-def judge(run: Run, route: Route, *, wall_time_sec: float | None = None) -> Report:
-    """Return the report on a run."""
+def judge(
+    run: Run, route: Route, *, wall_time_sec: float | None = None, interface: str = 'lab'
+) -> Report:
+    """
+    Return the report on a run.
+
+    :param interface: by which topics the Husky was driven: lab or clearpath.
+    """
     measured = measure(run, route, align(run, route))
-    reasons = reasons_for(run, route, measured)
+    reasons = reasons_for(run, route, measured, interface)
     factors = [
         ('completion', _completion(measured)),
         ('collisions', _collisions([touch.obstacle for touch in measured.collisions])),
