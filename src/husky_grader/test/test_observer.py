@@ -4,13 +4,14 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 import os
 from pathlib import Path
 import subprocess
 import sys
 import time
 
-from husky_grader.lab.observer import observe
+from husky_grader.lab.observer import new_token, observe
 from husky_grader.lab.patience import crowding
 from husky_grader.rubric.steps import FieldCheck, PublisherStep, ServiceStep, SubscriberStep
 from husky_grader.run.printed import MAX_AROUND, MAX_LINES, printed_lines
@@ -109,6 +110,25 @@ def test_a_number_is_not_heard_by_who_does_not_listen(
     found = observe(STEP, lambda: False, tmp_path / 'log', tmp_path)
     assert found.score == 0.0
     assert found.why == 'it listens to nothing; the lab asks for /topic_test'
+
+
+@pytest.mark.parametrize(
+    ('kind', 'sent', 'most'),
+    [
+        ('std_msgs/msg/String', {'data': 'hello {token}'}, 10**12),
+        ('std_msgs/msg/Header', {'frame_id': '{token}', 'stamp': {'sec': 1}}, 10**12),
+        ('sensor_msgs/msg/JointState', {'name': ['a', '{token}']}, 10**12),
+        ('std_msgs/msg/Float32', {'data': '{token}'}, 2**24),
+        ('std_msgs/msg/Int32', {'data': '{token}'}, 2**24),
+        ('std_msgs/msg/Header', {'frame_id': '{token}', 'stamp': {'sec': '{token}'}}, 2**24),
+        ('std_msgs/msg/Float64MultiArray', {'data': ['{token}']}, 2**24),
+    ],
+)
+def test_a_number_in_a_text_is_one_of_more_than_a_program_can_print(
+    kind: str, sent: dict[str, object], most: int
+) -> None:
+    token = int(new_token(replace(STEP, type=kind, sent=sent)))
+    assert most / 10 <= token <= most
 
 
 def test_it_waits_longer_for_a_program_that_gets_less_of_a_processor(tmp_path: Path) -> None:

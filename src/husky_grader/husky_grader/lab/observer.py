@@ -61,6 +61,8 @@ JUDGED_GAPS = 2  # between messages: of fewer no rate is told while there is tim
 LISTEN_TIMES = 4  # at most, while a rate is unknown, or off by no more tolerances than ...
 DOUBTFUL_TOLERANCES = 4.0
 TOKENS = (10_000_000, 2**24)  # any field of numbers but the smallest holds them exactly
+# What listens, and prints numbers as fast as it can, comes to most of those before its time is up.
+TEXT_TOKENS = (10**11, 10**12 - 1)
 MAX_MESSAGES = 2000  # that are judged
 # What rclpy warns of, once, where on a busy machine the server has found the client too late.
 RESPONSE_LOST = 'client will not receive response'
@@ -289,7 +291,7 @@ def _why_silent(step: PublisherStep, graph: Graph) -> str:
 
 
 def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding:
-    token = str(random.randint(*TOKENS))
+    token = new_token(step)
     message = filled(get_message(step.type)(), with_token(step.sent, token))
     matched: list[object] = []  # who has listened: what is printed else is guessed
     publisher = observer.node.create_publisher(
@@ -316,6 +318,24 @@ def _subscriber(step: SubscriberStep, observer: _Observer, log: Path) -> Finding
         return Finding(f'it prints "{step.printed}"')
     shown = _LOGGED_AT.sub('', lines()[0]).replace(token, TOKEN)
     return Finding('', defects={'printed': f'it prints "{shown}"; {asked(step.printed)}'})
+
+
+def new_token(step: SubscriberStep) -> str:
+    """Return a number to be heard and printed: one of many where it is sent in texts alone."""
+    try:
+        sent = with_token(step.sent, str(TEXT_TOKENS[1]))
+        is_text = _is_in_texts(step.sent, filled(get_message(step.type)(), sent))
+    except ValueError:  # that is too large for a number, or too long for a text
+        is_text = False
+    return str(random.randint(*(TEXT_TOKENS if is_text else TOKENS)))
+
+
+def _is_in_texts(value: Any, field: Any) -> bool:
+    """Tell whether a value of a rubric has its token in texts, by the field that it was put in."""
+    if isinstance(value, Mapping):
+        return all(_is_in_texts(each, getattr(field, name)) for name, each in value.items())
+    entries = field if isinstance(field, list) else [field]
+    return TOKEN not in str(value) or all(isinstance(entry, str) for entry in entries)
 
 
 def _why_deaf(step: SubscriberStep, graph: Graph) -> str:
