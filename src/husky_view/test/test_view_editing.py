@@ -3,11 +3,13 @@
 """The editor as a page uses it, without a browser: which file is written, and with what."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 from husky_course.robot import RobotStart
-from husky_course.waypoints import load_course
+from husky_course.waypoints import Course, load_course, Waypoint
 from husky_sim.world import default_worlds, load_world
+from husky_view.editor.course import CourseRefused, EditableCourse, save
 from husky_view.editor.editor import Editor, NEW
 from husky_view.server import ActionQueue, close_server, PageServer
 from playpen_testing.page_client import PageClient
@@ -102,3 +104,37 @@ def test_what_is_new_has_nothing_of_the_file_that_was_open(desk: Desk, tmp_path:
     assert told.startswith('mine.yaml is there already: save again to replace it')
     assert desk.save()[0] == 'Saved'
     assert mine.read_text() != before
+
+
+def test_every_edit_is_undone_and_what_is_deleted_is_what_was_selected() -> None:
+    edited, seen = EditableCourse(), list[list[float]]()
+
+    def places() -> list[float]:
+        return [waypoint.x_m for waypoint in edited.course.waypoints]
+
+    for number in (1, 2, 3, 4):
+        edited.add(number, 0.0)
+        assert edited.selected == number - 1
+    edited.begin_move(1)
+    edited.move(1, 2.5, 0.0)
+    for change in (
+        edited.delete_selected,  # the one that was moved
+        edited.delete_selected,  # none is selected any more: the last one
+        edited.clear,
+        edited.delete_selected,
+        partial(edited.load, Course(name='', waypoints=(Waypoint(9.0, 0.0),))),
+    ):
+        change()
+        seen.append(places())
+    assert seen == [[1.0, 3.0, 4.0], [1.0, 3.0], [], [], [9.0]]
+    undone = list[list[float]]()
+    for _ in range(5):
+        edited.undo()
+        undone.append(places())
+    assert undone == [[], [1.0, 3.0], [1.0, 3.0, 4.0], [1.0, 2.5, 3.0, 4.0], [1.0, 2.0, 3.0, 4.0]]
+
+
+def test_what_the_driver_would_refuse_is_not_saved(tmp_path: Path) -> None:
+    with pytest.raises(CourseRefused, match='waypoints'):
+        save(Course(name='', waypoints=(Waypoint(1.0, 0.0),) * 2), tmp_path, 'twice')
+    assert list(tmp_path.iterdir()) == []
