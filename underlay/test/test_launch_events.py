@@ -7,6 +7,7 @@ from collections.abc import Callable
 import contextlib
 from pathlib import Path
 import signal
+import time
 from typing import Any
 
 from launch import Event, EventHandler, LaunchContext, LaunchDescription, LaunchService
@@ -263,6 +264,19 @@ def test_functions_return_actions_and_coroutines_run_beside() -> None:
         OpaqueCoroutine(coroutine=tick, args=['from coroutine']),
     )
     assert notes == ['from function', 'from coroutine']
+
+
+def test_the_end_of_the_launch_cancels_a_coroutine() -> None:
+    begun: list[str] = []
+
+    async def wait(_context: LaunchContext, *, text: str) -> None:
+        begun.append(text)
+        await asyncio.sleep(60.0)
+
+    begin_sec = time.monotonic()
+    waiting = OpaqueCoroutine(coroutine=wait, kwargs={'text': 'begun'})
+    assert _run(waiting, TimerAction(period=0.05, actions=[Shutdown()])) == 0
+    assert (begun, time.monotonic() - begin_sec < 30.0) == (['begun'], True)
 
 
 def test_an_error_in_a_handler_ends_the_launch_with_status_1(

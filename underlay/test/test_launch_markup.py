@@ -33,6 +33,10 @@ XML = """
       </arg>
       <let name="greeting" value="hello $(var mode)"/>
       <log message="$(var greeting)"/>
+      <group forwarding="false">
+        <keep name="mode" value="kept $(var mode)"/>
+        <log message="$(var mode) $(var greeting gone)"/>
+      </group>
       <set_env name="COLOUR" value="red"/>
       <group if="$(equals $(var mode) fast)">
         <log message="quick"/>
@@ -90,6 +94,7 @@ def test_xml_and_yaml_files_do_what_they_say(
     assert launched.returncode == 0, launched.output
     assert _logged(launched.output) == [
         'hello slow',
+        'kept slow gone',
         'inside',
         f'hello slow red {tmp_path}',
         f'for slow in {inner}',
@@ -104,7 +109,8 @@ def test_xml_and_yaml_files_do_what_they_say(
     ]
     assert '[shell-1] red round slow' in launched.lines
     assert '[echo-2] from yaml' in launched.lines
-    assert _logged(run_launch(path, 'mode:=fast').output)[:2] == ['hello fast', 'quick']
+    fast = _logged(run_launch(path, 'mode:=fast').output)
+    assert fast[:3] == ['hello fast', 'kept fast gone', 'quick']
 
 
 def test_sources_of_xml_and_yaml_can_be_included(
