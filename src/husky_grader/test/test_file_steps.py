@@ -381,6 +381,14 @@ def test_what_a_manifest_has_that_colcon_cannot_read_is_told(tmp_path: Path) -> 
     assert built(tmp_path) == f'colcon build failed: {told}'
 
 
+def test_a_build_of_no_package_is_no_success(tmp_path: Path) -> None:
+    export = '<export><build_type>ament_python</build_type></export>'
+    package = write_package(tmp_path / 'ws' / 'src' / 'my_driver', ABOUT, export)
+    (package / 'setup.py').write_text(SETUP % '')
+    (package / 'colcon.pkg').write_text('{"type": "unknown"}')
+    assert built(tmp_path).startswith('colcon build has built no package: it passed over all')
+
+
 def test_a_program_of_a_package_that_failed_is_not_told_of_its_entry_point(tmp_path: Path) -> None:
     workspace = tmp_path / 'workspace'
     package = write_package(workspace / 'src' / 'my_driver')

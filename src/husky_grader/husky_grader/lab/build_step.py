@@ -83,7 +83,17 @@ def build_step(
         spoilt = spoilt or _why_refused(told, workspace, jail)
         why = spoilt or crash(told) or first_error(told) or how
         return nothing(f'colcon build failed: {why}')
+    if not _has_built(jail.folder / 'install'):
+        return nothing(
+            'colcon build has built no package: it passed over all of them, as for what is wrong '
+            f'in a colcon.pkg; see {log.name}'
+        )
     return Finding('colcon build succeeded')
+
+
+def _has_built(install: Path) -> bool:
+    """Tell whether there is a folder of a package; where there is none, colcon succeeds, too."""
+    return is_there(install) and any(map(os.path.isdir, install.iterdir()))
 
 
 def _why_refused(printed: str, workspace: Path, jail: Jail) -> str:
