@@ -206,3 +206,42 @@ def test_where_a_world_sets_all_contacts_they_are_the_worlds(tmp_path: Path, dri
     drive(simulation, 0.5, 0.0, seconds=1.0)
     assert simulation.robots[0].state.position[0] > 0.3
     assert mujoco.mj_id2name(simulation.model, mujoco.mjtObj.mjOBJ_PAIR, 0) is None
+
+
+MESH = '<mesh name="m" vertex="0 -1 0 0 1 0 2 -1 0 2 1 0 1 -1 .1 1 1 .1 2 -1 .1 2 1 .1"/>'
+HILL = '<hfield name="h" nrow="3" ncol="3" size="2 2 .3 .1" elevation="0 0 0 0 1 0 0 0 0"/>'
+
+
+@pytest.mark.parametrize(
+    ('shape', 'height_m'),
+    [
+        ('type="mesh" mesh="m" pos="1 0 0"', 0.09),
+        ('type="hfield" hfield="h" pos="3 0 0"', 0.1),
+        ('type="cylinder" size="1 0.03" pos="2 0 0.03"', 0.06),
+        ('type="ellipsoid" size="1 1 0.1" pos="2 0 0"', 0.09),
+        ('type="box" size="1 1 0.03" pos="2 0 0.03"', 0.06),
+        ('type="box" size="1 1 0.03" pos="2 0 0.03" surfacevel="0.1 0 0"', 0.06),
+    ],
+)
+def test_a_ramp_of_any_shape_on_a_plane_is_driven_up(
+    tmp_path: Path, drive: Drive, shape: str, height_m: float
+) -> None:
+    world = tmp_path / 'world.xml'
+    world.write_text(
+        f'<mujoco><asset>{MESH}{HILL}</asset><worldbody><geom name="floor" type="plane" '
+        f'size="9 9 1"/><geom name="ramp" {shape}/></worldbody></mujoco>'
+    )
+    simulation = on(world, 'asphalt')
+    begin_m = simulation.robots[0].state.position[2]
+    drive(simulation, 0.5, 0.0, seconds=4.2)
+    assert simulation.robots[0].state.position[2] - begin_m > 0.9 * height_m
+
+
+@pytest.mark.skipif(not hasattr(mujoco.MjModel, 'geom_surfacevel'), reason='since MuJoCo 4')
+def test_a_belt_carries_the_robot(tmp_path: Path, drive: Drive) -> None:
+    world = tmp_path / 'world.xml'
+    belt = '<geom name="ground" type="box" size="8 8 1" pos="0 0 -1" surfacevel="0.5 0 0"/>'
+    world.write_text(f'<mujoco><worldbody>{belt}</worldbody></mujoco>')
+    simulation = on(world, 'asphalt')
+    drive(simulation, 0.0, 0.0, seconds=2.0)
+    assert place(simulation.robots[0]) == pytest.approx((1.0, 0.0), abs=0.05)

@@ -53,7 +53,10 @@ class Tyres:
         self._is_wheel = np.zeros(model.ngeom + 1, dtype=np.bool_)  # the last: -1, no geom
         self._is_wheel[wheels] = True
         # What is no ground meets wheels by a bit of its own: theirs of ground comes and goes.
+        # So does ground without a flat face, as a ramp on a plane, above which treads count.
         solid = (world.owners >= 0) & ~np.isin(np.arange(model.ngeom), wheels)
+        solid[list(world.uneven_ground)] = True
+        self._is_uneven = bool(world.uneven_ground)
         model.geom_conaffinity[solid] |= _SOLID
         model.body_conaffinity[model.geom_bodyid[solid]] |= _SOLID
         soft = (model.flex_contype | model.flex_conaffinity) & 1 != 0  # not what is only seen
@@ -103,7 +106,7 @@ class Tyres:
             self._choose_points()
 
     def _choose_points(self) -> None:
-        one = None in self._under or self._periods_after_touch < _AGAIN_PERIODS
+        one = self._is_uneven or None in self._under or self._periods_after_touch < _AGAIN_PERIODS
         self._model.opt.disableflags = self._flags | _ONE_POINT if one else self._flags
 
     def _choose(self, robot: int, under: tuple[int, ...] | None) -> None:

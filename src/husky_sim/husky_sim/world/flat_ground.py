@@ -13,7 +13,6 @@ count.
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from husky_course.frames import Array
 import mujoco
 import numpy as np
 
@@ -36,25 +35,31 @@ class FlatGround:
     half_m: tuple[float, float]  # along x and y; inf: endless
 
 
+def is_flat_ground(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> bool:
+    """Tell whether a geom that is ground has a face that treads can touch."""
+    if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_OVERRIDE:
+        return False  # every contact has the world's margin and friction
+    belts = getattr(model, 'geom_surfacevel', np.zeros((model.ngeom, 1)))
+    if belts[geom].any():
+        return False  # a plane made here would stand still
+    kind = int(model.geom_type[geom])
+    is_up = bool(data.geom_xmat[geom][8] >= UPWARDS)
+    return is_up and kind in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_BOX)
+
+
 def find_flat_ground(
     model: mujoco.MjModel, data: mujoco.MjData, ground: Iterable[int]
 ) -> tuple[FlatGround, ...]:
     """Return the faces of the geoms that are ground, other than those too steep."""
-    if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_OVERRIDE:
-        return ()  # every contact has the world's margin and friction
     found = []
     for geom in ground:
-        kind, axes = int(model.geom_type[geom]), data.geom_xmat[geom].reshape(3, 3).T
-        if axes[2][2] < UPWARDS:
+        if not is_flat_ground(model, data, geom):
             continue
-        middle: Array = data.geom_xpos[geom]
-        if kind == mujoco.mjtGeom.mjGEOM_PLANE:
-            half_m = (np.inf, np.inf)
-        elif kind == mujoco.mjtGeom.mjGEOM_BOX:
+        axes, middle = data.geom_xmat[geom].reshape(3, 3).T, data.geom_xpos[geom]
+        half_m = (np.inf, np.inf)
+        if int(model.geom_type[geom]) == mujoco.mjtGeom.mjGEOM_BOX:
             x, y, z = model.geom_size[geom].tolist()
             half_m, middle = (x, y), middle + z * axes[2]
-        else:
-            continue
         found.append(FlatGround(tuple(middle.tolist()), tuple(map(tuple, axes.tolist())), half_m))
     return tuple(found)
 

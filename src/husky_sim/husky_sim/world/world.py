@@ -31,6 +31,7 @@ from husky_sim.world.flat_ground import (
     add_planes,
     find_flat_ground,
     FlatGround,
+    is_flat_ground,
     UPWARDS,
 )
 from husky_sim.world.silhouette import highest_m, lowest_m, outline_of_flex, outlines_of
@@ -64,6 +65,7 @@ class World:
     model: mujoco.MjModel
     robots: tuple[RobotStart, ...]
     flat_ground: tuple[FlatGround, ...]
+    uneven_ground: tuple[int, ...]  # geoms that are ground and have no flat face
     names: tuple[str, ...]  # of owners: first the robots, then the obstacles
     owners: Indices  # of every geom: its place in names, or negative
     flex_owners: Indices  # the same of every soft body
@@ -152,6 +154,11 @@ def load_world(
         model=model,
         robots=tuple(robots),
         flat_ground=faces,
+        uneven_ground=tuple(
+            geom
+            for geom in np.flatnonzero(owners == _GROUND).tolist()
+            if not is_flat_ground(model, data, geom)
+        ),
         names=tuple(names),
         owners=owners,
         flex_owners=flex_owners,
