@@ -229,9 +229,10 @@ class Simulation:
             mujoco.mj_step(self.model, self.data)
             for motors in self._motors:
                 motors.step(timestep_sec)
-            if not self.broadphase.alone:
+            if self.broadphase.alone:
+                continue
+            if self._detector.update(begin_sec + step * timestep_sec):
                 self._tyres.meet_obstacles()
-                self._detector.update(begin_sec + step * timestep_sec)
 
     @property
     def only_robots_awake(self) -> bool:

@@ -49,20 +49,20 @@ class TouchDetector:
         """Forget every touch."""
         self._contacts.clear()
 
-    def update(self, time_sec: float) -> None:
-        """Read the contacts after a physics step."""
+    def update(self, time_sec: float) -> bool:
+        """Read the contacts after a physics step; return whether a robot touches something."""
         # Nearly always the pairs are those of an earlier step: wheels and ground.
         pairs = self._data.contact.geom.tobytes()
         if self._world.flex_owners.size:
             pairs += self._data.contact.flex.tobytes()
         if pairs in self._harmless:
-            return
+            return False
         owners = self._world.touching(self._data)
         touches = np.flatnonzero((owners >= 0).all(axis=1) & (owners[:, 0] != owners[:, 1]))
         if not touches.size:
             if len(self._harmless) < _REMEMBERED:
                 self._harmless.add(pairs)
-            return
+            return False
         now: dict[tuple[int, int], list[tuple[int, int]]] = {}
         for index in touches.tolist():
             (one, other), geoms = owners[index].tolist(), self._data.contact.geom[index].tolist()
@@ -71,6 +71,7 @@ class TouchDetector:
                     now.setdefault((ours, theirs), []).append((index, geom))
         for pair, contacts in now.items():
             self._see(pair, contacts, time_sec)
+        return True
 
     def _see(
         self, pair: tuple[int, int], contacts: list[tuple[int, int]], time_sec: float

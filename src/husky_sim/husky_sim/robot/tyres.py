@@ -49,7 +49,7 @@ class Tyres:
             [model.geom(f'{name}/{wheel}_wheel').id for wheel in WHEELS] for name in names
         ]
         wheels = np.array(self._wheels).ravel()
-        self._flags = int(model.opt.disableflags)
+        self._flags, self._has_one_point = int(model.opt.disableflags), False
         self._is_wheel = np.zeros(model.ngeom + 1, dtype=np.bool_)  # the last: -1, no geom
         self._is_wheel[wheels] = True
         # What is no ground meets wheels by a bit of its own: theirs of ground comes and goes.
@@ -100,14 +100,16 @@ class Tyres:
         self._choose_points()
 
     def meet_obstacles(self) -> None:
-        """Look what the wheels touch; to be called after a physics step near obstacles."""
+        """Look whether wheels touch something; to be called after a step in which a robot does."""
         if self._is_wheel[self._data.contact.geom].any():
             self._periods_after_touch = 0
             self._choose_points()
 
     def _choose_points(self) -> None:
         one = self._is_uneven or None in self._under or self._periods_after_touch < _AGAIN_PERIODS
-        self._model.opt.disableflags = self._flags | _ONE_POINT if one else self._flags
+        if one != self._has_one_point:
+            self._has_one_point = one
+            self._model.opt.disableflags = self._flags | _ONE_POINT if one else self._flags
 
     def _choose(self, robot: int, under: tuple[int, ...] | None) -> None:
         bits = _EVERYWHERE if under is None else _SOLID
