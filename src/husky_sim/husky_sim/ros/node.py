@@ -92,7 +92,7 @@ class SimulatorNode(SettingsNode):
         self.over: Future[None] = Future()
         self.paused = False  # time stands still
         self._waited_for: list[str] = []  # robots whose drivers lockstep waited for, at that look
-        self._looks_at_waiting = 0  # since these are the same
+        self._looks_at_waiting = 0  # while these were the same
         self._periods_looked_at = 0
         self._has_broken_down = False  # the physics, in this run
         self._topics = SimulationTopics(
@@ -253,7 +253,7 @@ class SimulatorNode(SettingsNode):
                 'in lockstep time begins when each robot has a driver, which reads its '
                 'odometry/filtered and publishes its commands; so far nobody drives '
             )
-        self._looks_at_waiting = self._looks_at_waiting + 1 if lack == self._waited_for else 0
+        self._looks_at_waiting = self._looks_at_waiting + 1 if lack == self._waited_for else 1
         self._waited_for = lack
         for_all = len(lack) == len(self.simulation.robots)
         if lack and self._looks_at_waiting == (
