@@ -114,6 +114,8 @@ def test_in_lockstep_a_driver_that_is_stopped_is_named(
         name: processes.start(
             *(str(program), '--waypoints', str(course), '--ros-args', '-r', f'__ns:=/{name}'),
             *('-p', 'check:=off', '-p', 'startup_timeout_sec:=30.0'),
+            # It is told 3 s to 4 s after the stop; what was lost DDS sends again within 3 s more.
+            *('-p', 'odometry_timeout_sec:=20.0'),
         )
         for name in ('near', 'far')
     }
