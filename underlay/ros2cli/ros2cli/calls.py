@@ -5,20 +5,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+import functools
 import math
 import sys
 import time
 from typing import Any
 
+from rcl_interfaces.srv import ListParameters
 import rclpy
-from rclpy.node import Node
+from rclpy.client import Client
+from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.task import Future
+from rtps_graph.names import full_node_name
 
 from ros2cli.discovery import SOON_SEC, why_unanswered
 from ros2cli.errors import CommandError, ServiceTimeout
 
 TIMEOUT_SEC = 5.0
 _POLL_SEC = 0.02
+_ASK_AGAIN_SEC = 0.4
 
 
 def call(
@@ -61,22 +66,23 @@ def call_all(
 ) -> dict[str, Any]:
     """Call services side by side; return for each name its response, or what `call` raises.
 
-    On a busy machine an answer can be lost: rmw_fastrtps drops it where the server has not found
-    a client, which has found it, within 100 ms of the answer ("client will not receive response").
+    Where an answer may be lost, see `be_found`, what only asks is sent once more; what does more
+    is sent once, when its server has found the client.
 
     :param took_sec: is given how long each answer took that came.
     """
     node = getattr(node, 'node', node)
     clients = {name: node.create_client(service_class, name) for name in requests}
+    asked: list[Client] = []
     try:
         _spin_until(
             node, lambda: all(each.service_is_ready() for each in clients.values()), TIMEOUT_SEC
         )
-        futures = {
-            name: client.call_async(requests[name])
-            for name, client in clients.items()
-            if client.service_is_ready()
-        }
+        ready = {name: each for name, each in clients.items() if each.service_is_ready()}
+        if not only_asks:
+            services = [client.service_name for client in ready.values()]
+            asked += be_found(node, services, functools.partial(_spin_until, node))
+        futures = {name: each.call_async(requests[name]) for name, each in ready.items()}
         begin = time.monotonic()
         took_sec = {} if took_sec is None else took_sec
 
@@ -100,8 +106,60 @@ def call_all(
         in_vain |= {name: no_server(name) for name in gone}
         return {name: _outcome(name, futures.get(name), in_vain.get(name)) for name in requests}
     finally:
-        for client in clients.values():
+        for client in (*clients.values(), *asked):
             node.destroy_client(client)
+
+
+def be_found(
+    node: Node, services: Iterable[str], spin_until: Callable[[Callable[[], bool], float], Any]
+) -> Iterable[Client]:
+    """Wait until the servers of services have found the clients that `node` has made.
+
+    On a busy machine a client may have found a server that has not found it. rmw_fastrtps gives
+    such a server 100 ms and drops its answer then ("client will not receive response"), though
+    what was called is done. DDS announces endpoints in the order in which they were made, so that
+    a node which answers a client of now has found the older ones, too. Its parameters are asked
+    for: that changes nothing. Who answers nothing, or has no parameters, is not waited for longer
+    than 1 s.
+
+    :param spin_until: spins `node` until a condition holds or a time in s is over.
+    :returns: clients that a busy server may answer still: one that finds them gone would warn.
+    """
+    end = time.monotonic() + SOON_SEC
+    known: dict[str, set[str]] = {}
+
+    def know_servers() -> bool:
+        known.update(_parameter_services(node, services))
+        return all(name in known for name in services)
+
+    spin_until(know_servers, SOON_SEC)
+    clients = [node.create_client(ListParameters, name) for name in set().union(*known.values())]
+    asked: dict[Any, list[Future]] = {client: [] for client in clients}
+
+    def have_answered() -> bool:
+        return all(any(each.done() for each in futures) for futures in asked.values())
+
+    spin_until(lambda: all(each.service_is_ready() for each in clients), end - time.monotonic())
+    while not have_answered() and time.monotonic() < end:
+        for client, futures in asked.items():
+            futures.append(client.call_async(ListParameters.Request()))
+        spin_until(have_answered, _ASK_AGAIN_SEC)
+    return clients
+
+
+def _parameter_services(node: Node, services: Iterable[str]) -> dict[str, set[str]]:
+    """Map the services whose servers are known to what those list their parameters by."""
+    found: dict[str, set[str]] = {}
+    for name, namespace in node.get_node_names_and_namespaces():
+        try:
+            pairs = node.get_service_names_and_types_by_node(name, namespace)
+        except NodeNameNonExistentError:  # it has just ended
+            continue
+        offered = {service for service, _ in pairs}
+        lists = {f'{full_node_name(namespace, name)}/list_parameters'} & offered
+        for service in offered.intersection(services):
+            found.setdefault(service, set()).update(lists)
+    return found
 
 
 def _await_late(node: Node, calls: Mapping[str, tuple[Any, Future]]) -> None:

@@ -4,18 +4,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 import re
 from typing import Any
 
+from example_interfaces.action import Fibonacci
+from playpen_testing.spinning import SpunNodes
 import pytest
+from rclpy.action import ActionServer
+from rclpy.action.server import ServerGoalHandle
+from rclpy.lifecycle import LifecycleNode
+from rclpy.service import Service
 from rclpy.task import Future
 from ros2cli import calls
 from ros2cli.errors import CommandError
+from std_srvs.srv import SetBool
+
+
+class Motor(LifecycleNode):
+    """A node that offers a service, parameters, an action and states."""
+
+    def __init__(self, name: str, **options: Any) -> None:
+        super().__init__(name, **options)
+        self.declare_parameter('gain', 2.0)
+        self.create_service(SetBool, 'flip', self._flip)
+        ActionServer(self, Fibonacci, 'count', self._count)
+
+    def _flip(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        response.success = request.data
+        return response
+
+    def _count(self, goal: ServerGoalHandle) -> Fibonacci.Result:
+        goal.succeed()
+        return Fibonacci.Result(sequence=[0, 1])
 
 
 class SlowNode:
     """A node that is its own executor and client; the answer comes with the third spin."""
+
+    service_name = '/motor/change_state'
 
     def __init__(self) -> None:
         self.executor = self
@@ -38,6 +65,9 @@ class SlowNode:
 
     def service_is_ready(self) -> bool:
         return True
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        return []
 
     def call_async(self, _: Any) -> Future:
         return self.future
@@ -86,6 +116,46 @@ def test_a_node_that_has_ended_is_not_called_busy(monkeypatch: pytest.MonkeyPatc
             calls.call(
                 EndingNode(), None, '/motor/change_state', None, may_take_long=may_take_long
             )
+
+
+@pytest.mark.parametrize(
+    ('words', 'said'),
+    [
+        (('service', 'call', '/flip', 'std_srvs/srv/SetBool', 'data: true'), 'success=True'),
+        (('param', 'set', '/motor', 'gain', '3.0'), 'Set parameter successful'),
+        (('lifecycle', 'set', '/motor', 'configure'), 'Transitioning successful'),
+        (
+            ('action', 'send_goal', '/count', 'example_interfaces/action/Fibonacci', 'order: 1'),
+            'Goal finished with status: SUCCEEDED',
+        ),
+    ],
+)
+def test_a_server_has_found_the_client_that_makes_it_do_something(
+    domain: int,
+    ros2_here: Callable[..., Any],
+    monkeypatch: pytest.MonkeyPatch,
+    words: Sequence[str],
+    said: str,
+) -> None:
+    asked: list[str] = []
+
+    def lose_first(service: Service, *answer: Any) -> None:
+        """Lose an answer, as rmw_fastrtps does where a client is found late."""
+        if service.srv_name == 'motor/list_parameters' and not asked:
+            asked.append('in vain')
+            return
+        if service.srv_name == 'motor/list_parameters':
+            asked.append('answered')
+        really_send(service, *answer)
+
+    really_send = Service.send_response
+    with SpunNodes(domain) as nodes:
+        nodes.start(Motor, 'motor')
+        monkeypatch.setattr(Service, 'send_response', lose_first)
+        monkeypatch.setattr(calls, 'SOON_SEC', 20.0)  # whatever else the machine does
+        answer = ros2_here(*words)
+    assert said in answer.out, answer
+    assert asked[:2] == ['in vain', 'answered']
 
 
 def test_a_lost_answer_is_asked_for_again_where_asking_changes_nothing(

@@ -76,6 +76,7 @@ def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Nam
     action = topics.checked_name(args.action_name)
     if not _is_offered(node, client, f'{action}{SEND_GOAL}', args.timeout):
         raise CommandError(f"No action server for '{args.action_name}' within {args.timeout:g} s")
+    node.be_found(f'{action}{SEND_GOAL}')
     print(f'Sending goal:\n     {message_to_yaml(goal)}')
     sending = client.send_goal_async(goal, _print_feedback if args.feedback else None)
     try:

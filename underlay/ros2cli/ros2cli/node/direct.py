@@ -98,6 +98,10 @@ class CommandNode:
             self.spin_once(min(0.02, left_sec))
         return True
 
+    def be_found(self, service: str) -> None:
+        """Wait until the server of a service has found its client here: see `calls.be_found`."""
+        calls.be_found(self.node, [service], self.spin_until)
+
     def spin_until_answered(
         self,
         future: Any,

@@ -60,6 +60,7 @@ class CallVerb(VerbExtension):
                 print('waiting for service to become available...')
                 discovery.hint_when_not_offered(client.service_name)
                 node.spin_until(client.service_is_ready)
+            node.be_found(client.service_name)
             while True:
                 print(f'requester: making request: {request!r}\n')
                 start = time.monotonic()
