@@ -16,8 +16,8 @@ from std_srvs.srv import SetBool
 from playpen_testing.browser import open_page
 from playpen_testing.listener import Listener
 from playpen_testing.processes import Process, Processes
+from playpen_testing.services import ask
 from playpen_testing.spinning import SpunNodes
-from playpen_testing.waiting import wait_until
 
 COMMANDS = 'husky_velocity_controller/cmd_vel'
 
@@ -63,10 +63,7 @@ class Lab:
 
     def pause(self) -> None:
         """Pause the simulator."""
-        client = self.listener.create_client(SetBool, 'husky_sim/pause')
-        wait_until(client.service_is_ready, timeout_sec=10.0, what='the service to pause')
-        answer = client.call_async(SetBool.Request(data=True))
-        wait_until(answer.done, timeout_sec=10.0, what='the answer to pause')
+        ask(self.listener, SetBool, 'husky_sim/pause', data=True)
 
     def drive(self, course: Path) -> Process:
         """Let follow_path drive a course."""

@@ -23,6 +23,7 @@ from husky_driver.motion import Command, STOP
 from husky_driver.ros.node import FollowPath
 from nav_msgs.msg import Odometry
 from playpen_testing.forks import Ended, run_forked
+from playpen_testing.services import ask
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
 import pytest
@@ -289,20 +290,12 @@ def test_a_signal_that_comes_while_one_is_told_is_not_told(
     assert told == ['stopped by SIGINT']
 
 
-def call(node: PlantNode, kind: Any, name: str, request: Any) -> Any:
-    client = node.create_client(kind, name)
-    wait_until(client.service_is_ready, timeout_sec=10, what=f'service {name}')
-    future = client.call_async(request)
-    wait_until(future.done, timeout_sec=10, what=f'answer of {name}')
-    return future.result()
-
-
 def test_a_drive_can_be_paused_and_goes_on(
     plant_node: PlantNode, follow_path: Any, course: Path
 ) -> None:
     process = on_its_way(plant_node, follow_path, course)
     pause = '/follow_path/pause'
-    assert call(plant_node, SetBool, pause, SetBool.Request(data=True)).message == 'paused'
+    assert ask(plant_node, SetBool, pause, data=True).message == 'paused'
     plant_node.go_on()
     wait_until(
         lambda: plant_node.received[-30:] == [Command(0.0, 0.0)] * 30,
@@ -310,7 +303,7 @@ def test_a_drive_can_be_paused_and_goes_on(
         what='standing robot',
     )
     assert plant_node.plant.now.x_m < 3.0
-    call(plant_node, SetBool, pause, SetBool.Request(data=False))
+    ask(plant_node, SetBool, pause, data=False)
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 0, output
     assert plant_node.plant.now.x_m == pytest.approx(4.0, abs=0.02)
@@ -330,8 +323,9 @@ def test_a_new_file_takes_over_and_a_bad_one_is_refused(
 
     def set_waypoints(path: Path | str) -> Any:
         value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=str(path))
-        request = SetParameters.Request(parameters=[Parameter(name='waypoints', value=value)])
-        return call(plant_node, SetParameters, '/follow_path/set_parameters', request).results[0]
+        given = [Parameter(name='waypoints', value=value)]
+        name = '/follow_path/set_parameters'
+        return ask(plant_node, SetParameters, name, parameters=given).results[0]
 
     refused = set_waypoints(broken)
     assert not refused.successful
