@@ -138,3 +138,19 @@ def test_what_the_driver_would_refuse_is_not_saved(tmp_path: Path) -> None:
     with pytest.raises(CourseRefused, match='waypoints'):
         save(Course(name='', waypoints=(Waypoint(1.0, 0.0),) * 2), tmp_path, 'twice')
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_link_stays_one_and_what_it_leads_to_is_saved(tmp_path: Path) -> None:
+    shared = tmp_path / 'shared' / 'course.yaml'
+    shared.parent.mkdir()
+    shared.write_text('waypoints: [[1, 0]]\n')
+    here = tmp_path / 'here'
+    here.mkdir()
+    (here / 'mine.yaml').symlink_to(shared)
+    save(Course(name='', waypoints=(Waypoint(2.0, 0.0), Waypoint(3.0, 0.0))), here, 'mine')
+    assert (here / 'mine.yaml').is_symlink()
+    assert [waypoint.x_m for waypoint in load_course(shared).waypoints] == [2.0, 3.0]
+    assert [file.name for file in (*shared.parent.iterdir(), *here.iterdir())] == [
+        'course.yaml',
+        'mine.yaml',
+    ]

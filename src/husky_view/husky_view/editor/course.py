@@ -9,6 +9,7 @@ What a waypoint file means is decided by husky_course alone, as for the driver.
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 import math
+import os
 from pathlib import Path
 import re
 from typing import Any, NamedTuple
@@ -247,7 +248,8 @@ def save(course: Course, folder: Path, name: str) -> Path:
     text = text_of(course)
     _parsed(text, file.name)
     try:
-        with replacing(file) as part:
+        # A link stays one: the file that it leads to is written, as by any editor.
+        with replacing(Path(os.path.realpath(file))) as part:
             part.write_text(text, encoding='utf-8')
     except OSError as error:
         raise CourseRefused(f'{file}: {error.strerror}') from error
