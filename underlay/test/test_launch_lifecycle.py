@@ -40,6 +40,34 @@ from launch_ros.actions import *
 from launch_ros.event_handlers import OnStateTransition
 """
 
+AUTOSTARTED = """
+NODE = LifecycleNode(package='some_pkg', executable='lifecycle_node', name='me', namespace='deep',
+                     output='screen', autostart=True)
+"""
+UNTIL_ACTIVE = """
+        NODE,
+        RegisterEventHandler(OnStateTransition(
+            target_lifecycle_node=NODE, goal_state='active',
+            entities=[LogInfo(msg='it is active'), Shutdown()])),
+"""
+
+# As on a busy machine, where rmw_fastrtps has found the client too late.
+LOSES_AN_ANSWER = """
+from rclpy.service import Service
+
+really_send, asked = Service.send_response, []
+
+def send_response(service, *answer):
+    if service.srv_name.endswith('get_state'):
+        asked.append('answered' if asked else 'in vain,')
+        if len(asked) == 1:
+            return
+    really_send(service, *answer)
+
+Service.send_response = send_response
+rclpy.init()
+"""
+
 
 @pytest.fixture
 def lifecycle_package(ros_package: Path) -> Path:
@@ -53,20 +81,7 @@ def test_a_lifecycle_node_takes_the_asked_transitions(
     python_launch_file: LaunchFile, run_launch: Run, lifecycle_package: Path
 ) -> None:
     del lifecycle_package
-    path = python_launch_file(
-        """
-        NODE,
-        RegisterEventHandler(OnStateTransition(
-            target_lifecycle_node=NODE, goal_state='active',
-            entities=[LogInfo(msg='it is active'), Shutdown()])),
-        """,
-        before=BEFORE
-        + """
-NODE = LifecycleNode(package='some_pkg', executable='lifecycle_node', name='me', namespace='deep',
-                     output='screen', autostart=True)
-""",
-    )
-    launched = run_launch(path)
+    launched = run_launch(python_launch_file(UNTIL_ACTIVE, before=BEFORE + AUTOSTARTED))
     assert '[lifecycle_node-1] is configured' in launched.lines
     assert '[lifecycle_node-1] is activated' in launched.lines
     assert '[INFO] [launch.user]: it is active' in launched.lines
@@ -100,6 +115,17 @@ def test_change_state_reaches_a_node_without_a_namespace(
     launched = run_launch(path)
     assert '[INFO] [launch.user]: it is inactive' in launched.lines
     assert launched.returncode == 0
+
+
+def test_a_node_is_changed_once_it_has_found_who_listens(
+    python_launch_file: LaunchFile, run_launch: Run, lifecycle_package: Path
+) -> None:
+    program = lifecycle_package / 'lib' / 'some_pkg' / 'lifecycle_node'
+    text = program.read_text().replace('rclpy.init()', LOSES_AN_ANSWER)
+    program.write_text(text.replace("'is configured'", "'asked', *asked"))
+    launched = run_launch(python_launch_file(UNTIL_ACTIVE, before=BEFORE + AUTOSTARTED))
+    assert '[lifecycle_node-1] asked in vain, answered' in launched.output
+    assert '[INFO] [launch.user]: it is active' in launched.lines
 
 
 def test_a_ros_timer_rings_once(python_launch_file: LaunchFile, run_launch: Run) -> None:

@@ -13,6 +13,7 @@ from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from lifecycle_msgs.msg import TransitionEvent  # type: ignore[import-untyped]
 from lifecycle_msgs.srv import ChangeState as ChangeStateService  # type: ignore[import-untyped]
+from lifecycle_msgs.srv import GetState
 
 from .events.lifecycle import ChangeState, StateTransition
 from .ros_adapters import get_ros_node
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from .actions import LifecycleNode
 
 _POLL_SEC = 0.1
+_ASK_AGAIN_SEC = 0.4
+_FOUND_SEC = 5.0
 
 
 class LifecycleEvents:
@@ -38,6 +41,7 @@ class LifecycleEvents:
             TransitionEvent, f'{node_name}/transition_event', self._on_transition, 10
         )
         self._client = node.create_client(ChangeStateService, f'{node_name}/change_state')
+        self._asking = node.create_client(GetState, f'{node_name}/get_state')
         context.register_event_handler(
             EventHandler(
                 matcher=lambda event: isinstance(event, ChangeState),
@@ -72,6 +76,27 @@ class LifecycleEvents:
         time.sleep(_POLL_SEC)
         return False
 
+    def _await_found(self) -> None:
+        """Wait until the node has found what is here: it answers a client made after the others.
+
+        On a busy machine it may be found before. Its transition would be heard by nobody then, and
+        its answer be dropped: DDS announces endpoints in the order in which they were made. A node
+        that does not answer is waited for no longer than 5 s.
+        """
+        futures: list[Any] = []
+
+        def has_answered() -> bool:
+            return any(future.done() for future in futures)
+
+        end = time.monotonic() + _FOUND_SEC
+        while not has_answered() and time.monotonic() < end:
+            futures.append(self._asking.call_async(GetState.Request()))
+            ask_again = time.monotonic() + _ASK_AGAIN_SEC
+            while not has_answered() and time.monotonic() < ask_again:
+                if self._context.is_shutdown:
+                    return
+                time.sleep(_POLL_SEC / 10)
+
     def _call(self, request: Any) -> None:
         """Call the service of the node; blocks, in a thread of its own, until the launch ends."""
         name = ChangeState.valid_transitions[request.transition.id]
@@ -79,6 +104,7 @@ class LifecycleEvents:
             while not self._is_reachable():
                 if self._context.is_shutdown:
                     return
+            self._await_found()
             future = self._client.call_async(request)
             while not future.done():
                 if self._context.is_shutdown:
