@@ -175,6 +175,28 @@ def test_a_stubborn_child_gets_sigint_sigterm_and_sigkill(
     assert not any(_is_running(pid) for pid in _pids(launched.output))
 
 
+def test_a_child_has_its_time_after_sigterm_where_the_launch_stood_still(
+    python_launch_file: LaunchFile, launch_here: Run
+) -> None:
+    path = python_launch_file(
+        f"""
+        {STUBBORN.strip()}
+        RegisterEventHandler(OnProcessIO(on_stdout=lambda _: Shutdown())),
+        RegisterEventHandler(EventHandler(
+            matcher=lambda event: getattr(event, 'signal', None) == signal.SIGINT,
+            entities=OpaqueFunction(function=lambda _: time.sleep(0.8)))),
+        """,
+        before='import signal, time\nfrom launch import EventHandler',
+    )
+    output = launch_here(path).output
+    told = re.findall(r"(sending|escalating to) (?:signal )?'(SIG\w+)'", output)
+    assert told == [
+        ('sending', 'SIGINT'),
+        *(('escalating to', 'SIGTERM'), ('sending', 'SIGTERM')),
+        *(('escalating to', 'SIGKILL'), ('sending', 'SIGKILL')),
+    ], output
+
+
 def test_a_closed_terminal_ends_a_stubborn_child(
     python_launch_file: LaunchFile, launch_in_closed_terminal: Callable[[Path, str], str]
 ) -> None:

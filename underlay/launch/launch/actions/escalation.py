@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import os
 import signal
-from typing import Any
 
 from ..action import Action
 from ..events import matches_action
@@ -62,21 +61,27 @@ def escalation_timers(
 ) -> list[TimerAction]:
     """Return timers for SIGTERM, and for SIGKILL after it, to be cancelled when it has ended.
 
+    The first is to be executed, and starts the second: also where the launch stood still until
+    both would have been due, a process has its time after SIGTERM.
+
     :param name: of the process, for the messages.
     """
-    steps: tuple[tuple[float, Any, Any], ...] = (
-        (sigterm_sec, signal.SIGINT, signal.SIGTERM),
-        (sigterm_sec + sigkill_sec, signal.SIGTERM, signal.SIGKILL),
-    )
-    timers = []
-    for waited_sec, sent, number in steps:
+
+    def escalate(
+        period_sec: float,
+        waited_sec: float,
+        sent: signal.Signals,
+        number: signal.Signals,
+        *after_it: TimerAction,
+    ) -> TimerAction:
         text = (
             f"process[{name}] failed to terminate '{waited_sec:g}' seconds after receiving "
             f"'{sent.name}', escalating to '{number.name}'"
         )
-        actions = [
-            OpaqueFunction(function=_complain, args=(name, text)),
-            emit_signal(action, number),
-        ]
-        timers.append(TimerAction(period=waited_sec, actions=actions, cancel_on_shutdown=False))
-    return timers
+        complain = OpaqueFunction(function=_complain, args=(name, text))
+        actions = [complain, emit_signal(action, number), *after_it]
+        return TimerAction(period=period_sec, actions=actions, cancel_on_shutdown=False)
+
+    total_sec = sigterm_sec + sigkill_sec
+    kill = escalate(sigkill_sec, total_sec, signal.SIGTERM, signal.SIGKILL)
+    return [escalate(sigterm_sec, sigterm_sec, signal.SIGINT, signal.SIGTERM, kill), kill]

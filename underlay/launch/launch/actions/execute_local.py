@@ -247,7 +247,7 @@ class ExecuteLocal(Action):
             sigterm_sec=self.__settings.sigterm_sec,
             sigkill_sec=self.__settings.sigkill_sec,
         )
-        actions: list[LaunchDescriptionEntity] = list(run.timers)
+        actions: list[LaunchDescriptionEntity] = [run.timers[0]]
         if send_sigint:
             actions.append(emit_signal(self, signal.SIGINT))
         return actions
