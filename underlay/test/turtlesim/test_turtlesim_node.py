@@ -63,10 +63,20 @@ def test_poses_and_colours_come_every_16_ms(student: TurtleClient) -> None:
             7,
         )
     student.wait_for(lambda: min(counts.values()) > 0, 'the first of each')
-    before, began = dict(counts), time.monotonic()
-    student.wait_for(lambda: counts['pose'] >= before['pose'] + 125, '125 poses')
-    assert 1.7 < time.monotonic() - began < 3.0  # what waited before the first comes at once
-    assert counts['color_sensor'] - before['color_sensor'] == pytest.approx(125, abs=10)
+
+    def sec_of_125() -> tuple[float, int]:
+        """Return how long 125 poses take, and how many colours come with them."""
+        before, began = dict(counts), time.monotonic()
+        student.wait_for(lambda: counts['pose'] >= before['pose'] + 125, '125 poses')
+        return time.monotonic() - began, counts['color_sensor'] - before['color_sensor']
+
+    deadline, took_sec = time.monotonic() + 60.0, math.inf
+    # A moment without a processor costs some of them: then once more.
+    while took_sec >= 3.0:
+        assert time.monotonic() < deadline, f'125 poses never came in time, but in {took_sec} s'
+        took_sec, colours = sec_of_125()
+        assert took_sec > 1.7  # what waited before the first comes at once
+    assert colours == pytest.approx(125, abs=10)
 
 
 def test_a_command_moves_the_turtle_for_a_second(student: TurtleClient) -> None:
@@ -332,9 +342,7 @@ def test_bad_arguments_are_refused_in_a_line(
         told = [
             line
             for line in printed[words].splitlines()
-            if not line.startswith(('usage', '  ', '[ros2run]'))
-            and '[rcl]' not in line
-            and 'RTPS_TRANSPORT_SHM' not in line  # who else takes a port of shared memory
+            if not line.startswith(('usage', '  ', '[ros2run]')) and '[rcl]' not in line
         ]
         assert len(told) == 1, printed[words]
         assert said in told[0], words
