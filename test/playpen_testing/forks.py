@@ -12,6 +12,8 @@ import subprocess
 import sys
 from tempfile import TemporaryDirectory
 
+from playpen_testing.fast_dds import without_port_race
+
 _LIMIT_SEC = 20
 _KINDS = ('out', 'err')
 _RUNNER = """
@@ -50,6 +52,10 @@ def run_forked(*commands: Sequence[str], preload: Sequence[str] = ()) -> list[En
     """
     programs = json.dumps([(command[0], command[1:]) for command in commands])
     with TemporaryDirectory() as folder:
+
+        def read(name: str) -> str:
+            return without_port_race(Path(folder, name).read_text())
+
         answer = subprocess.run(
             [sys.executable, '-c', _RUNNER, programs, str(_LIMIT_SEC), folder, *preload],
             stdin=subprocess.DEVNULL,
@@ -59,6 +65,6 @@ def run_forked(*commands: Sequence[str], preload: Sequence[str] = ()) -> list[En
         statuses = [int(line) for line in answer.stdout.split()]
         assert len(statuses) == len(commands), answer.stderr
         return [
-            Ended(status, *(Path(folder, f'{number}.{kind}').read_text() for kind in _KINDS))
+            Ended(status, *(read(f'{number}.{kind}') for kind in _KINDS))
             for number, status in enumerate(statuses)
         ]

@@ -11,6 +11,7 @@ import signal
 
 import pytest
 
+from playpen_testing.fast_dds import without_port_race
 from playpen_testing.forks import Ended
 
 _HANDLED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -37,4 +38,5 @@ def run_here(capfd: pytest.CaptureFixture[str], module: str, *words: str) -> End
             gc.set_threshold(*collections)
             for number, handler in handlers.items():
                 signal.signal(number, handler)
-    return Ended(status, *capfd.readouterr())
+    out, err = capfd.readouterr()
+    return Ended(status, without_port_race(out), err)

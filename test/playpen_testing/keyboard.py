@@ -10,6 +10,7 @@ import signal
 import subprocess
 import termios
 
+from playpen_testing.fast_dds import without_port_race
 from playpen_testing.waiting import wait_until
 
 UP, DOWN, RIGHT, LEFT = (f'\x1b[{letter}' for letter in 'ABCD')
@@ -38,6 +39,7 @@ class Keyboard:
         def comes() -> bool:
             with suppress(BlockingIOError):
                 self.shown += os.read(self._master, 4096).decode()
+                self.shown = without_port_race(self.shown)
             return text in self.shown
 
         wait_until(comes, timeout_sec=20.0, what=lambda: f'{text!r} in {self.shown!r}')

@@ -16,6 +16,7 @@ from typing import Any, IO
 
 from husky_runtime.parent_death import die_with_parent
 
+from playpen_testing.fast_dds import without_port_race
 from playpen_testing.waiting import wait_until
 
 IN_A_TERMINAL = 'import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))'
@@ -73,7 +74,7 @@ class Child(subprocess.Popen[str]):
                 assert timeout is not None
                 raise subprocess.TimeoutExpired(self.args, timeout)
         self.wait(None if end is None else max(0.0, end - time.monotonic()))
-        out, err = map(''.join, self._rests)
+        out, err = (without_port_race(''.join(rest)) for rest in self._rests)
         return out, err
 
 
@@ -112,7 +113,7 @@ class Process:
 
     def _read(self) -> None:
         assert self._child.stdout is not None
-        for line in self._child.stdout:
+        for line in filter(without_port_race, self._child.stdout):
             self.printed_sec.append(time.monotonic())
             self.lines.append(line.rstrip('\n'))
 

@@ -16,6 +16,7 @@ import sys
 import time
 
 from husky_runtime.domains import OwnDomain
+from playpen_testing.fast_dds import without_port_race
 from playpen_testing.here import run_here
 from playpen_testing.keyboard import Keyboard
 from playpen_testing.processes import Child, find_line
@@ -23,11 +24,6 @@ import pytest
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent.parent
-# What Fast DDS 2.14 prints where another process looks, at that moment, whether anybody has the
-# lock of the port that it is about to take; it takes the next port, and nothing is lost.
-_SHARED_MEMORY_RACE = re.compile(
-    r'^.*RTPS_TRANSPORT_SHM.*Failed init_port .*open_and_lock_file failed.*\n', re.MULTILINE
-)
 
 
 @dataclass(frozen=True)
@@ -187,7 +183,7 @@ def ros2() -> Ros2:
             out, err = process.communicate()
             pytest.fail(f'ros2 {" ".join(words)} did not end; it printed:\n{out}{err}')
         assert 'Traceback' not in err, err
-        return Answer(process.returncode, _SHARED_MEMORY_RACE.sub('', out), err)
+        return Answer(process.returncode, without_port_race(out), err)
 
     return run
 
@@ -203,7 +199,7 @@ def ros2_here(capfd: pytest.CaptureFixture[str]) -> Ros2:
     def run(*words: str) -> Answer:
         ended = run_here(capfd, 'ros2cli.cli', *words)
         assert 'Traceback' not in ended.err, ended.err
-        return Answer(ended.status, _SHARED_MEMORY_RACE.sub('', ended.out), ended.err)
+        return Answer(ended.status, ended.out, ended.err)
 
     return run
 

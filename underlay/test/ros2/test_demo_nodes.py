@@ -12,6 +12,7 @@ import sys
 from typing import Any
 
 from example_interfaces.srv import AddTwoInts
+from playpen_testing.fast_dds import without_port_race
 from playpen_testing.here import run_here
 from playpen_testing.processes import find_line
 from playpen_testing.spinning import SpunNodes
@@ -51,6 +52,7 @@ def run(name: str, *arguments: str) -> Any:
         timeout=30,
     )
     assert 'Traceback' not in done.stdout, done.stdout
+    done.stdout = without_port_race(done.stdout)
     return done
 
 

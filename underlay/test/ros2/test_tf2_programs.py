@@ -15,6 +15,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import PointStamped, TransformStamped
+from playpen_testing.fast_dds import without_port_race
 from playpen_testing.here import run_here
 from playpen_testing.spinning import SpunNodes
 from playpen_testing.waiting import wait_until
@@ -48,6 +49,7 @@ def run(program: str, *arguments: str, timeout_sec: float = 30.0) -> Any:
         timeout=timeout_sec,
     )
     assert 'Traceback' not in answer.stderr, answer.stderr
+    answer.stdout = without_port_race(answer.stdout)
     return answer
 
 
