@@ -130,9 +130,10 @@ def test_a_node_is_changed_once_it_has_found_who_listens(
 
 def test_a_ros_timer_rings_once(python_launch_file: LaunchFile, run_launch: Run) -> None:
     path = python_launch_file(
-        "ROSTimer(period=0.1, actions=[LogInfo(msg='rang')]), "
-        "RosTimer(period=60.0, actions=[LogInfo(msg='never')]), "
-        'TimerAction(period=1.0, actions=[Shutdown()]),',
+        # The end comes a while after the first ring, in which a second one would.
+        'ROSTimer(period=0.1, actions=['
+        "    LogInfo(msg='rang'), ROSTimer(period=0.5, actions=[Shutdown()])]), "
+        "RosTimer(period=60.0, actions=[LogInfo(msg='never')]), ",
         before=BEFORE,
     )
     launched = run_launch(path)
