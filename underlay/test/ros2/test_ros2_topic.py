@@ -150,9 +150,9 @@ def test_echo_shows_raw_bytes(ros2_here: Callable[..., Any]) -> None:
 
 @pytest.mark.usefixtures('world')
 def test_what_echo_filters_are_the_bytes_with_raw(ros2_here: Callable[..., Any]) -> None:
-    words = ('topic', 'echo', '--raw', '/latched', '--timeout', '2', '--filter')
-    assert "b'" in ros2_here(*words, "b'once' in m").out
-    assert ros2_here(*words, "b'once' not in m").out == ''
+    words = ('topic', 'echo', '--raw', '/latched', '--filter')
+    assert "b'" in ros2_here(*words, "b'once' in m", '--once').out
+    assert ros2_here(*words, "b'once' not in m", '--timeout', '2').out == ''
 
 
 def test_a_depth_of_0_is_that_of_the_preset() -> None:
