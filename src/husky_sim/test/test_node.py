@@ -322,9 +322,8 @@ def test_diagnostics_tell_the_pace_and_whether_it_is_kept(bench: Callable[..., B
     run = bench(real_time_factor=0.5)  # also a busy machine keeps this one, but for a moment
     received: list[DiagnosticArray] = []
     run.probe.create_subscription(DiagnosticArray, '/diagnostics', received.append, 10)
-    run.until(
-        lambda: received and received[-1].status[0].level == DiagnosticStatus.OK, 'a pace kept'
-    )
+    kept = [DiagnosticStatus.OK] * 2  # one alone may be of the short time after one that was late
+    run.until(lambda: [each.status[0].level for each in received[-2:]] == kept, 'a pace kept')
     values = newest(received)
     assert float(values['real_time_factor']) == pytest.approx(0.5, rel=0.2)
     assert values['real_time_factor_asked'] == '0.5'
