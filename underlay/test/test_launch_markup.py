@@ -113,6 +113,26 @@ def test_xml_and_yaml_files_do_what_they_say(
     assert fast[:3] == ['hello fast', 'kept fast gone', 'quick']
 
 
+def test_variables_of_a_turn_end_with_it(launch_file: LaunchFile, launch_here: Run) -> None:
+    launched = launch_here(
+        launch_file(
+            """
+            <launch>
+              <for len="1" name="x">
+                <for_each values="{x: a, y: 1}; {x: b}">
+                  <log message="$(for-var x) $(for-var y none)"/>
+                </for_each>
+                <log message="$(index x)"/>
+              </for>
+              <log message="$(for-var x gone)"/>
+            </launch>
+            """,
+            'test.launch.xml',
+        )
+    )
+    assert _logged(launched.output) == ['a 1', 'b none', '0', 'gone']
+
+
 def test_sources_of_xml_and_yaml_can_be_included(
     launch_file: LaunchFile, run_launch: Run, tmp_path: Path
 ) -> None:

@@ -21,9 +21,23 @@ from .opaque_function import OpaqueFunction
 _Entities = list[LaunchDescriptionEntity] | None
 
 
-def _turn(values: Mapping[str, Any]) -> OpaqueFunction:
-    """Return what sets the variables of one turn of a loop."""
-    return OpaqueFunction(function=lambda context: context.extend_locals(values))
+class _Turn(Action):
+    """Executes the actions of one turn of a loop; its variables end with it."""
+
+    def __init__(
+        self, values: Mapping[str, Any], actions: Iterable[LaunchDescriptionEntity]
+    ) -> None:
+        super().__init__()
+        self._values = values
+        self._actions = list(actions)
+
+    def execute(self, context: LaunchContext) -> _Entities:
+        context._push_locals()
+        context.extend_locals(self._values)
+        return self._actions
+
+    def _leave(self, context: LaunchContext) -> None:
+        context._pop_locals()
 
 
 @expose_action('for_each')
@@ -53,7 +67,7 @@ class ForEach(Action):
         children = entity.children
 
         def function(**values: Any) -> list[LaunchDescriptionEntity]:
-            return [_turn(values), *(parser.parse_action(child) for child in children)]
+            return [_Turn(values, (parser.parse_action(child) for child in children))]
 
         kwargs['function'] = function
         return cls, kwargs
@@ -122,9 +136,6 @@ class ForLoop(Action):
         name = None if self.__name is None else perform_substitutions(context, self.__name)
         entities: list[LaunchDescriptionEntity] = []
         for index in range(length):
-            if name is not None:
-                entities.append(_turn({name: index}))
-            entities.append(
-                OpaqueFunction(function=lambda _context, turn=index: self.__function(turn))
-            )
+            call = OpaqueFunction(function=lambda _context, turn=index: self.__function(turn))
+            entities.append(_Turn({} if name is None else {name: index}, [call]))
         return entities
