@@ -4,9 +4,7 @@
 
 import asyncio
 from collections.abc import Callable
-import contextlib
 from pathlib import Path
-import signal
 import time
 from typing import Any
 
@@ -23,11 +21,8 @@ from launch.actions import (
     UnregisterEventHandler,
 )
 from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
-from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import matches_name, ShutdownProcess
 from launch.substitutions import LaunchConfiguration
-from launch.utilities import AsyncSafeSignalManager
-import psutil
 import pytest
 
 LaunchFile = Callable[..., Path]
@@ -279,76 +274,6 @@ def test_the_end_of_the_launch_cancels_a_coroutine() -> None:
     assert (begun, time.monotonic() - begin_sec < 30.0) == (['begun'], True)
 
 
-def test_an_error_in_a_handler_ends_the_launch_with_status_1(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    def fail(_event: Any, _context: LaunchContext) -> None:
-        raise RuntimeError('handler went wrong')
-
-    sleeper = ExecuteProcess(cmd=['sleep', '30'])
-    status = _run(
-        sleeper,
-        ExecuteProcess(cmd=['true'], on_exit=fail),
-    )
-    assert status == 1
-    assert sleeper.return_code == -2
-    text = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
-    assert f'{text}handler went wrong' in capsys.readouterr().out
-
-
-def test_an_error_on_shutdown_leaves_no_process_behind(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    def fail(event: Any, _context: LaunchContext) -> None:
-        raise RuntimeError(f'cannot end: {event.reason}')
-
-    sleeper = ExecuteProcess(cmd=['sleep', '30'])
-    status = _run(
-        sleeper,
-        TimerAction(period=0.1, actions=[Shutdown(reason='so')]),
-        RegisterEventHandler(OnShutdown(on_shutdown=fail)),
-    )
-    assert status == 1
-    assert sleeper.return_code == -2
-    assert 'cannot end: so' in capsys.readouterr().out
-
-
-def test_an_error_starts_nothing_of_what_stands_before_it() -> None:
-    def fail(_: LaunchContext) -> None:
-        raise RuntimeError('no such robot')
-
-    assert _run(ExecuteProcess(cmd=['sleep', '31']), OpaqueFunction(function=fail)) == 1
-    children = psutil.Process().children()
-    running = [each.cmdline() for each in children if each.status() != psutil.STATUS_ZOMBIE]
-    assert ['sleep', '31'] not in running
-
-
-def test_shutdown_may_come_from_another_thread() -> None:
-    service = LaunchService(noninteractive=True)
-    service.include_launch_description(
-        LaunchDescription(
-            [
-                ExecuteProcess(cmd=['sleep', '30']),
-                RegisterEventHandler(OnProcessExit(on_exit=[])),
-            ]
-        )
-    )
-
-    async def run() -> int:
-        running = asyncio.create_task(service.run_async(shutdown_when_idle=False))
-        await asyncio.sleep(0.2)
-        await asyncio.to_thread(service.shutdown)
-        return await asyncio.wait_for(running, 10.0)
-
-    assert asyncio.run(run()) == 0
-
-
-def test_shutdown_event_emitted_before_running_is_processed() -> None:
-    service = LaunchService()
-    service.emit_event(ShutdownEvent(reason='at once'))
-    assert service.run(shutdown_when_idle=False) == 0
-
-
 def test_loops_repeat_their_actions(python_launch_file: LaunchFile, run_launch: Run) -> None:
     launched = run_launch(
         python_launch_file(
@@ -377,83 +302,3 @@ def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_laun
         )
     )
     assert '[head-1] typed' in launched.lines
-
-
-def test_a_service_has_a_task_and_a_shutdown_to_await() -> None:
-    service = LaunchService(noninteractive=True)
-    service.include_launch_description(LaunchDescription([ExecuteProcess(cmd=['sleep', '30'])]))
-    assert service.task is None
-    assert service.shutdown() is None
-
-    async def run() -> int:
-        running = asyncio.create_task(service.run_async(shutdown_when_idle=False))
-        await asyncio.sleep(0.1)
-        assert service.task is running
-        ending = service.shutdown()
-        assert ending is not None
-        await asyncio.create_task(ending)
-        return await asyncio.wait_for(running, 10.0)
-
-    assert asyncio.run(run()) == 0
-
-
-def test_a_cancelled_service_ends_its_processes_and_returns_1(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    sleeper = ExecuteProcess(cmd=['sleep', '30'])
-    service = LaunchService(noninteractive=True)
-    service.include_launch_description(LaunchDescription([sleeper]))
-
-    async def run() -> int:
-        running = asyncio.create_task(service.run_async())
-        while 'pid' not in (sleeper.process_details or {}):
-            await asyncio.sleep(0.001)
-        running.cancel()
-        return await asyncio.wait_for(running, 10.0)
-
-    assert asyncio.run(run()) == 1
-    assert sleeper.return_code == -2
-    assert 'run task was canceled' in capsys.readouterr().out
-
-
-def test_the_event_loop_of_a_run_stays_set() -> None:
-    assert LaunchService().run() == 0
-    loop = asyncio.get_event_loop()
-    assert LaunchService().run() == 0
-    assert asyncio.get_event_loop() is loop
-
-
-def test_signals_reach_every_manager_that_is_entered() -> None:
-    seen: list[tuple[str, int]] = []
-    before = signal.signal(signal.SIGUSR1, lambda *_: seen.append(('before', 0)))
-
-    async def came(count: int) -> None:
-        while len(seen) < count:
-            await asyncio.sleep(0.001)
-
-    async def run() -> None:
-        outer = AsyncSafeSignalManager(asyncio.get_running_loop())
-        outer.handle(signal.SIGUSR1, lambda number: seen.append(('outer', number)))
-        with outer:
-            inner = AsyncSafeSignalManager(asyncio.get_running_loop())
-            inner.handle(signal.SIGUSR1, lambda number: seen.append(('inner', number)))
-            for manager, count in ((inner, 2), (contextlib.nullcontext(), 4)):
-                with manager:
-                    signal.raise_signal(signal.SIGUSR1)
-                    await asyncio.wait_for(came(count), 10.0)
-                seen.append(('left', 0))
-        signal.raise_signal(signal.SIGUSR1)
-
-    asyncio.run(run())
-    number = signal.SIGUSR1
-    signal.signal(number, before)
-    assert seen == [
-        *[('inner', number), ('outer', number), ('left', 0)],
-        *[('outer', number), ('left', 0)],
-        ('before', 0),
-    ]
-
-
-def test_a_service_runs_in_the_main_thread_only() -> None:
-    with pytest.raises(RuntimeError, match='can only be run in the main thread'):
-        asyncio.run(asyncio.to_thread(LaunchService().run))
