@@ -64,6 +64,22 @@ def test_an_error_on_shutdown_leaves_no_process_behind(
     assert 'cannot end: so' in capsys.readouterr().out
 
 
+def test_an_error_in_a_callback_of_the_loop_is_status_1(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    def fail() -> None:
+        raise RuntimeError('callback went wrong')
+
+    def call_soon(context: LaunchContext) -> None:
+        assert context.asyncio_loop is not None
+        context.asyncio_loop.call_soon(fail)
+
+    assert _run(OpaqueFunction(function=call_soon), ExecuteProcess(cmd=['true'])) == 1
+    assert 'callback went wrong' in caplog.text
+    assert _run(ExecuteProcess(cmd=['true'])) == 0
+    assert asyncio.get_event_loop().get_exception_handler() is None
+
+
 def test_an_error_starts_nothing_of_what_stands_before_it() -> None:
     def fail(_: LaunchContext) -> None:
         raise RuntimeError('no such robot')

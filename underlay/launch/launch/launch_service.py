@@ -146,15 +146,23 @@ class LaunchService:
         self.context._set_is_shutdown(False)
         self.context._set_asyncio_loop(self.__loop)
         self.context._wake = self.__wakeup.set
+        loop, handler_before = self.__loop, self.__loop.get_exception_handler()
+        loop.set_exception_handler(self.__on_error_in_loop)
         try:
-            with self.__signals(self.__loop):
+            with self.__signals(loop):
                 await self.__run_to_the_end()
         finally:
+            loop.set_exception_handler(handler_before)
             with self.__lock:
                 self.__loop = None
                 self.context._wake = None
                 self.context._set_asyncio_loop(None)
         return self.__return_code
+
+    def __on_error_in_loop(self, loop: asyncio.AbstractEventLoop, what: dict[str, Any]) -> None:
+        """Let the launch fail for an error in a task or callback that nobody awaits."""
+        self.__return_code = 1
+        loop.default_exception_handler(what)
 
     async def __run_to_the_end(self) -> None:
         while True:
