@@ -5,6 +5,7 @@
 import asyncio
 from collections.abc import Callable
 from pathlib import Path
+import re
 import time
 from typing import Any
 
@@ -21,7 +22,8 @@ from launch.actions import (
     UnregisterEventHandler,
 )
 from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
-from launch.events.process import matches_name, ShutdownProcess
+from launch.events import matches_action
+from launch.events.process import matches_name, ShutdownProcess, SignalProcess
 from launch.substitutions import LaunchConfiguration
 import pytest
 
@@ -245,6 +247,16 @@ def test_shutdown_process_ends_the_matching_process_only() -> None:
         TimerAction(period=0.2, actions=[OpaqueFunction(function=end_one)]),
     )
     assert ended == ['one', 'two']
+
+
+def test_a_signal_for_a_process_that_has_not_started_is_an_error(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    sleeper = ExecuteProcess(cmd=['sleep', '30'], name='sleeper')
+    early = SignalProcess(signal_number='SIGUSR1', process_matcher=matches_action(sleeper))
+    assert _run(sleeper, EmitEvent(event=early)) == 1
+    text = r"signal 'SIGUSR1' for process\[sleeper-\d+\] came before it was started"
+    assert re.search(text, capsys.readouterr().out)
 
 
 def test_functions_return_actions_and_coroutines_run_beside() -> None:

@@ -173,10 +173,18 @@ class ProcessRun:
             )
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send a signal to the process where it runs."""
+        """Send a signal to the process where it runs.
+
+        :raises RuntimeError: it has never run.
+        """
+        name = self._details['name']
+        if 'pid' not in self._details:
+            raise RuntimeError(
+                f"signal '{number.name}' for process[{name}] came before it was started: send it "
+                'on its OnProcessStart'
+            )
         if self.child is None or self.child.complete.done():
             return
-        name = self._details['name']
         self._logger.info(f"sending signal '{number.name}' to process[{name}]")
         try:
             self.child.send_signal(number)
