@@ -15,7 +15,7 @@ from launch.actions import (
     Shutdown,
     TimerAction,
 )
-from launch.event_handlers import OnProcessExit, OnShutdown
+from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
 from launch.events import Shutdown as ShutdownEvent
 from launch.utilities import AsyncSafeSignalManager
 import psutil
@@ -78,6 +78,27 @@ def test_an_error_in_a_callback_of_the_loop_is_status_1(
     assert 'callback went wrong' in caplog.text
     assert _run(ExecuteProcess(cmd=['true'])) == 0
     assert asyncio.get_event_loop().get_exception_handler() is None
+
+
+def test_what_on_shutdown_starts_runs_where_an_action_has_asked_for_the_end() -> None:
+    def at_the_end(*before: Any) -> ExecuteProcess:
+        last = ExecuteProcess(cmd=['echo', 'stopped the robot'], cached_output=True)
+        _run(RegisterEventHandler(OnShutdown(on_shutdown=[last])), *before)
+        return last
+
+    assert at_the_end(Shutdown()).get_stdout() == 'stopped the robot\n'
+    assert at_the_end().return_code is None  # as upstream: an idle launch has ended by then
+
+
+def test_what_on_shutdown_starts_ends_with_sigterm() -> None:
+    last = ExecuteProcess(cmd=['sleep', '30'])
+    terminate = OpaqueFunction(function=lambda _: signal.raise_signal(signal.SIGTERM))
+    _run(
+        RegisterEventHandler(OnShutdown(on_shutdown=[last])),
+        RegisterEventHandler(OnProcessStart(target_action=last, on_start=[terminate])),
+        Shutdown(),
+    )
+    assert last.return_code == -signal.SIGINT
 
 
 def test_an_error_starts_nothing_of_what_stands_before_it() -> None:

@@ -18,6 +18,7 @@ import warnings
 from .event import Event
 from .event_handlers import OnIncludeLaunchDescription, OnShutdown
 from .events import IncludeLaunchDescription, Shutdown
+from .events.process import ShutdownProcess
 from .events.shutdown import Interrupted
 from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
@@ -274,6 +275,8 @@ class LaunchService:
         """End the children before the launch; upstream leaves them running."""
         name = signal.Signals(number).name
         self.__logger.warning(f'received {name}: shutting down launched system')
+        if self.__shutting_down:  # then only what OnShutdown has started is not being ended yet
+            self.context.emit_event_sync(ShutdownProcess(process_matcher=lambda _: True))
         self.__begin_shutdown(Shutdown(reason=name))
 
     def __signals(self, loop: asyncio.AbstractEventLoop) -> AsyncSafeSignalManager:

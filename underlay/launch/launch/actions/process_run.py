@@ -12,6 +12,7 @@ import signal
 from typing import Any
 
 from ..child_process import ChildProcess, printable_command, start_child_process
+from ..events import Shutdown
 from ..events.process import ProcessExited, ProcessStarted, ProcessStderr, ProcessStdout
 from ..launch_context import LaunchContext
 from ..logging import get_logger, get_output_loggers, launch_config
@@ -82,6 +83,8 @@ class ProcessRun:
         self._settings = settings
         self._log_cmd = log_cmd
         self._retries = 0
+        # What OnShutdown has started runs, as upstream, unless the end was there before its event.
+        self._is_of_the_end = isinstance(context.get_locals_as_dict().get('event'), Shutdown)
         self._logger = get_logger(details['name'])
         self._cmd = printable_command(details['cmd'])
         loggers = get_output_loggers(details['name'], settings.output)
@@ -109,8 +112,8 @@ class ProcessRun:
 
     async def _run_once(self) -> bool:
         """Run the process to its end and return whether it is to run again."""
-        if self._context.is_shutdown:  # an error came before this task had its turn
-            return False
+        if self._context.is_shutdown and not self._is_of_the_end:
+            return False  # an error came before this task had its turn
         if self._log_cmd:
             cwd = self._details['cwd']
             # Upstream's words; there, too, each process has an environment that is made for it.
