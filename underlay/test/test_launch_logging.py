@@ -103,6 +103,14 @@ def test_what_is_printed_where_nobody_sees_it_is_told_of(
     assert re.findall(r'^\[INFO\] \[sh-\d+\]: (.* shows it)$', shown, re.M) == [told]
 
 
+def test_an_output_format_may_name_the_pid(capsys: pytest.CaptureFixture[str]) -> None:
+    text = '<{this.process_details[pid]:>9}> {line}'
+    assert _run(ExecuteProcess(cmd=['echo', 'hi'], output='screen', output_format=text)) == 0
+    shown = capsys.readouterr().out
+    (pid,) = re.findall(r'started with pid \[(\d+)\]', shown)
+    assert f'<{pid:>9}> hi' in shown.splitlines()
+
+
 @pytest.mark.parametrize(
     ('output', 'message'),
     [

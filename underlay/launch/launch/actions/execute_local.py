@@ -152,7 +152,7 @@ class ExecuteLocal(Action):
         self.prepare(context)
         if context.is_shutdown:
             return None
-        self.__format_line('')  # a wrong format is refused here, not in the middle of the output
+        self.__check_output_format()
         self.__register_handlers(context)
         self.__run = ProcessRun(
             context,
@@ -163,6 +163,12 @@ class ExecuteLocal(Action):
             log_cmd=self.__log_cmd,
         )
         return None
+
+    def __check_output_format(self) -> None:
+        """Refuse a wrong format here, not in the middle of the output."""
+        self.__details['pid'] = 0  # there will be one by then
+        self.__format_line('')
+        del self.__details['pid']
 
     def __format_line(self, line: str) -> str:
         try:
