@@ -10,6 +10,7 @@ from launch import Condition, LaunchContext, LaunchDescription
 from launch.actions import (
     AppendEnvironmentVariable,
     DeclareLaunchArgument,
+    ExecuteProcess,
     GroupAction,
     IncludeLaunchDescription,
 )
@@ -281,6 +282,7 @@ def test_arguments_are_found_also_in_includes_and_groups(
             ),
             get_launch_description_from_any_launch_file(str(inner)),
             DeclareLaunchArgument('top', description='once more'),
+            ExecuteProcess(cmd=['true'], on_exit=[DeclareLaunchArgument('after')]),
             *(
                 IncludeLaunchDescription([*folder, '/deep.launch.py'])
                 for folder in (
@@ -292,7 +294,7 @@ def test_arguments_are_found_also_in_includes_and_groups(
         ]
     )
     arguments = description.get_launch_arguments()
-    assert [argument.name for argument in arguments] == ['top', 'maybe', 'name', 'deep']
+    assert [argument.name for argument in arguments] == ['top', 'maybe', 'name', 'after', 'deep']
     assert arguments[0].description == 'at the top'
     assert arguments[1]._conditionally_included
 

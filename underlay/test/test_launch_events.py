@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Callable
 from pathlib import Path
 import re
+import signal
 import time
 from typing import Any
 
@@ -21,7 +22,13 @@ from launch.actions import (
     TimerAction,
     UnregisterEventHandler,
 )
-from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnShutdown
+from launch.event_handlers import (
+    OnExecutionComplete,
+    OnProcessExit,
+    OnProcessIO,
+    OnProcessStart,
+    OnShutdown,
+)
 from launch.events import matches_action
 from launch.events.process import matches_name, ShutdownProcess, SignalProcess
 from launch.substitutions import LaunchConfiguration
@@ -92,6 +99,8 @@ def test_cached_output_can_be_read_afterwards() -> None:
     process = ExecuteProcess(cmd=['sh', '-c', 'echo out; printf err >&2'], cached_output=True)
     _run(process)
     assert (process.get_stdout(), process.get_stderr()) == ('out\n', 'err')
+    with pytest.raises(RuntimeError, match='cached_output must be true to be able to get stdout'):
+        ExecuteProcess(cmd=['true']).get_stdout()
 
 
 def test_on_shutdown_comes_with_the_reason() -> None:
@@ -241,12 +250,36 @@ def test_shutdown_process_ends_the_matching_process_only() -> None:
         ended.append(event.process_name.partition('-')[0])
         return Shutdown()
 
+    end = OpaqueFunction(function=end_one)
     _run(
         *sleepers,
         RegisterEventHandler(OnProcessExit(on_exit=on_exit)),
-        TimerAction(period=0.2, actions=[OpaqueFunction(function=end_one)]),
+        TimerAction(period=0.2, actions=[end, end]),  # once is enough, twice no error
     )
     assert ended == ['one', 'two']
+    assert [sleeper.return_code for sleeper in sleepers] == [-signal.SIGINT] * 2
+
+
+def test_a_process_that_is_just_starting_is_ended_as_soon_as_it_runs() -> None:
+    sleeper = ExecuteProcess(cmd=['sleep', '30'])
+    assert _run(sleeper, Shutdown()) == 0
+    assert sleeper.return_code == -signal.SIGINT
+
+
+def test_nor_does_one_go_on_that_is_just_starting_again() -> None:
+    sleeper = ExecuteProcess(cmd=['sleep', '30'], respawn=True)
+    matcher = matches_action(sleeper)
+    codes: list[int] = []
+
+    def on_exit(event: Any, _context: LaunchContext) -> EmitEvent:
+        codes.append(event.returncode)
+        return EmitEvent(event=ShutdownProcess(process_matcher=matcher))
+
+    terminate = EmitEvent(event=SignalProcess(signal_number='SIGTERM', process_matcher=matcher))
+    on_start = OnProcessStart(target_action=sleeper, on_start=[terminate], handle_once=True)
+    on_end = OnProcessExit(target_action=sleeper, on_exit=on_exit)
+    assert _run(RegisterEventHandler(on_start), RegisterEventHandler(on_end), sleeper) == 0
+    assert codes == [-signal.SIGTERM, -signal.SIGINT]
 
 
 def test_a_signal_for_a_process_that_has_not_started_is_an_error(
@@ -306,11 +339,16 @@ def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_laun
     launched = run_launch(
         python_launch_file(
             """
-            CAT,
-            RegisterEventHandler(OnProcessStart(target_action=CAT, on_start=lambda event, _: [
+            CAT, OTHER,
+            RegisterEventHandler(OnProcessStart(target_action=OTHER, on_start=lambda event, _: [
                 EmitEvent(event=ProcessStdin(text=b'typed\\n', **CAT.process_details))])),
+            RegisterEventHandler(OnProcessExit(target_action=CAT, on_exit=[Shutdown()])),
             """,
-            before="CAT = ExecuteProcess(cmd=['head', '-n1'], output='screen')",
+            before="""
+            CAT = ExecuteProcess(cmd=['head', '-n1'], output='screen')
+            OTHER = ExecuteProcess(cmd=['head', '-n1'], output='screen')
+            """,
         )
     )
     assert '[head-1] typed' in launched.lines
+    assert '[head-2] typed' not in launched.lines

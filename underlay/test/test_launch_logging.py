@@ -103,6 +103,17 @@ def test_what_is_printed_where_nobody_sees_it_is_told_of(
     assert re.findall(r'^\[INFO\] \[sh-\d+\]: (.* shows it)$', shown, re.M) == [told]
 
 
+def test_a_last_line_without_an_end_is_shown_by_itself(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    half_a_letter = ExecuteProcess(
+        cmd=['printf', r'caf\303'], output='screen', respawn=True, respawn_max_retries=1
+    )
+    assert _run(half_a_letter) == 0
+    shown = capsys.readouterr().out
+    assert re.findall(r'^\[printf-\d+\] (.*)$', shown, re.M) == ['caf\ufffd'] * 2
+
+
 def test_an_output_format_may_name_the_pid(capsys: pytest.CaptureFixture[str]) -> None:
     text = '<{this.process_details[pid]:>9}> {line}'
     assert _run(ExecuteProcess(cmd=['echo', 'hi'], output='screen', output_format=text)) == 0

@@ -245,7 +245,7 @@ class ExecuteLocal(Action):
             )
             return None
         run.shutdown.set_result(None)
-        if run.completed.done() or run.child is None or run.child.complete.done():
+        if run.child is None or run.child.complete.done():
             return None
         run.timers = escalation_timers(
             self,
