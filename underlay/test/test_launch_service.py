@@ -137,6 +137,42 @@ def test_shutdown_event_emitted_before_running_is_processed() -> None:
     assert service.run(shutdown_when_idle=False) == 0
 
 
+def test_a_service_can_run_again() -> None:
+    service = LaunchService(noninteractive=True)
+    for code in (3, 4):
+        process = ExecuteProcess(cmd=['sh', '-c', f'exit {code}'])
+        service.include_launch_description(LaunchDescription([process]))
+        assert service.run() == 0
+        assert process.return_code == code
+        assert service.context.is_shutdown
+
+
+def test_a_service_that_debugs_also_debugs_its_loop() -> None:
+    debugs: list[bool] = []
+
+    async def ask(service: LaunchService) -> int:
+        status = await service.run_async()
+        debugs.append(asyncio.get_running_loop().get_debug())
+        return status
+
+    for debug in (True, False):
+        asyncio.run(ask(LaunchService(debug=debug)))
+    assert debugs == [True, False]
+
+
+def test_a_shutdown_from_inside_can_be_had_at_once() -> None:
+    answers: list[Any] = []
+
+    async def run(service: LaunchService) -> int:
+        running = asyncio.create_task(service.run_async(shutdown_when_idle=False))
+        await asyncio.sleep(0)
+        answers.append(service.shutdown(force_sync=True))
+        return await asyncio.wait_for(running, 10.0)
+
+    assert asyncio.run(run(LaunchService(noninteractive=True))) == 0
+    assert answers == [None]
+
+
 def test_a_service_has_a_task_and_a_shutdown_to_await() -> None:
     service = LaunchService(noninteractive=True)
     service.include_launch_description(LaunchDescription([ExecuteProcess(cmd=['sleep', '30'])]))
