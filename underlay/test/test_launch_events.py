@@ -225,6 +225,18 @@ def test_own_events_reach_own_handlers_until_unregistered() -> None:
     assert notes == ['ring', 'ring']
 
 
+def test_what_a_handler_makes_known_ends_with_it() -> None:
+    known: list[bool] = []
+
+    def know(_event: Event, context: LaunchContext) -> None:
+        known.append('secret' in context.get_locals_as_dict())
+        context.extend_locals({'secret': 'x'})
+
+    handlers = [RegisterEventHandler(OnShutdown(on_shutdown=know)) for _ in range(2)]
+    assert _run(*handlers, Shutdown(), Shutdown()) == 0
+    assert known == [False] * 4
+
+
 def test_a_handler_that_handles_once_does() -> None:
     notes: list[str] = []
     _run(

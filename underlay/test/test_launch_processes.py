@@ -10,6 +10,9 @@ import signal
 import time
 from typing import Any
 
+from launch import LaunchContext
+from launch.actions import ExecuteProcess
+from launch.utilities import perform_substitutions
 import pytest
 
 LaunchFile = Callable[..., Path]
@@ -246,6 +249,36 @@ print('interrupted', count, 'times')
     assert '[python3-1] interrupted 1 times' in output
     assert 'sending signal' not in output
     assert 'process has finished cleanly' in output
+
+
+def test_each_signal_has_five_seconds_by_default() -> None:
+    process = ExecuteProcess(cmd=['true'])
+    timeouts = process.sigterm_timeout, process.sigkill_timeout
+    assert [perform_substitutions(LaunchContext(), each) for each in timeouts] == ['5', '5']
+
+
+SLOW_TO_END = """
+ExecuteProcess(
+    cmd=['sh', '-c', 'trap i=1 INT; echo up; until [ $i ]; do sleep 0.05; done; exec sleep 30'],
+    name='slow', sigterm_timeout='0.6',
+),
+RegisterEventHandler(OnProcessIO(on_stdout=lambda event: EmitEvent(event=Shutdown({})))),
+"""
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'signals'),
+    [("reason='done'", ['SIGINT', 'SIGTERM']), ('due_to_sigint=True', ['SIGTERM'])],
+)
+def test_an_end_without_ctrl_c_interrupts_a_child_once(
+    arguments: str, signals: list[str], python_launch_file: LaunchFile, launch_here: Run
+) -> None:
+    path = python_launch_file(
+        SLOW_TO_END.format(arguments), before='from launch.events import Shutdown'
+    )
+    launched = launch_here(path)
+    sent = re.findall(r"sending signal '(\w+)' to process\[slow-1\]", launched.output)
+    assert sent == signals, launched.output
 
 
 def test_on_exit_shutdown_makes_a_process_required(

@@ -101,6 +101,50 @@ def test_what_on_shutdown_starts_ends_with_sigterm() -> None:
     assert last.return_code == -signal.SIGINT
 
 
+def test_a_launch_waits_for_futures_that_it_is_given() -> None:
+    notes: list[str] = []
+
+    async def note(fails: bool) -> None:
+        await asyncio.sleep(0.05)
+        notes.append('over')
+        if fails:
+            raise RuntimeError('the future went wrong')
+
+    def add(context: LaunchContext, fails: bool) -> None:
+        assert context.asyncio_loop is not None
+        context.add_completion_future(context.asyncio_loop.create_task(note(fails)))
+
+    assert [_run(OpaqueFunction(function=add, args=[fails])) for fails in (False, True)] == [0, 1]
+    assert notes == ['over'] * 2
+
+
+def test_what_ends_after_the_shutdown_starts_nothing() -> None:
+    second = ExecuteProcess(cmd=['true'])
+    first = ExecuteProcess(cmd=['sleep', '30'], on_exit=[second])
+    assert _run(first, TimerAction(period=0.05, actions=[Shutdown()])) == 0
+    assert (first.return_code, second.return_code) == (-signal.SIGINT, None)
+
+
+def test_a_second_interrupt_is_ignored(capsys: pytest.CaptureFixture[str]) -> None:
+    ends: list[str] = []
+
+    def interrupt(_context: LaunchContext) -> None:
+        for _ in range(3):
+            signal.raise_signal(signal.SIGINT)
+
+    sleeper = ExecuteProcess(cmd=['sleep', '30'])
+    _run(
+        RegisterEventHandler(OnShutdown(on_shutdown=lambda event, _: ends.append(event.reason))),
+        RegisterEventHandler(
+            OnProcessStart(target_action=sleeper, on_start=[OpaqueFunction(function=interrupt)])
+        ),
+        sleeper,
+    )
+    assert ends == ['ctrl-c (SIGINT)']
+    told = 'user interrupted with ctrl-c (SIGINT)'
+    assert capsys.readouterr().out.count(f'{told} again, ignoring...') == 2
+
+
 def test_an_error_starts_nothing_of_what_stands_before_it() -> None:
     def fail(_: LaunchContext) -> None:
         raise RuntimeError('no such robot')
@@ -215,6 +259,10 @@ def test_the_event_loop_of_a_run_stays_set() -> None:
     loop = asyncio.get_event_loop()
     assert LaunchService().run() == 0
     assert asyncio.get_event_loop() is loop
+    asyncio.run(asyncio.sleep(0.0))  # takes the loop that is set away
+    assert LaunchService().run() == 0
+    asyncio.get_event_loop().close()
+    assert LaunchService().run() == 0
 
 
 def test_signals_reach_every_manager_that_is_entered() -> None:

@@ -24,7 +24,7 @@ from .launch_context import LaunchContext
 from .launch_description import LaunchDescription
 from .launch_description_entity import LaunchDescriptionEntity
 from .logging import get_logger, launch_config, log_launch_config
-from .source_location import attach_location, describe_error
+from .source_location import describe_error
 from .utilities import (
     AsyncSafeSignalManager,
     normalize_to_list_of_entities,
@@ -232,7 +232,6 @@ class LaunchService:
             try:
                 self.__visit(handler.handle(event, self.context))
             except Exception as error:
-                attach_location(error, None)
                 first_error = first_error or error
             finally:
                 self.context._pop_locals()
