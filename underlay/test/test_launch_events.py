@@ -331,13 +331,16 @@ def test_the_end_of_the_launch_cancels_a_coroutine() -> None:
     assert (begun, time.monotonic() - begin_sec < 30.0) == (['begun'], True)
 
 
-def test_loops_repeat_their_actions(python_launch_file: LaunchFile, run_launch: Run) -> None:
-    launched = run_launch(
+def test_loops_repeat_their_actions(python_launch_file: LaunchFile, launch_here: Run) -> None:
+    launched = launch_here(
         python_launch_file(
             """
-            ForLoop('3', function=lambda index: [LogInfo(msg=f'turn {index}')]),
+            ForLoop('3', function=lambda i: [LogInfo(msg=f'turn {i}')]),
             ForEach('{name: a, x: 1};{name: b, x: 2}',
                     function=lambda name, x: [LogInfo(msg=f'{name} at {x}')]),
+            ForLoop(0, function=lambda i: [LogInfo(msg='never')]),
+            ForEach(' ; ', function=lambda: [LogInfo(msg='never')]),
+            ForLoop(1, function=lambda index: [LogInfo(msg='refused by upstream')]),
             """
         )
     )
@@ -345,6 +348,10 @@ def test_loops_repeat_their_actions(python_launch_file: LaunchFile, run_launch: 
     assert [
         line.partition(']: ')[2] for line in launched.lines if 'launch.user' in line
     ] == expected
+    assert '[WARNING] [launch]: a loop starts nothing: its length is 0' in launched.lines
+    assert '[WARNING] [launch]: a loop starts nothing: it has no values' in launched.lines
+    assert "got an unexpected keyword argument 'i'" in launched.output
+    assert launched.returncode == 1
 
 
 def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_launch: Run) -> None:

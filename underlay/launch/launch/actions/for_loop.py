@@ -14,11 +14,16 @@ from ..action import Action
 from ..frontend import Entity, expose_action, Parser
 from ..launch_context import LaunchContext
 from ..launch_description_entity import LaunchDescriptionEntity
+from ..logging import get_logger
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
 from .opaque_function import OpaqueFunction
 
 _Entities = list[LaunchDescriptionEntity] | None
+
+
+def _warn_of_no_turn(why: str) -> None:
+    get_logger('launch').warning(f'a loop starts nothing: {why}')
 
 
 class _Turn(Action):
@@ -75,9 +80,10 @@ class ForEach(Action):
     def execute(self, context: LaunchContext) -> _Entities:
         entities: list[LaunchDescriptionEntity] = []
         text = perform_substitutions(context, self._input_values)
-        for part in text.split(';'):
-            if not part.strip():
-                continue
+        parts = [part for part in text.split(';') if part.strip()]
+        if not parts:
+            _warn_of_no_turn('it has no values')
+        for part in parts:
             values = yaml.safe_load(part)
             if not isinstance(values, dict):
                 raise ValueError(f"'{part.strip()}' is not a mapping as {{name: value}}")
@@ -96,15 +102,15 @@ class ForEach(Action):
 class ForLoop(Action):
     """Executes what a function returns for each index from 0 up to a length.
 
-    :param function: gets the index and returns actions; in a markup file the actions inside use
-        ``$(index name)``.
+    :param function: gets the index as ``i``, by name as upstream, and returns actions; in a markup
+        file the actions inside use ``$(index name)``.
     """
 
     def __init__(
         self,
         length: int | SomeSubstitutionsType,
         *,
-        function: Callable[[int], Iterable[LaunchDescriptionEntity] | None],
+        function: Callable[..., Iterable[LaunchDescriptionEntity] | None],
         name: SomeSubstitutionsType | None = None,
         **kwargs: Any,
     ) -> None:
@@ -121,7 +127,8 @@ class ForLoop(Action):
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
         children = entity.children
 
-        def function(_index: int) -> list[LaunchDescriptionEntity]:
+        def function(i: int) -> list[LaunchDescriptionEntity]:
+            del i
             return [parser.parse_action(child) for child in children]
 
         kwargs['function'] = function
@@ -136,6 +143,8 @@ class ForLoop(Action):
         name = None if self.__name is None else perform_substitutions(context, self.__name)
         entities: list[LaunchDescriptionEntity] = []
         for index in range(length):
-            call = OpaqueFunction(function=lambda _context, turn=index: self.__function(turn))
+            call = OpaqueFunction(function=lambda _context, turn=index: self.__function(i=turn))
             entities.append(_Turn({} if name is None else {name: index}, [call]))
+        if length <= 0:
+            _warn_of_no_turn(f'its length is {length}')
         return entities
