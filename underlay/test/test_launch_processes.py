@@ -140,12 +140,19 @@ def test_emulate_tty_makes_the_child_believe_in_a_terminal(
             """
             ExecuteProcess(cmd=['sh', '-c', 'test -t 1 && echo yes'], output='screen',
                            emulate_tty=True),
-            ExecuteProcess(cmd=['sh', '-c', 'test -t 1 || echo no'], output='screen'),
+            ExecuteProcess(cmd=['sh', '-c', 'test -t 1 || echo no', 'sh'], output='screen',
+                           emulate_tty=LaunchConfiguration('said', default='false'),
+                           shell=LaunchConfiguration('said', default='false')),
+            SetLaunchConfiguration('emulate_tty', '1'),  # wins over the arguments
+            ExecuteProcess(cmd=['sh', '-c', 'test -t 1 && echo yes'], output='screen'),
+            SetLaunchConfiguration('emulate_tty', 'false'),
+            ExecuteProcess(cmd=['sh', '-c', 'test -t 1 || echo no'], output='screen',
+                           emulate_tty=True),
             """
         )
     )
-    assert '[sh-1] yes' in launched.lines
-    assert '[sh-2] no' in launched.lines
+    said = [f'[sh-{number}] {word}' for number, word in enumerate(('yes', 'no') * 2, start=1)]
+    assert set(said) <= set(launched.lines)
 
 
 STUBBORN = """
@@ -305,10 +312,17 @@ def test_respawn_starts_again_as_often_as_it_may(
             """
             ExecuteProcess(cmd=['sh', '-c', 'echo once; exit 1'], output='screen', respawn=True,
                            respawn_delay=0.05, respawn_max_retries=2),
+            ExecuteProcess(cmd=['echo', 'thrice'], output='screen',
+                           respawn=LaunchConfiguration('again', default='true'),
+                           respawn_max_retries=LaunchConfiguration('often', default='2')),
+            ExecuteProcess(cmd=['echo', 'once'], output='screen',
+                           respawn=LaunchConfiguration('again', default='false')),
             """
         )
     )
     assert launched.lines.count('[sh-1] once') == 3
+    assert launched.lines.count('[echo-2] thrice') == 3
+    assert launched.lines.count('[echo-3] once') == 1
 
 
 def test_shutdown_during_a_respawn_delay_ends_at_once(
