@@ -7,7 +7,7 @@ import contextlib
 import signal
 from typing import Any
 
-from launch import LaunchContext, LaunchDescription, LaunchService
+from launch import EventHandler, LaunchContext, LaunchDescription, LaunchService
 from launch.actions import (
     ExecuteProcess,
     OpaqueFunction,
@@ -47,17 +47,25 @@ def test_an_error_in_a_handler_ends_the_launch_with_status_1(
     assert f'{text}handler went wrong' in capsys.readouterr().out
 
 
-def test_an_error_on_shutdown_leaves_no_process_behind(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    def fail(event: Any, _context: LaunchContext) -> None:
+def _fail_at_the_end(event: Any, _context: LaunchContext | None = None) -> bool:
+    if isinstance(event, ShutdownEvent):
         raise RuntimeError(f'cannot end: {event.reason}')
+    return False
 
+
+@pytest.mark.parametrize(
+    'handler',
+    [OnShutdown(on_shutdown=_fail_at_the_end), EventHandler(matcher=_fail_at_the_end)],  # type: ignore[arg-type]
+    ids=['handler', 'matcher'],
+)
+def test_an_error_on_shutdown_leaves_no_process_behind(
+    handler: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
     sleeper = ExecuteProcess(cmd=['sleep', '30'])
     status = _run(
         sleeper,
         TimerAction(period=0.1, actions=[Shutdown(reason='so')]),
-        RegisterEventHandler(OnShutdown(on_shutdown=fail)),
+        RegisterEventHandler(handler),
     )
     assert status == 1
     assert sleeper.return_code == -2

@@ -226,11 +226,10 @@ class LaunchService:
         self.__logger.debug(f"processing event: '{event}'")
         first_error: Exception | None = None
         for handler in tuple(self.context._event_handlers):
-            if not handler.matches(event):
-                continue
             self.context._push_locals()
             try:
-                self.__visit(handler.handle(event, self.context))
+                if handler.matches(event):
+                    self.__visit(handler.handle(event, self.context))
             except Exception as error:
                 first_error = first_error or error
             finally:
