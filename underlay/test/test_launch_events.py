@@ -10,11 +10,14 @@ import signal
 import time
 from typing import Any
 
-from launch import Event, EventHandler, LaunchContext, LaunchDescription, LaunchService
+from launch import Action, Event, EventHandler, LaunchContext, LaunchDescription, LaunchService
 from launch.actions import (
     EmitEvent,
     ExecuteProcess,
+    ForEach,
+    ForLoop,
     GroupAction,
+    LogInfo,
     OpaqueCoroutine,
     OpaqueFunction,
     RegisterEventHandler,
@@ -348,10 +351,29 @@ def test_loops_repeat_their_actions(python_launch_file: LaunchFile, launch_here:
     assert [
         line.partition(']: ')[2] for line in launched.lines if 'launch.user' in line
     ] == expected
-    assert '[WARNING] [launch]: a loop starts nothing: its length is 0' in launched.lines
-    assert '[WARNING] [launch]: a loop starts nothing: it has no values' in launched.lines
+    assert [line for line in launched.lines if 'WARNING' in line] == [
+        '[WARNING] [launch]: a loop starts nothing: its length is 0',
+        '[WARNING] [launch]: a loop starts nothing: it has no values',
+    ]
     assert "got an unexpected keyword argument 'i'" in launched.output
     assert launched.returncode == 1
+
+
+def _log(text: str) -> list[LogInfo]:
+    return [LogInfo(msg=text)]
+
+
+@pytest.mark.parametrize(
+    ('loop', 'message'),
+    [
+        (ForLoop('many', function=_log), "the length of a loop is 'many', not a whole"),
+        (ForEach('{text: a}; b', function=_log), "'b' is not a mapping as {name: value}"),
+        (ForEach('{b: 1}', function=_log), "missing a required argument: 'text', given"),
+    ],
+)
+def test_a_loop_that_cannot_be_is_refused(loop: Action, message: str) -> None:
+    with pytest.raises((ValueError, SyntaxError), match=message):
+        loop.execute(LaunchContext())
 
 
 def test_stdin_events_reach_the_process(python_launch_file: LaunchFile, run_launch: Run) -> None:
