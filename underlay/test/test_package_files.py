@@ -181,6 +181,23 @@ def test_a_folder_that_colcon_cannot_build_in_is_told(tmp_path: Path, letter: st
     ]
 
 
+@pytest.mark.parametrize('module', ['numbers/__init__.py', 'queue.py'])
+def test_a_module_that_hides_one_of_python_is_told(folder: Path, module: str) -> None:
+    for harmless in ('turtle.py', 'test/__init__.py', 'random', 'signal/notes.txt'):
+        (folder / harmless).parent.mkdir(exist_ok=True)
+        (folder / harmless).touch()
+    assert package_files.why_refused(folder) == []
+    (folder / module).parent.mkdir(exist_ok=True)
+    (folder / module).touch()
+    (told,) = package_files.why_refused(folder)
+    name = module.partition('/')[0]
+    assert told.startswith(
+        f'{name} hides the module {name.removesuffix(".py")!r} of Python, which'
+    )
+    command = [sys.executable, 'setup.py', '--name']
+    assert subprocess.run(command, cwd=folder, capture_output=True).returncode != 0  # it is true
+
+
 def test_a_missing_setup_file_is_told(folder: Path) -> None:
     (folder / 'setup.py').unlink()
     assert package_files.why_refused(folder) == [

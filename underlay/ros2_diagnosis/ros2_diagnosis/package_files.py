@@ -10,9 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from configparser import Error, RawConfigParser
+import importlib
 import os
 from pathlib import Path
 import re
+import sys
 
 from ros2_diagnosis import setup_py
 
@@ -33,6 +35,7 @@ def why_refused(folder: Path) -> list[str]:
             return []
         _check_settings(folder / 'setup.cfg')
         _check_text(folder / 'setup.py', f'there is none; package.xml says {build_type}')
+        _check_modules(folder)
     except _RefusedError as error:
         return [str(error)]
     return list(setup_py.faults(folder))
@@ -138,6 +141,25 @@ def _check_settings(path: Path) -> None:
         RawConfigParser().read_string(text, path.name)
     except Error as error:
         raise _RefusedError(f'{path.name}: {" ".join(str(error).split())}') from None
+
+
+def _check_modules(folder: Path) -> None:
+    """Refuse a module by whose name setuptools and `ros2` import one of Python.
+
+    setup.py looks in its own folder first, and a terminal in what is sourced there.
+    """
+    for path in sorted(folder.iterdir()):
+        name = path.name.removesuffix('.py')
+        is_module = (path / '__init__.py').is_file() or (path.suffix == '.py' and path.is_file())
+        if not is_module or name not in sys.stdlib_module_names:
+            continue
+        importlib.import_module('setuptools.dist')  # takes its time, and such names are rare
+        if name in sys.modules:
+            raise _RefusedError(
+                f'{path.name} hides the module {name!r} of Python, which setuptools and ros2 '
+                f'import: give it another name, such as my_{path.name}, and a package of that '
+                'name, too'
+            )
 
 
 def _check_text(path: Path, absent: str) -> str:
