@@ -181,6 +181,9 @@ def test_arguments_of_markup_files_can_be_listed(launch_file: LaunchFile) -> Non
         ('<launch>\n<log message="$(arg x)"/></launch>', 2, r'of ROS 1: write \$\(var NAME\)'),
         ('<launch>\n<node pkg="a" type="b"/></launch>', 2, 'type of ROS 1 is exec now'),
         ('<launch>\n<arg name="a" value="1"/></launch>', 2, 'value of ROS 1 is default now'),
+        ('<launch>\n<group ns="a"/></launch>', 2, 'ns of ROS 1 is <push_ros_namespace namespace='),
+        ('<launch>\n<include file="a" ns="b"/></launch>', 2, 'ns of ROS 1 is a <group> around it'),
+        ('<launch>\n<node pkg="a" exec="b" required="1"/></launch>', 2, 'is on_exit="shutdown" n'),
         ('<start/>', 1, "Expected 'launch' as root tag, got 'start'"),
     ],
 )

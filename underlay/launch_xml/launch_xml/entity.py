@@ -18,7 +18,10 @@ from launch.utilities.type_utils import get_typed_value
 _OF_ROS_1 = {
     ('arg', 'doc'): 'description',
     ('arg', 'value'): 'default',
+    ('group', 'ns'): '<push_ros_namespace namespace="NS"/> inside of it',
+    ('include', 'ns'): 'a <group> around it that begins with <push_ros_namespace namespace="NS"/>',
     ('node', 'ns'): 'namespace',
+    ('node', 'required'): 'on_exit="shutdown"',
     ('node', 'type'): 'exec',
 }
 
