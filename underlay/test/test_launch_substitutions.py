@@ -41,6 +41,9 @@ from launch.utilities.type_utils import (
 )
 import pytest
 
+LaunchFile = Callable[..., Path]
+Run = Callable[..., Any]
+
 pytestmark = pytest.mark.usefixtures('launch_environment')
 
 
@@ -262,3 +265,27 @@ def test_anything_else_than_text_is_refused() -> None:
     normalize: Callable[[Any], Any] = normalize_to_list_of_substitutions
     with pytest.raises(TypeError, match='5 of type int is neither text nor a Substitution'):
         normalize(['a', 5])
+
+
+def test_a_substitution_in_an_f_string_is_told(launch_file: LaunchFile, run_launch: Run) -> None:
+    path = launch_file(
+        """
+        from launch import LaunchDescription
+        from launch.actions import LogInfo, OpaqueFunction
+        from launch.substitutions import LaunchConfiguration
+
+        def late(context):
+            return [LogInfo(msg=[f'late {LaunchConfiguration("x").perform(context)}'])]
+
+        def generate_launch_description():
+            said = LogInfo(msg=f'x is {LaunchConfiguration("x", default="5")}')
+            return LaunchDescription([said, OpaqueFunction(function=late)])
+        """
+    )
+    output = run_launch(path, 'x:=1').output
+    assert output.count('[WARNING]') == 1
+    assert (
+        f'[WARNING] [launch]: {path}:10: a LaunchConfiguration has no text before the launch, so '
+        "that an f-string or str() does not help: write a list, ['text', LaunchConfiguration(...)]"
+    ) in output
+    assert 'late 1' in output

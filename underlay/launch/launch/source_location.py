@@ -35,6 +35,16 @@ def caller_location() -> tuple[str, int] | None:
     return None
 
 
+def launch_file_location() -> tuple[str, int] | None:
+    """Return the line of a Python launch file that is being read; None while none is."""
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        if frame.f_code.co_filename in _launch_files:
+            return frame.f_code.co_filename, frame.f_lineno
+        frame = frame.f_back
+    return None
+
+
 def traceback_location(trace: TracebackType | None) -> tuple[str, int] | None:
     """Return the innermost place of a traceback that is in a launch file."""
     found = None

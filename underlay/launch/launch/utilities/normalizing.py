@@ -6,13 +6,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+import re
 from typing import Any, TYPE_CHECKING
 
 from ..launch_description_entity import LaunchDescriptionEntity
+from ..logging import get_logger
+from ..source_location import launch_file_location
 from ..substitution import Substitution
 
 if TYPE_CHECKING:
     from ..launch_context import LaunchContext
+
+# What a substitution becomes in an f-string: by Python alone, and without a word.
+_AS_PYTHON_SAYS_IT = re.compile(r'<[\w.]*\.substitutions\.[\w.]*?(\w+) object at 0x')
 
 
 def _to_substitution(value: object) -> Substitution:
@@ -21,7 +27,14 @@ def _to_substitution(value: object) -> Substitution:
     if isinstance(value, (str, Path)):
         from ..substitutions import TextSubstitution
 
-        return TextSubstitution(text=str(value))
+        text = str(value)
+        formatted = _AS_PYTHON_SAYS_IT.search(text)
+        if formatted is not None and (place := launch_file_location()) is not None:
+            get_logger('launch').warning(
+                f'{place[0]}:{place[1]}: a {formatted[1]} has no text before the launch, so that '
+                f"an f-string or str() does not help: write a list, ['text', {formatted[1]}(...)]"
+            )
+        return TextSubstitution(text=text)
     raise TypeError(
         f'{value!r} of type {type(value).__name__} is neither text nor a Substitution: write it '
         f"as text ('{value}') or as a substitution"
