@@ -291,6 +291,11 @@ def test_a_name_that_no_interfaces_can_have_is_refused(folder: Path) -> None:
             r':3: rosidl_generate_interfaces\(\.\.\.\): stands behind ament_package\(\): move',
         ),
         (
+            'find_package(rosidl_default_generators)\nset(files "msg/A.msg")\n'
+            'rosidl_generate_interfaces(own_msgs ${file} DEPENDENCIES std_msgs)',
+            r':4: rosidl_generate_interfaces\(\.\.\.\): names no interface, as where a variable',
+        ),
+        (
             'ament_auto_package()\nrosidl_generate_interfaces(own_msgs "msg/Own.msg")',
             r':3: rosidl_generate_interfaces\(\.\.\.\): stands behind ament_package\(\): move',
         ),

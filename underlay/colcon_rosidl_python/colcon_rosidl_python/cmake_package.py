@@ -151,6 +151,7 @@ def _add_interfaces(package: CMakePackage, command: Command, folder: Path) -> No
             'above it'
         )
     wanted: str | None = 'INTERFACES'
+    known = len(package.interfaces)
     for argument in command.arguments[1:]:
         if argument in ('DEPENDENCIES', 'LIBRARY_NAME'):
             wanted = argument
@@ -163,6 +164,11 @@ def _add_interfaces(package: CMakePackage, command: Command, folder: Path) -> No
             if path in package.interfaces:
                 raise command.refused(f'{path} is named twice: take one out')
             package.interfaces.append(path)
+    if len(package.interfaces) == known:  # CMake ends here, too
+        raise command.refused(
+            'names no interface, as where a variable has another name than in its set(): write '
+            '"msg/NAME.msg" or the like'
+        )
 
 
 def _add_install(package: CMakePackage, command: Command, folder: Path) -> None:
