@@ -350,7 +350,7 @@ def test_a_workspace_of_another_name_is_told_the_right_one(tmp_path: Path) -> No
     assert found.defects == {'name': 'named ws; the lab asks for CSE461_<digits>_<digits>'}
     assert WORKSPACE.cost_percent('name') == 50.0
     assert workspace_step(WORKSPACE, tmp_path).score == 0.0
-    added = ('', '-1', ' (2)', '-main', '-master (1)')
+    added = ('', '-1', ' (2)', '(2)', '-main', '-master (1)')
     for name in (f'{name}{each}' for name in ('CSE461-7-3', 'CSE461_07_03') for each in added):
         found = workspace_step(WORKSPACE, (tmp_path / 'ws').rename(tmp_path / name))
         assert found.defects == {}, name

@@ -24,8 +24,9 @@ IGNORED = {'COLCON_IGNORE', 'AMENT_IGNORE', 'CATKIN_IGNORE'}
 MOST_TOLD = 3  # folders that look like packages and are none
 MOST_OF_A_NAME = 60  # characters
 # A workspace that was packed without a folder around it has the name of the archive: Canvas adds
-# "-1" to it when a student hands in again, a browser " (1)", "Download ZIP" of GitHub the branch.
-_ADDED = re.compile(r'(-\d+| \(\d+\)|-main|-master)$', re.ASCII)
+# "-1" to it when a student hands in again, a browser " (1)", Firefox "(1)", "Download ZIP" of
+# GitHub the branch.
+_ADDED = re.compile(r'(-\d+| ?\(\d+\)|-main|-master)$', re.ASCII)
 
 
 def workspace_step(step: WorkspaceStep, workspace: Path) -> Finding:
