@@ -31,7 +31,7 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
 
     def __init__(self) -> None:
         super().__init__()
-        self._may_be_in_src = sys.argv[1:2] == ['build'] and Path.cwd().name == 'src'
+        self._workspace = _workspace_around() if sys.argv[1:2] == ['build'] else None
 
     def identify(self, desc: Any) -> None:
         folder = Path(desc.path)
@@ -42,16 +42,25 @@ class RefusedIdentification(PackageIdentificationExtensionPoint):
             or any((folder / name).exists() for name in _IGNORED)
         ):
             return
-        if self._may_be_in_src:
-            self._may_be_in_src = False
+        if self._workspace is not None:
             print(
                 f'hint: {Path.cwd()}: `colcon build` is called among the sources, where it makes '
-                f'build, install and log of its own; call it in {Path.cwd().parent}',
+                f'build, install and log of its own; call it in {self._workspace}',
                 file=sys.stderr,
             )
+            self._workspace = None
         if package_files.why_refused(folder):
             desc.type = _TYPE
             desc.name = packages.name_in(folder) if manifest.is_file() else folder.name
+
+
+def _workspace_around() -> Path | None:
+    """Return the workspace in whose sources colcon is called, in src or in a package there."""
+    here = Path.cwd()
+    if here.name == 'src':
+        return here.parent
+    is_package = here.parent.name == 'src' and (here / 'package.xml').is_file()
+    return here.parents[1] if is_package else None
 
 
 def _is_of_ros(folder: Path) -> bool:

@@ -175,13 +175,16 @@ def test_a_build_among_the_sources_is_told_and_does_not_mislead(
     source = workspace / 'src'
     setup = source / 'mine' / 'setup.py'
     setup.write_text(setup.read_text().replace(_LAUNCH_FILES, ''))
-    among = build(source)
-    assert among.returncode == 0
-    assert among.stderr.count('hint: ') == 1
-    assert among.stderr.startswith(
-        f'hint: {source}: `colcon build` is called among the sources, where it makes build, '
-        f'install and log of its own; call it in {workspace}\n'
-    )
+    for place in (source / 'mine', source):
+        among = build(place)
+        assert among.returncode == 0
+        assert among.stderr.count('hint: ') == 1
+        assert among.stderr.startswith(
+            f'hint: {place}: `colcon build` is called among the sources, where it makes build, '
+            f'install and log of its own; call it in {workspace}\n'
+        )
+    for made in ('build', 'install', 'log'):
+        shutil.rmtree(source / 'mine' / made)
     assert 'hint: ' not in build(workspace).stderr
     # What is left there is not where the package is built from now on.
     refused = ros2('launch', 'mine', 'hello.launch.py', folder=source)
