@@ -5,10 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-import itertools
 import time
-from typing import Any
 
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
 from ros2_diagnosis import nodes
@@ -17,66 +14,35 @@ from ros2cli import interfaces
 from ros2cli.node.direct import command_node, CommandNode
 from rtps_graph.graph import Graph, Role
 
-from ros2_doctor_checks.headers import check_frame_names, Headers
+from ros2_doctor_checks.headers import check_frame_names, Headers, publishers_of
+from ros2_doctor_checks.transforms import check_senders, FIXED, Heard, seconds, TRANSFORMS
 
-_TRANSFORMS, _FIXED, _CLOCK = '/tf', '/tf_static', '/clock'
+_CLOCK = '/clock'
 _KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _FIRST_SEC, _LISTEN_SEC = 2.0, 1.0
-_APART_SEC = 60.0  # no transform is sent so late, or so far ahead
-_BEGINNING_SEC = 1.0  # of a simulation, in which a stamp of 0 may be right
 _SHOWN = 3
-
-
-@dataclass
-class _Heard:
-    """What comes while it is listened to.
-
-    :param times: those that the clock has told meanwhile, in seconds.
-    :param links: the parent and the stamp of each transform on /tf, by its child.
-    :param fixed: the frames of /tf_static.
-    """
-
-    times: list[float] = field(default_factory=list)
-    links: dict[str, list[tuple[str, float]]] = field(default_factory=dict)
-    fixed: set[str] = field(default_factory=set)
-
-    def on_clock(self, msg: Any) -> None:
-        self.times.append(_seconds(msg.clock))
-
-    def on_transforms(self, msg: Any) -> None:
-        for each in msg.transforms:
-            link = each.header.frame_id, _seconds(each.header.stamp)
-            self.links.setdefault(each.child_frame_id, []).append(link)
-
-    def on_fixed(self, msg: Any) -> None:
-        for each in msg.transforms:
-            self.fixed |= {each.header.frame_id, each.child_frame_id}
-
-    def is_timely(self, stamp: float) -> bool:
-        first, last = min(self.times), max(self.times)
-        if stamp == 0.0:
-            return first < _BEGINNING_SEC
-        apart = _APART_SEC + last - first  # simulated time may pass a hundred times as fast
-        return first - apart < stamp < last + apart
-
-    def frames(self) -> set[str]:
-        parents = {parent for links in self.links.values() for parent, _ in links}
-        return self.fixed | parents | self.links.keys()
 
 
 def check_frames(graph: Graph) -> Iterator[Finding]:
     """Listen to the transforms and headers, where there are some that can be heard here."""
-    publishers = [graph.node_of(each) for each in graph.with_role(Role.PUBLISHER, _TRANSFORMS)]
+    publishers = [graph.node_of(each) for each in graph.with_role(Role.PUBLISHER, TRANSFORMS)]
     if any(nodes.check_memory(publishers)):
         return
     has_clock = bool(graph.with_role(Role.PUBLISHER, _CLOCK))
-    if not publishers and not has_clock:
+    of_fixed = graph.with_role(Role.PUBLISHER, FIXED)
+    if not publishers and not has_clock and len(of_fixed) < 2:
         return
     with command_node() as node:
         headers = Headers(node, graph)
-        heard = _listen(node, headers, has_clock=has_clock, has_transforms=bool(publishers))
-    publishing = sorted({nodes.shown_name(each) for each in publishers})
-    yield from _two_parents(heard, ', '.join(publishing))
+        heard = _listen(
+            node,
+            headers,
+            has_clock=has_clock,
+            awaited=TRANSFORMS if publishers else FIXED if of_fixed else None,
+        )
+    yield from check_senders(
+        heard, moving=publishers_of(graph, TRANSFORMS), fixed=publishers_of(graph, FIXED)
+    )
     yield from check_frame_names(graph, headers, heard.frames())
     # Where nodes wait for a clock, that is told, and all follows from it.
     waits = not has_clock and bool(graph.with_role(Role.SUBSCRIPTION, _CLOCK))
@@ -86,10 +52,9 @@ def check_frames(graph: Graph) -> Iterator[Finding]:
         yield from _headers_of_another_time(graph, headers, heard, clock)
 
 
-def _listen(
-    node: CommandNode, headers: Headers, *, has_clock: bool, has_transforms: bool
-) -> _Heard:
-    heard = _Heard()
+def _listen(node: CommandNode, headers: Headers, *, has_clock: bool, awaited: str | None) -> Heard:
+    """Listen for a while, which begins with what is awaited."""
+    heard = Heard()
     kind = interfaces.message('tf2_msgs/msg/TFMessage')
     if has_clock:
         clock = interfaces.message('rosgraph_msgs/msg/Clock')
@@ -97,30 +62,18 @@ def _listen(
         node.spin_until(lambda: bool(heard.times), _FIRST_SEC)
     else:
         heard.times.append(time.time())
-    node.node.create_subscription(kind, _TRANSFORMS, heard.on_transforms, qos_profile_sensor_data)
-    node.node.create_subscription(kind, _FIXED, heard.on_fixed, _KEPT)
-    if not has_transforms:
+    node.node.create_subscription(kind, TRANSFORMS, heard.on_transforms, qos_profile_sensor_data)
+    node.node.create_subscription(kind, FIXED, heard.on_fixed, _KEPT)
+    if awaited is None:
         node.spin_until(lambda: headers.are_here, _LISTEN_SEC)
-    elif node.spin_until(lambda: bool(heard.links), _FIRST_SEC):
+    elif node.spin_until(
+        lambda: bool(heard.links if awaited == TRANSFORMS else heard.fixed), _FIRST_SEC
+    ):
         node.spin_until(lambda: False, _LISTEN_SEC)
     return heard
 
 
-def _two_parents(heard: _Heard, publishing: str) -> Iterator[Finding]:
-    for child, links in sorted(heard.links.items()):
-        parents = [parent for parent, _ in links]
-        # One that is handed over, as a cup from the table to the hand, changes once.
-        if sum(a != b for a, b in itertools.pairwise(parents)) > 1:
-            shown = ' and '.join(sorted(set(parents)))
-            yield Finding(
-                f'frame {child}',
-                f'has several parents, {shown}, so that it jumps between them',
-                f'let one node alone publish it, below one parent; on {_TRANSFORMS} publish '
-                f'{publishing}',
-            )
-
-
-def _of_another_time(graph: Graph, heard: _Heard, clock: str) -> Iterator[Finding]:
+def _of_another_time(graph: Graph, heard: Heard, clock: str) -> Iterator[Finding]:
     """Find transforms that are never found together with others.
 
     They are no fault where they are a tree of their own.
@@ -136,7 +89,7 @@ def _of_another_time(graph: Graph, heard: _Heard, clock: str) -> Iterator[Findin
     if not apart:
         return
     stamp = max(apart.values())
-    by, mend = _blame(graph, _TRANSFORMS, stamp, clock)
+    by, mend = _blame(graph, TRANSFORMS, stamp, clock)
     yield Finding(
         f'frame {", ".join(sorted(apart)[:_SHOWN])}',
         f'stamped by {by} with {stamp:.0f} s, while {clock} tells {heard.times[-1]:.0f} s, so '
@@ -147,11 +100,11 @@ def _of_another_time(graph: Graph, heard: _Heard, clock: str) -> Iterator[Findin
 
 
 def _headers_of_another_time(
-    graph: Graph, headers: Headers, heard: _Heard, clock: str
+    graph: Graph, headers: Headers, heard: Heard, clock: str
 ) -> Iterator[Finding]:
     """Find messages that are never put together with others; those without a stamp say so."""
     for topic, header in sorted(headers.first.items()):
-        stamp = _seconds(header.stamp)
+        stamp = seconds(header.stamp)
         if stamp != 0.0 and not heard.is_timely(stamp):
             by, mend = _blame(graph, topic, stamp, clock)
             yield Finding(
@@ -177,7 +130,3 @@ def _blame(graph: Graph, topic: str, stamp: float, clock: str) -> tuple[str, str
     else:
         mend = 'play a bag with --clock and use_sim_time in the others, or set header.stamp'
     return by, f'{mend} to `get_clock().now().to_msg()`'
-
-
-def _seconds(stamp: Any) -> float:
-    return float(stamp.sec + stamp.nanosec * 1e-9)

@@ -55,7 +55,7 @@ def check_frame_names(graph: Graph, headers: Headers, known: set[str]) -> Iterat
         if frame and frame not in known and (near := nearest.names(frame, known)):
             yield Finding(
                 topic,
-                f"{publishers(graph, topic)} names the frame '{frame}', of which there is no "
+                f"{publishers_of(graph, topic)} names the frame '{frame}', of which there is no "
                 'transform, so that nobody can say where that is',
                 f'set header.frame_id to {" or ".join(map(repr, near))}, or publish a transform '
                 'of that name',
@@ -63,7 +63,7 @@ def check_frame_names(graph: Graph, headers: Headers, known: set[str]) -> Iterat
             )
 
 
-def publishers(graph: Graph, topic: str) -> str:
+def publishers_of(graph: Graph, topic: str) -> str:
     """Return the names of the nodes that publish a topic."""
     found = (graph.node_of(each) for each in graph.with_role(Role.PUBLISHER, topic))
     return ', '.join(sorted({nodes.shown_name(node) for node in found}))

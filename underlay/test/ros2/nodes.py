@@ -226,6 +226,27 @@ def broadcaster(node: Node) -> None:
     node.create_timer(0.05, publish)
 
 
+def mover(node: Node) -> None:
+    """Send base_link on /tf, each process another one."""
+    publisher = node.create_publisher(TFMessage, '/tf', 10)
+    base = TransformStamped(child_frame_id='base_link')
+    base.header.frame_id = 'odom'
+    base.transform.translation.x = float(os.getpid())
+
+    def publish() -> None:
+        base.header.stamp = node.get_clock().now().to_msg()
+        publisher.publish(TFMessage(transforms=[base]))
+
+    node.create_timer(0.05, publish)
+
+
+def fixer(node: Node) -> None:
+    """Send base_link on /tf_static, below a frame that is named as the node."""
+    base = TransformStamped(child_frame_id='base_link')
+    base.header.frame_id = node.get_name()
+    node.create_publisher(TFMessage, '/tf_static', LATCHED).publish(TFMessage(transforms=[base]))
+
+
 def odd_laser(node: Node) -> None:
     """Stamp scans by its own clock and with a frame that nobody has, and read them."""
     publisher = node.create_publisher(LaserScan, 'scan', 10)

@@ -1,0 +1,127 @@
+# Copyright 2026 The Husky Playpen Lab authors
+# SPDX-License-Identifier: Apache-2.0
+"""The transforms that come while it is listened to them, and frames that are sent twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+import itertools
+from typing import Any
+
+from ros2_diagnosis.finding import Finding
+
+TRANSFORMS, FIXED = '/tf', '/tf_static'
+_APART_SEC = 60.0  # no transform is sent so late, or so far ahead
+_BEGINNING_SEC = 1.0  # of a simulation, in which a stamp of 0 may be right
+
+
+@dataclass
+class Heard:
+    """What comes while it is listened to.
+
+    :param times: those that the clock has told meanwhile, in seconds.
+    :param links: the parent and the stamp of each transform on /tf, by its child.
+    :param numbers: those that the publishers of these messages have given them, by the child.
+    :param places: where each child was.
+    :param fixed: the parents of each frame of /tf_static.
+    """
+
+    times: list[float] = field(default_factory=list)
+    links: dict[str, list[tuple[str, float]]] = field(default_factory=dict)
+    numbers: dict[str, list[int]] = field(default_factory=dict)
+    places: dict[str, set[str]] = field(default_factory=dict)
+    fixed: dict[str, set[str]] = field(default_factory=dict)
+
+    def on_clock(self, msg: Any) -> None:
+        self.times.append(seconds(msg.clock))
+
+    def on_transforms(self, msg: Any, info: Any) -> None:
+        for each in msg.transforms:
+            child = each.child_frame_id
+            link = each.header.frame_id, seconds(each.header.stamp)
+            self.links.setdefault(child, []).append(link)
+            self.places.setdefault(child, set()).add(str(each.transform))
+        for child in {each.child_frame_id for each in msg.transforms}:
+            self.numbers.setdefault(child, []).append(info['publication_sequence_number'])
+
+    def on_fixed(self, msg: Any) -> None:
+        for each in msg.transforms:
+            self.fixed.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
+
+    def is_timely(self, stamp: float) -> bool:
+        first, last = min(self.times), max(self.times)
+        if stamp == 0.0:
+            return first < _BEGINNING_SEC
+        apart = _APART_SEC + last - first  # simulated time may pass a hundred times as fast
+        return first - apart < stamp < last + apart
+
+    def frames(self) -> set[str]:
+        moving = {parent for links in self.links.values() for parent, _ in links}
+        return moving.union(self.links, self.fixed, *self.fixed.values())
+
+
+def check_senders(heard: Heard, moving: str, fixed: str) -> Iterator[Finding]:
+    """Find frames that are sent by two, or below two parents.
+
+    :param moving: who publishes /tf.
+    :param fixed: who publishes /tf_static.
+    """
+    for child, links in sorted(heard.links.items()):
+        parents = [parent for parent, _ in links]
+        if why := _why_it_jumps(heard, child, parents):
+            yield Finding(
+                f'frame {child}',
+                why,
+                f'let one node alone publish it, below one parent; on {TRANSFORMS} publish '
+                f'{moving}',
+            )
+        if child in heard.fixed:
+            yield Finding(
+                f'frame {child}',
+                f'is on {FIXED}, below {_shown(heard.fixed[child])}, and on {TRANSFORMS}, below '
+                f'{_shown(parents)}, so that the one takes the place of the other',
+                f'let one node alone publish it; on {FIXED} publish {fixed}; on {TRANSFORMS} '
+                f'{moving}',
+            )
+    for child, above in sorted(heard.fixed.items()):
+        if len(above) > 1 and ', ' in fixed:  # one alone has moved it
+            yield Finding(
+                f'frame {child}',
+                f'has several parents on {FIXED}, {_shown(above)}, of which the last that comes '
+                'is taken',
+                f'let one node alone publish it, below one parent; on {FIXED} publish {fixed}',
+            )
+
+
+def _why_it_jumps(heard: Heard, child: str, parents: list[str]) -> str:
+    """Say why a frame of /tf jumps, '' where it does not."""
+    # One that is handed over, as a cup from the table to the hand, changes once.
+    if sum(a != b for a, b in itertools.pairwise(parents)) > 1:
+        return f'has several parents, {_shown(parents)}, so that it jumps between them'
+    if len(heard.places[child]) > 1 and _are_of_several(heard.numbers[child]):
+        return 'is sent by several publishers, so that it jumps between what they say'
+    return ''
+
+
+def _are_of_several(numbers: list[int]) -> bool:
+    """Tell whether messages with these numbers, which each publisher counts, came from several.
+
+    One that was started anew begins at 1, and does not go on where it was.
+    """
+    highest = 0
+    goes_back = False
+    for number in numbers:
+        if goes_back and number > highest:
+            return True
+        goes_back = goes_back or number <= highest
+        highest = max(highest, number)
+    return False
+
+
+def _shown(names: Iterable[str]) -> str:
+    return ' and '.join(sorted(set(names)))
+
+
+def seconds(stamp: Any) -> float:
+    return float(stamp.sec + stamp.nanosec * 1e-9)
