@@ -9,9 +9,7 @@ from collections.abc import Iterator
 from rtps_graph.graph import Endpoint, Graph, Qos, Role
 
 from ros2_diagnosis.finding import Finding
-from ros2_diagnosis.nodes import shown_name
-
-SEND_GOAL = '/_action/send_goal'  # the service by which an action is known here
+from ros2_diagnosis.nodes import SEND_GOAL, shown_name
 
 
 def check(graph: Graph, topic: str | None = None) -> Iterator[Finding]:

@@ -18,6 +18,7 @@ from ros2_diagnosis.finding import Finding
 _CLOCK = '/clock'
 _TRANSFORMS = '/tf'
 COMMAND = 'a `ros2` command'
+SEND_GOAL = '/_action/send_goal'  # the service by which an action is known here
 # Topics of which one robot has one publisher: two would contradict each other.
 _SINGLE_PUBLISHER_ENDS = (
     'odometry/filtered',
@@ -30,6 +31,7 @@ _OFFERED_BY_MANY = ('tf2_msgs/srv/FrameGraph',)
 # The first two bytes of a GUID (dds-foundation.org, "DDS-RTPS vendor and product IDs").
 _VENDORS = {b'\x01\x01': 'Connext DDS', b'\x01\x0f': 'Fast DDS', b'\x01\x10': 'Cyclone DDS'}
 _OWN_VENDOR = 'Fast DDS'  # of the wheels
+_TOO_MANY = 10  # of the same in one node: a few broadcasters of transforms are usual
 _RANGE_OFF = 'ROS_AUTOMATIC_DISCOVERY_RANGE=OFF'
 _END_ONE = 'end one (Ctrl-C in its terminal), or give one its own ROS_DOMAIN_ID'
 
@@ -84,6 +86,24 @@ def check_servers(graph: Graph) -> Iterator[Finding]:
             'every call, and the first answer is taken',
             'end one (Ctrl-C in its terminal), or give one another namespace',
         )
+
+
+def check_numbers(graph: Graph) -> Iterator[Finding]:
+    """Find nodes that make the same again and again; all in one line for each."""
+    for node in graph.nodes:
+        found = Counter((each.name.removesuffix(SEND_GOAL), each.role) for each in node.endpoints)
+        many = [
+            f'{number} {role.value.lower()}s of {name}'
+            for (name, role), number in found.items()
+            if number >= _TOO_MANY and not names.is_hidden(name)
+        ]
+        if many:
+            yield Finding(
+                shown_name(node),
+                f'has {", ".join(sorted(many))}, as one that makes another in each callback: all '
+                'of them stay, and of the newest nobody knows yet when it is used',
+                'make each once, in __init__, and use it again',
+            )
 
 
 def _competing_publishers(graph: Graph) -> Iterator[tuple[str, list[Node]]]:

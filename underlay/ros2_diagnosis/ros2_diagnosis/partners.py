@@ -11,9 +11,8 @@ from rtps_graph import names
 from rtps_graph.graph import Graph, Role
 
 from ros2_diagnosis import nearest
-from ros2_diagnosis.connections import SEND_GOAL
 from ros2_diagnosis.finding import Finding
-from ros2_diagnosis.nodes import COMMAND, shown_name
+from ros2_diagnosis.nodes import COMMAND, SEND_GOAL, shown_name
 
 # Types of so many uses that they tell nothing: with one of them the names must be near, too.
 _OF_ANY_USE = ('std_msgs/', 'std_srvs/', 'example_interfaces/')

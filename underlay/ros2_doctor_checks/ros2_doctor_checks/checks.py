@@ -119,7 +119,11 @@ Names = partial(_Check, 'names', lambda: nodes.check_names(graph()))
 Publishers = partial(
     _Check,
     'publishers',
-    lambda: [*nodes.check_publishers(graph()), *nodes.check_servers(graph())],
+    lambda: [
+        found
+        for check in (nodes.check_publishers, nodes.check_servers, nodes.check_numbers)
+        for found in check(graph())
+    ],
 )
 Types = partial(_Check, 'types', _types)
 QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')

@@ -113,14 +113,14 @@ def hint_when_not_offered(service: str) -> None:
 
     :param service: of an action, that which sends goals.
     """
-    from ros2_diagnosis import connections
+    from ros2_diagnosis import connections, nodes
 
     found = read_graph(quiet=True)
     for finding in connections.check_service_types(found, service):
         print(f'hint: {finding}', file=sys.stderr)
     servers = {each.name for each in found.endpoints if each.role is graph.Role.SERVER}
     if service not in servers:
-        end = connections.SEND_GOAL if service.endswith(connections.SEND_GOAL) else ''
+        end = nodes.SEND_GOAL if service.endswith(nodes.SEND_GOAL) else ''
         name = service.removesuffix(end)
         offered = {each.removesuffix(end) for each in servers if each.endswith(end)}
         hint_near(f"nobody offers '{name}'", name, offered)

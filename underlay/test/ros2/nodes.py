@@ -18,7 +18,7 @@ from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 import rclpy
-from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.executors import ExternalShutdownException
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
@@ -105,6 +105,13 @@ def waiting_simulator(node: Node) -> None:
 def slow_driver(node: Node) -> None:
     publisher = node.create_publisher(Twist, 'cmd_vel', 10)
     node.create_timer(0.5, lambda: publisher.publish(Twist()))
+
+
+def wasteful_driver(node: Node) -> None:
+    """Make again and again, as in a callback, what is to be made once."""
+    for _ in range(12):
+        node.create_publisher(Twist, 'cmd_vel', 10)
+        ActionClient(node, Fibonacci, 'count')
 
 
 def stamped_driver(node: Node) -> None:

@@ -236,6 +236,18 @@ def test_two_drivers_of_one_robot(processes: Any, ros2_here: Callable[..., Any])
     assert 'note: Publisher without subscriber detected on /cmd_vel' in answer.err
 
 
+def test_a_node_that_makes_its_publisher_in_each_callback(
+    processes: Any, ros2_here: Callable[..., Any]
+) -> None:
+    processes.node('robot', 'husky')
+    processes.node('wasteful_driver', 'driver')
+    assert ros2_here('doctor').of_check('publishers') == (
+        'problem (publishers): /driver: has 12 clients of /count, 12 publishers of /cmd_vel, as '
+        'one that makes another in each callback: all of them stay, and of the newest nobody '
+        'knows yet when it is used; make each once, in __init__, and use it again'
+    )
+
+
 @pytest.mark.parametrize(
     ('lockstep', 'why'),
     [

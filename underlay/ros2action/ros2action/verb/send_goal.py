@@ -11,7 +11,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 from rclpy.action import ActionClient
-from ros2_diagnosis.connections import SEND_GOAL
+from ros2_diagnosis.nodes import SEND_GOAL
 from ros2cli import arguments, discovery, interfaces
 from ros2cli.errors import CommandError
 from ros2cli.node.direct import command_node, CommandNode
