@@ -52,6 +52,33 @@ def test_partners_that_nobody_misses_are_not_told_of() -> None:
     ]
 
 
+def test_nothing_is_said_of_services_that_are_there_and_of_what_is_hidden() -> None:
+    get, add = 'rcl_interfaces/srv/GetParameters', 'example_interfaces/srv/AddTwoInts'
+    graph = _graph(
+        talker=[(Role.SERVER, '/talker/get_parameters', get), (Role.SERVER, '/add', add)],
+        asks=[
+            (Role.CLIENT, '/talker/get_parameters', get),
+            (Role.CLIENT, '/add', add),
+            (Role.CLIENT, '/count/_action/cancel_goal', 'action_msgs/srv/CancelGoal'),
+            (Role.SUBSCRIPTION, '/count/_action/status', 'action_msgs/msg/GoalStatusArray'),
+        ],
+    )
+    assert not [*partners.check_services(graph), *partners.check_topics(graph)]
+
+
+def test_a_robot_that_reads_something_else_is_no_less_meant() -> None:
+    odometry = 'nav_msgs/msg/Odometry'
+    told = [(Role.PUBLISHER, '/odometry/filtered', odometry), (Role.PUBLISHER, '/raw', odometry)]
+    reads = [(Role.SUBSCRIPTION, '/cmd_vel', 'geometry_msgs/msg/Twist')]
+    hears = [(Role.SUBSCRIPTION, '/raw', odometry)]
+    waits = [(Role.SUBSCRIPTION, '/odom', odometry)]
+    (found,) = partners.check_topics(_graph(husky=[*told, *reads], view=hears, driver=waits))
+    assert found.serious
+    assert str(found).startswith(
+        '/odom: /driver subscribes to this, but /husky publishes /odometry/filtered, of one type'
+    )
+
+
 def test_what_a_robot_passes_on_is_meant_for_no_other() -> None:
     twist = 'geometry_msgs/msg/Twist'
     robots = _graph(
