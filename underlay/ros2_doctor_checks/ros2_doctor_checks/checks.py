@@ -65,6 +65,12 @@ def _partners() -> Iterable[Finding]:
     return [*partners.check_topics(graph()), *partners.check_services(graph())]
 
 
+def _qos() -> Iterable[Finding]:
+    from ros2_doctor_checks import kept
+
+    return [*connections.check_qos(graph()), *kept.check_kept(graph())]
+
+
 def _commands() -> Iterable[Finding]:
     from ros2_doctor_checks import commands  # rclpy is loaded for this check alone.
 
@@ -126,7 +132,7 @@ Publishers = partial(
     ],
 )
 Types = partial(_Check, 'types', _types)
-QualityOfService = partial(_Check, 'qos', lambda: connections.check_qos(graph()), 'middleware')
+QualityOfService = partial(_Check, 'qos', _qos, 'middleware')
 Partners = partial(_Check, 'partners', _partners)
 Clock = partial(_Check, 'clock', _clock)
 Memory = partial(_Check, 'memory', lambda: nodes.check_memory(graph().nodes), 'middleware')

@@ -62,6 +62,10 @@ def latched(node: Node) -> None:
     node.create_publisher(String, 'latched', LATCHED).publish(String(data='once'))
 
 
+def hears_later(node: Node) -> None:
+    node.create_subscription(String, 'latched', lambda msg: print(f'heard {msg.data}'), 10)
+
+
 def widest(node: Node) -> None:
     largest = b'\x00\x01\x00\x00' + struct.pack('<f', float.fromhex('0x1.fffffep+127'))
     node.create_publisher(Float32, 'widest', LATCHED).publish(largest)

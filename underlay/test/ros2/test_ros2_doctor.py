@@ -68,6 +68,20 @@ def test_quality_of_service_that_does_not_fit(
     assert 'reliability=ReliabilityPolicy.BEST_EFFORT' in line
 
 
+def test_a_kept_message_that_a_late_reader_does_not_ask_for(
+    processes: Any, ros2_here: Callable[..., Any]
+) -> None:
+    processes.node('hears_later', 'early')
+    processes.node('latched', 'map_server')
+    assert ' (qos): ' not in ros2_here('doctor').out
+    processes.node('hears_later', 'late')
+    answer = ros2_here('doctor')
+    line = answer.of_check('qos')
+    assert line.startswith('note (qos): /latched: /late began ')
+    assert ' s after the newest message was sent, which is kept for who asks for' in line
+    assert line.endswith('(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)`')
+
+
 def test_two_names_for_one_topic(processes: Any, ros2_here: Callable[..., Any]) -> None:
     processes.node('robot', 'husky')
     processes.node('slow_driver', 'driver', '--ros-args', '-r', 'cmd_vel:=speeds')
