@@ -88,6 +88,12 @@ class FindVerb(ListVerb):
         self._add_options(parser)
         parser.set_defaults(show_types=False)
 
+    def show(self, graph: Graph, args: argparse.Namespace) -> None:
+        super().show(graph, args)
+        if not self.chosen(graph, args):
+            known = {name for types in super().chosen(graph, args).values() for name in types}
+            discovery.hint_near(f"no {self.KIND} has the type '{args.type}'", args.type, known)
+
     def chosen(self, graph: Graph, args: argparse.Namespace) -> dict[str, list[str]]:
         found = super().chosen(graph, args)
         return {name: types for name, types in found.items() if args.type in types}

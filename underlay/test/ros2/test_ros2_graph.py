@@ -170,7 +170,13 @@ def test_types_and_names_find_each_other(ros2: Callable[..., Any]) -> None:
     answer = ros2('service', 'type', '/flp')
     assert (answer.status, answer.out) == (1, '')
     assert answer.err == "hint: there is no service '/flp'; did you mean '/flip'?\n"
-    assert ros2('topic', 'find', 'std_msgs/msg/String').lines == ['/chatter']
+    answer = ros2('topic', 'find', 'std_msgs/msg/String')
+    assert (answer.out, answer.err) == ('/chatter\n', '')
+    answer = ros2('topic', 'find', 'std_msgs/String')  # as in ROS 1
+    assert (answer.status, answer.out) == (0, '')
+    assert answer.err == (
+        "hint: no topic has the type 'std_msgs/String'; did you mean 'std_msgs/msg/String'?\n"
+    )
     assert ros2('service', 'type', '/flip').out == 'std_srvs/srv/SetBool\n'
     assert ros2('service', 'find', 'std_srvs/srv/SetBool').lines == ['/flip']
 
