@@ -22,15 +22,23 @@ _SIMULATOR = 'husky_sim'
 _VIEW = '/husky_view'  # shows each sensor that there is
 _SHOWN = 3
 # What the simulator publishes only where it is asked to, by the end of the topic.
+_LASER, _CAMERA, _BATTERY = 'lidar_rate_hz:=10.0', 'camera_rate_hz:=5.0', 'battery:=true'
 _OFF_AT_FIRST = {
-    'front/scan': 'lidar_rate_hz:=10.0',
-    'lidar2d_0/scan': 'lidar_rate_hz:=10.0',
-    'camera/image_raw': 'camera_rate_hz:=5.0',
-    'camera/camera_info': 'camera_rate_hz:=5.0',
-    'camera_0/color/image': 'camera_rate_hz:=5.0',
-    'camera_0/color/camera_info': 'camera_rate_hz:=5.0',
-    'battery_state': 'battery:=true',
-    'platform/bms/state': 'battery:=true',
+    'front/scan': _LASER,
+    'lidar2d_0/scan': _LASER,
+    'camera/image_raw': _CAMERA,
+    'camera/camera_info': _CAMERA,
+    'camera_0/color/image': _CAMERA,
+    'camera_0/color/camera_info': _CAMERA,
+    'battery_state': _BATTERY,
+    'platform/bms/state': _BATTERY,
+}
+# The same by the type, for who waits under another name.
+_OFF_BY_TYPE = {
+    'sensor_msgs/msg/LaserScan': ('laser', _LASER),
+    'sensor_msgs/msg/Image': ('camera', _CAMERA),
+    'sensor_msgs/msg/CameraInfo': ('camera', _CAMERA),
+    'sensor_msgs/msg/BatteryState': ('battery', _BATTERY),
 }
 
 
@@ -189,21 +197,39 @@ def _apart(
 
 def how_to_switch_on(graph: Graph, topic: str) -> str:
     """Return what starts the simulator with the sensor of a topic that nobody publishes, or ''."""
-    if any(node.name == _SIMULATOR for node in graph.nodes):
+    if _has_simulator(graph):
         for end, option in _OFF_AT_FIRST.items():
             if topic.endswith(f'/{end}'):
-                return (
-                    f'start the simulator with `--ros-args -p {option}`, or `{option}` behind its '
-                    'launch file'
-                )
+                return _with_option(option)
     return ''
+
+
+def _has_simulator(graph: Graph) -> bool:
+    return any(node.name == _SIMULATOR for node in graph.nodes)
+
+
+def _with_option(option: str) -> str:
+    return (
+        f'start the simulator with `--ros-args -p {option}`, or `{option}` behind its launch file'
+    )
 
 
 def _sensors_that_are_off(graph: Graph, waiting: _Uses) -> Iterator[Finding]:
     for each in waiting:
-        if (remedy := how_to_switch_on(graph, each.name)) and not each.node.endswith(_VIEW):
+        if each.node.endswith(_VIEW):
+            continue
+        if remedy := how_to_switch_on(graph, each.name):
             yield Finding(
                 each.name,
                 f'{each.node} subscribes to this, but that sensor of the simulator is off',
                 remedy,
+            )
+        elif each.type in _OFF_BY_TYPE and _has_simulator(graph):
+            sensor, option = _OFF_BY_TYPE[each.type]
+            yield Finding(
+                each.name,
+                f'{each.node} subscribes to this, {each.type}, which nobody publishes under any '
+                f'name, because the {sensor} of the simulator is off',
+                _with_option(option),
+                serious=False,  # it may wait for something else
             )

@@ -120,6 +120,18 @@ def test_a_sensor_that_is_off_is_named_with_what_turns_it_on() -> None:
     assert '`--ros-args -p lidar_rate_hz:=10.0`' in str(found)
 
 
+def test_a_sensor_that_is_off_is_known_by_its_type_as_well() -> None:
+    waits = [(Role.SUBSCRIPTION, '/scan', 'sensor_msgs/msg/LaserScan')]
+    (found,) = partners.check_topics(_graph(husky_sim=[], follower=waits))
+    assert not found.serious
+    assert str(found).startswith(
+        '/scan: /follower subscribes to this, sensor_msgs/msg/LaserScan, which nobody publishes '
+        'under any name, because the laser of the simulator is off; start the simulator with `--'
+    )
+    assert not [*partners.check_topics(_graph(husky_sim=[], husky_view=waits))]
+    assert not [*partners.check_topics(_graph(follower=waits))]
+
+
 def test_ros2_topic_names_a_sensor_that_is_off() -> None:
     clause = topics.why_unknown(_graph(husky_sim=[]), '/front/scan')
     assert clause.startswith('; that sensor of the simulator is off: start the simulator with `--')
