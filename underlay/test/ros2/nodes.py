@@ -88,6 +88,11 @@ def stamped(node: Node) -> None:
     node.create_timer(0.05, publish)
 
 
+def unstamped(node: Node) -> None:
+    publisher = node.create_publisher(TwistStamped, 'unstamped', 10)
+    node.create_timer(0.05, lambda: publisher.publish(TwistStamped()))
+
+
 def robot(node: Node) -> None:
     node.declare_parameter('command_timeout_sec', 0.25)
     node.create_subscription(Twist, 'cmd_vel', lambda _: None, 10)

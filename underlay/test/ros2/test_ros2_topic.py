@@ -10,6 +10,7 @@ from collections.abc import Callable
 import math
 import re
 import signal
+import sys
 import threading
 import time
 from types import SimpleNamespace
@@ -319,6 +320,19 @@ def test_delay_says_when_nothing_new_comes(processes: Any) -> None:
     delay = processes.ros2('topic', 'delay', '/stamped', ready='average delay: 0.0')
     processes.end_one(sender)
     find_line(delay.stdout, '^no new messages$')
+
+
+def test_delay_says_that_stamps_are_of_another_clock(processes: Any) -> None:
+    def told(hint: str, *words: str) -> None:
+        delay = processes.ros2('topic', 'delay', *words, ready=f'hint: {hint}')
+        processes.end_one(delay)
+
+    processes.start(sys.executable, '-m', 'husky_sim.ros.node', ready='x real time')
+    processes.node('stamped', 'sender')
+    processes.node('unstamped', 'forgetful')
+    told('its stamps are of the time of /clock: --use-sim-time', '/odometry/filtered')
+    told('its stamps are not of the time of /clock: leave out', '/stamped', '--use-sim-time')
+    told('its header.stamp is 0: set it to `get_clock().now().to_msg()`', '/unstamped')
 
 
 @pytest.mark.usefixtures('world')

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 from collections import deque
+import sys
 from typing import Any
 
 from rclpy.time import Time
@@ -14,6 +15,8 @@ from ros2cli.node.direct import command_node
 from ros2cli.verb import VerbExtension
 
 from ros2topic import measuring, topics
+
+_MAKES_SENSE_SEC = 86400.0
 
 
 class DelayVerb(VerbExtension):
@@ -30,11 +33,13 @@ class DelayVerb(VerbExtension):
             raise CommandError('msg does not have header')
         delays_sec: deque[float] = deque(maxlen=args.window)
         fresh = False
+        explained = False
+        stamp = 0
         with command_node(args) as node:
             clock = node.node.get_clock()
 
             def on_message(msg: Any) -> None:
-                nonlocal fresh
+                nonlocal fresh, stamp
                 if clock.now().nanoseconds == 0:
                     return  # simulated time that has not begun
                 stamp = Time.from_msg(msg.header.stamp).nanoseconds
@@ -42,7 +47,11 @@ class DelayVerb(VerbExtension):
                 fresh = True
 
             def report() -> None:
-                nonlocal fresh
+                nonlocal fresh, explained
+                if not explained and delays_sec and abs(delays_sec[-1]) > _MAKES_SENSE_SEC:
+                    explained = True
+                    has_clock = node.node.count_publishers('/clock') > 0
+                    _explain(stamp, by_clock=args.use_sim_time, has_clock=has_clock)
                 if fresh:
                     print(describe(list(delays_sec)))
                     fresh = False
@@ -51,6 +60,22 @@ class DelayVerb(VerbExtension):
 
             measuring.subscribe(node, topic, on_message)
             measuring.report_repeatedly(node, report, {topic.name: lambda: bool(delays_sec)})
+
+
+def _explain(stamp: int, *, by_clock: bool, has_clock: bool) -> None:
+    """Say why a delay makes no sense, where that is known.
+
+    :param by_clock: it is measured by the time of /clock.
+    """
+    if stamp == 0:
+        why = 'its header.stamp is 0: set it to `get_clock().now().to_msg()`'
+    elif by_clock:
+        why = 'its stamps are not of the time of /clock: leave out --use-sim-time'
+    elif has_clock:
+        why = 'its stamps are of the time of /clock: --use-sim-time measures by that'
+    else:
+        return
+    print(f'hint: {why}', file=sys.stderr)
 
 
 def describe(delays_sec: list[float]) -> str:
