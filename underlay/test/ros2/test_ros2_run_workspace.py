@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 import pytest
+from ros2_diagnosis import early_ends
 
 _ENTRY = "'hello = mine.hello:main',"
 _LAUNCH_FILES = "('share/mine/launch', glob('launch/*')),"
@@ -29,6 +30,15 @@ def main():
         pass  # rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+"""
+_TOO_SOON = """import rclpy
+from std_msgs.msg import String
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('hello')
+    node.create_publisher(String, 'chatter', 10).publish(String(data='once'))
 """
 
 
@@ -103,15 +113,49 @@ def test_an_older_build_that_runs_is_named(workspace: Path, ros2: Callable[..., 
     assert line.removeprefix('hint: ') in ros2('doctor', folder=workspace).of_check('workspace')
 
 
+@pytest.mark.parametrize(
+    ('program', 'told'),
+    [
+        (_NO_SPIN, 'mine/hello.py has a timer, but calls no rclpy.spin(), without which no callb'),
+        (_TOO_SOON, 'mine/hello.py publishes before any subscription can have found it, so that '),
+    ],
+)
 def test_a_program_that_ends_for_want_of_a_spin_is_told(
-    workspace: Path, ros2: Callable[..., Any]
+    workspace: Path, ros2: Callable[..., Any], program: str, told: str
 ) -> None:
-    (workspace / 'src' / 'mine' / 'mine' / 'hello.py').write_text(_NO_SPIN)
+    (workspace / 'src' / 'mine' / 'mine' / 'hello.py').write_text(program)
     ran = ros2('run', 'mine', 'hello')
     assert ran.status == 0
     (line,) = ran.err.splitlines()
-    assert line.startswith('hint: mine: hello has ended, because ')
-    assert 'mine/hello.py has a timer, but calls no rclpy.spin(), without which' in line
+    assert line.startswith('hint: mine: hello has ended, ')
+    assert told in line
+
+
+@pytest.mark.parametrize(
+    ('code', 'told'),
+    [
+        ('publisher.publish(String())\ntime.sleep(1.0)', ''),
+        ('# rclpy.spin(node)\nfuture = client.call_async(request)', 'write `rclpy.spin_until_fut'),
+        (
+            'future = client.call_async(request)\nrclpy.spin_until_future_complete(node, future)',
+            '',
+        ),
+        ('print(1)', ''),
+    ],
+)
+def test_a_program_that_ends_without_an_answer_is_told_and_another_is_not(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    code: str,
+    told: str,
+) -> None:
+    (tmp_path / 'hello.py').write_text(code)
+    monkeypatch.setattr('ros2_diagnosis.packages.source_of', lambda _: tmp_path)
+    monkeypatch.setattr('ros2_diagnosis.setup_py.module_of', lambda *_: tmp_path / 'hello.py')
+    early_ends.print_hint('mine', 'hello')
+    err = capsys.readouterr().err
+    assert told in err if told else err == ''
 
 
 def test_a_program_whose_entry_point_was_renamed_is_told(
