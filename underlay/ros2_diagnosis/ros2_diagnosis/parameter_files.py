@@ -5,13 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import contextlib
 from pathlib import Path
+import re
 from typing import Any
 
 from ros2_diagnosis import nearest
 
 _VALUES = 'ros__parameters'
-_NUMBERS = {'tag:yaml.org,2002:int', 'tag:yaml.org,2002:float'}
+_TAG = 'tag:yaml.org,2002:'
+_KINDS = {'int': 'whole numbers', 'float': 'numbers', 'bool': 'true or false', 'str': 'texts'}
+_NODE = re.compile(r'[\w/*]*')
 _FORM = f'NODE: {_VALUES}: NAME: VALUE, each on a line of its own, two blanks deeper'
 
 
@@ -34,7 +38,7 @@ def _faults(path: Path) -> Iterator[tuple[str, str]]:
 
     try:
         text = path.read_text(encoding='utf-8')
-        tree = yaml.compose(text)
+        trees = list(yaml.compose_all(text))
     except OSError:
         return
     except UnicodeDecodeError:
@@ -43,8 +47,9 @@ def _faults(path: Path) -> Iterator[tuple[str, str]]:
     except yaml.YAMLError as error:
         yield _why_no_yaml(error, text)
         return
-    if isinstance(tree, yaml.MappingNode):
-        yield from _of_sections(tree)
+    for tree in trees:
+        if isinstance(tree, yaml.MappingNode):
+            yield from _of_sections(tree)
 
 
 def _why_no_yaml(error: Exception, text: str) -> tuple[str, str]:
@@ -65,8 +70,13 @@ def _of_sections(tree: Any, section: str = '') -> Iterator[tuple[str, str]]:
             yield f'line {line}: {_VALUES} stands below no node', f'write {_FORM}'
         elif key.value == _VALUES:
             yield from _of_values(key, inner)
-        elif inner.id == 'mapping':
+        elif inner.id == 'mapping' and _NODE.fullmatch(str(key.value)):
             yield from _of_sections(inner, key.value)
+        elif inner.id == 'mapping':
+            yield (
+                f'line {line}: {key.value} is no name of a node',
+                'call the node by letters, digits and _ alone, here and where it is made',
+            )
         elif nearest.names(section, [_VALUES]):
             yield f'line {line}: {key.value} stands below {section}', f'call that {_VALUES}'
         elif inner.value == '':
@@ -81,13 +91,38 @@ def _of_values(key: Any, inner: Any) -> Iterator[tuple[str, str]]:
         for name, value in inner.value:
             if value.id == 'mapping':
                 yield from _of_values(name, value)
-            elif value.id == 'sequence' and {each.tag for each in value.value} == _NUMBERS:
-                yield (
-                    f'line {name.start_mark.line + 1}: {name.value} has whole numbers and others',
-                    'write all with a point, as 1.0',
-                )
+            elif value.id == 'sequence':
+                yield from _of_list(name, value.value)
+            elif value.value == '' and value.style is None:
+                at = f'line {name.start_mark.line + 1}'
+                yield f'{at}: nothing stands behind {name.value}', "write a value, '' for no text"
     elif inner.value == '':
         yield f'line {key.start_mark.line + 1}: nothing stands below {key.value}', f'write {_FORM}'
     elif inner.id == 'scalar':
         blank = ', with a blank behind the colon' if ':' in inner.value else ''
         yield f'line {line}: {inner.value!r} is no NAME: VALUE', f'write {_FORM}{blank}'
+
+
+def _of_list(name: Any, values: list[Any]) -> Iterator[tuple[str, str]]:
+    """Find values of several types, where they are certainly so for rcl as well."""
+    kinds = {each.tag.removeprefix(_TAG) for each in values}
+    if len(kinds) < 2 or not kinds <= _KINDS.keys() or any(map(_may_be_another, values)):
+        return
+    at = f'line {name.start_mark.line + 1}'
+    if kinds == {'int', 'float'}:
+        yield f'{at}: {name.value} has whole numbers and others', 'write all with a point, as 1.0'
+    else:
+        shown = ' and '.join(kind for tag, kind in _KINDS.items() if tag in kinds)
+        yield f'{at}: {name.value} has {shown}', 'write values of one type, texts in quotes'
+
+
+def _may_be_another(value: Any) -> bool:
+    """Tell whether rcl may read a value otherwise: 1e5 is no text for it, 12:30 no number."""
+    if value.style is not None:
+        return False
+    if value.tag != f'{_TAG}str':
+        return ':' in value.value or '_' in value.value
+    with contextlib.suppress(ValueError):
+        float(value.value)
+        return True
+    return value.value.lower() in ('y', 'n')

@@ -70,6 +70,14 @@ def test_what_a_node_cannot_read_is_explained(
         ('ros__parameters:\n  b: 1\n', 'line 1: ros__parameters stands below no node'),
         ('/a:\n  ros__parameters:\n    b:1\n', "line 3: 'b:1' is no NAME: VALUE"),
         ('/a:\n  ros__parameters:\n    b: [1, 2.0]\n', 'line 3: b has whole numbers and others'),
+        (
+            '/a:\n  ros__parameters:\n    c: {b: [1, true]}\n',
+            'b has whole numbers and true or fal',
+        ),
+        ('/a:\n  ros__parameters:\n    b: ["1", 2]\n', 'write values of one type, texts in quo'),
+        ('/a:\n  ros__parameters:\n    b:\n    c: 1\n', 'line 3: nothing stands behind b; wri'),
+        ('/a-b:\n  ros__parameters:\n    c: 1\n', 'line 1: /a-b is no name of a node; call '),
+        ('/a:\n  ros__parameters:\n    b: \xe4\n', 'it is no UTF-8; save it as UTF-8'),
         ('/a:\n  ros__parameters:\n    b: 1\n   c: 1\n', 'line 4 is no YAML: expected <block'),
         ('/a:\n  ros__parameters:\n    b: "1\n', 'is no YAML: found unexpected end of stream'),
     ],
@@ -83,7 +91,7 @@ def test_a_parameter_file_that_no_node_reads_is_explained(
 ) -> None:
     installed_package('demo', talker=_STARTS)
     file = tmp_path / 'parameters.yaml'
-    file.write_text(text)
+    file.write_text(text, encoding='latin-1')
     answer = ros2('run', 'demo', 'talker', '--ros-args', '--params-file', str(file))
     assert told in answer.err.splitlines()[0].removeprefix(f'hint: --params-file {file}: ')
     assert 'the node ended: ' in answer.err, 'it has read the file'
@@ -100,6 +108,8 @@ def test_what_a_node_takes_is_not_complained_of(
             '# nothing\n',
             '/a: {ros__parameters: {}}\n',
             '/**:\n  b:\n    ros__parameters:\n      c: {d: [1.0, 2.0], e: "", f: [1, 2]}\n',
+            'a:\n ros__parameters:\n  a: [1.0, 1e5]\n  b:\n  - 12:30\n  - x\n  c: [on, y]\n  d: 1',
+            'a: {ros__parameters: {a: 1}}\n---\nb: {ros__parameters: {a: 1}}\n',
             'talker: {ros__parameters: {a: 1}}\n/robot/b: {ros__parameters: {a: [u, v]}}\n',
         )
     ):
