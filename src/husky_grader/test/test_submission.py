@@ -180,6 +180,16 @@ def test_a_waypoint_file_may_be_handed_in_alone(tmp_path: Path) -> None:
         assert workspace.path.read_text() == COURSE
 
 
+def test_a_waypoint_file_may_have_documents_beside_it(tmp_path: Path) -> None:
+    files = {'my_path.yaml': COURSE, 'report/Bericht Ä.PDF': '%PDF', 'map.png': ''}
+    workspace = unpacked(in_zip(tmp_path / 'ann.zip', files))
+    assert (workspace.kind, workspace.path.name) == ('waypoints', 'my_path.yaml')
+    assert workspace.notes == ('left out beside my_path.yaml: map.png, report/Bericht Ä.PDF',)
+    for other in ('drive.py', 'other.yaml'):
+        with pytest.raises(Refused, match='no package in it'):
+            unpacked(in_zip(tmp_path / 'ann.zip', {**files, other: ''}))
+
+
 def test_a_folder_with_an_archive_hands_in_the_archive(tmp_path: Path) -> None:
     in_zip(in_folder(tmp_path / 'class' / 'ann', {'report.txt': 'I'}) / 'ws.zip', SOURCES)
     workspace = unpacked(tmp_path / 'class')

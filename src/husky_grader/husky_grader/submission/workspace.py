@@ -3,13 +3,18 @@
 """Find the workspace, or the waypoint file, in what was unpacked, and give it its place."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 import shutil
 from typing import Literal
 
 from husky_grader.folder_names import folder_names
-from husky_grader.submission.kinds import HEAD_BYTES, is_called_archive, kind_of
+from husky_grader.submission.kinds import (
+    HEAD_BYTES,
+    is_called_archive,
+    is_called_yaml,
+    kind_of,
+)
 from husky_grader.submission.limits import BUILT, COPY, FOLDERS_OF_COLCON, IGNORED, Refused
 from husky_grader.submission.tree import common_start, Parts, PASSABLE, shown, TreeWriter
 
@@ -19,6 +24,8 @@ _HAND_IN = (
     'asked for'
 )
 _MOST_SHOWN = 5
+# What people hand in beside a waypoint file, as a report.
+_DOCUMENTS = ('.pdf', '.txt', '.md', '.doc', '.docx', '.odt', '.png', '.jpg', '.jpeg', '.svg')
 _MADE = {COPY, BUILT, *FOLDERS_OF_COLCON}
 
 
@@ -49,8 +56,10 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     :param name: of the workspace, where the tree has no folder of its own around it.
     :raises Refused: when there is none, more than one, or what is neither file nor folder in it.
     """
-    if len(tree.files) == 1 and not tree.others and tree.files[0][-1] != _MANIFEST:
-        return _settle_file(tree.files[0], staging, folder)
+    if not tree.others and (alone := _file_alone(tree.files)) is not None:
+        beside = [parts for parts in tree.files if parts is not alone]
+        notes = (f'left out beside {shown(alone)}: {_listed(sorted(beside))}',) if beside else ()
+        return replace(_settle_file(alone, staging, folder), notes=notes)
     tools = _made_by_tools(tree)
     root = _find_root(tree, tools)
     for parts, what in tree.others.items():
@@ -72,6 +81,14 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
     staging.joinpath(*root.parts).rename(target)
     notes = (f'left out: {_listed(left)}',) if left else ()
     return Workspace(place, 'workspace', root.handed, notes)
+
+
+def _file_alone(files: Sequence[Parts]) -> Parts | None:
+    """Return the only file, or the only waypoint file where all others are documents."""
+    if len(files) == 1:
+        return files[0] if files[0][-1] != _MANIFEST else None
+    others = [parts for parts in files if not parts[-1].lower().endswith(_DOCUMENTS)]
+    return others[0] if len(others) == 1 and is_called_yaml(others[0][-1]) else None
 
 
 def _settle_file(parts: Parts, staging: Path, folder: Path) -> Workspace:
