@@ -185,6 +185,9 @@ def test_a_waypoint_file_may_have_documents_beside_it(tmp_path: Path) -> None:
     workspace = unpacked(in_zip(tmp_path / 'ann.zip', files))
     assert (workspace.kind, workspace.path.name) == ('waypoints', 'my_path.yaml')
     assert workspace.notes == ('left out beside my_path.yaml: map.png, report/Bericht Ä.PDF',)
+    repository = {'.github/classroom.yml': '', '.gitignore': '', 'LICENSE': '', 'README.md': ''}
+    workspace = unpacked(in_zip(tmp_path / 'cem.zip', {'p.yml': COURSE, **repository}))
+    assert (workspace.kind, workspace.path.name) == ('waypoints', 'p.yml')
     for other in ('drive.py', 'other.yaml'):
         with pytest.raises(Refused, match='no package in it'):
             unpacked(in_zip(tmp_path / 'ann.zip', {**files, other: ''}))

@@ -24,8 +24,9 @@ _HAND_IN = (
     'asked for'
 )
 _MOST_SHOWN = 5
-# What people hand in beside a waypoint file, as a report.
+# What people hand in beside a waypoint file, as a report, and what repositories have.
 _DOCUMENTS = ('.pdf', '.txt', '.md', '.doc', '.docx', '.odt', '.png', '.jpg', '.jpeg', '.svg')
+_DOCUMENT = 'license'
 _MADE = {COPY, BUILT, *FOLDERS_OF_COLCON}
 
 
@@ -84,11 +85,17 @@ def settle(tree: TreeWriter, staging: Path, folder: Path, name: str) -> Workspac
 
 
 def _file_alone(files: Sequence[Parts]) -> Parts | None:
-    """Return the only file, or the only waypoint file where all others are documents."""
+    """Return the only file, or the only waypoint file where all others are documents or hidden."""
     if len(files) == 1:
         return files[0] if files[0][-1] != _MANIFEST else None
-    others = [parts for parts in files if not parts[-1].lower().endswith(_DOCUMENTS)]
+    others = [parts for parts in files if not _is_document(parts)]
     return others[0] if len(others) == 1 and is_called_yaml(others[0][-1]) else None
+
+
+def _is_document(parts: Parts) -> bool:
+    name = parts[-1].lower()
+    hidden = any(part.startswith('.') for part in parts)
+    return hidden or name == _DOCUMENT or name.endswith(_DOCUMENTS)
 
 
 def _settle_file(parts: Parts, staging: Path, folder: Path) -> Workspace:
