@@ -281,6 +281,40 @@ def test_a_package_that_python_asks_for_is_explained(
     assert "No module named 'nav2_common': it has no wheel; here nothing does its job, but" in said
 
 
+def test_a_file_that_the_package_has_not_installed_is_explained(
+    python_launch_file: LaunchFile,
+    launch_here: Run,
+    ros_package: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    del ros_package
+    prefix, source = tmp_path / 'ws/install/some_package', tmp_path / 'ws/src/some_package'
+    index = prefix / 'share/ament_index/resource_index/packages/some_package'
+    for file in (index, source / 'config/a b.yaml', source / 'urdf/arm.urdf'):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+    (source / 'package.xml').write_text(UNBUILT)
+    prefixes = [str(prefix), os.environ['AMENT_PREFIX_PATH']]
+    monkeypatch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
+    share = f'{prefix}/share/some_package'
+    before = f'{BEFORE}\nfrom launch.substitutions import Command, FileContent\n'
+    for action, missing in {
+        f"node(parameters=['{share}/config/a b.yaml']),": 'config/a b.yaml',
+        f"LogInfo(msg=open('{share}/config/a b.yaml').read()),": 'config/a b.yaml',
+        f"LogInfo(msg=FileContent('{share}/urdf/arm.urdf')),": 'urdf/arm.urdf',
+        f"LogInfo(msg=Command('cat {share}/urdf/arm.urdf')),": 'urdf/arm.urdf',
+    }.items():
+        said = launch_here(python_launch_file(action, before=before)).output
+        folder = missing.partition('/')[0]
+        assert (
+            said.count(
+                f'{source}/{missing} is not installed: write install(DIRECTORY {folder} DEST'
+            )
+            == 1
+        )
+
+
 def test_a_missing_parameter_file_is_warned_about(
     python_launch_file: LaunchFile, launch_here: Run, ros_package: Path
 ) -> None:

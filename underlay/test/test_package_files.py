@@ -454,6 +454,14 @@ def test_colcon_and_ros2_run_say_it(
     told = packages.why_not_installed('talk', 'talk.launch.py')
     assert told is not None
     assert told.startswith(f'{launch_file} is not installed yet: run `colcon build')
+    (folder / 'urdf').mkdir()
+    (folder / 'urdf' / 'arm.urdf').touch()
+    share = prefix / 'share' / 'talk'
+    told = packages.why_not_in_share(share / 'urdf' / 'arm.urdf')
+    assert told is not None
+    assert told.startswith(f"{folder}/urdf/arm.urdf is not installed: add ('share/talk/urdf', glo")
+    for other in (share / 'arm.urdf', share, folder / 'urdf' / 'arm.urdf'):
+        assert packages.why_not_in_share(other) is None
 
     assert [str(each) for each in workspaces.check_changed('talk', prefix)] != []
     replace(folder / 'package.xml', '>talk<', '>chat<')

@@ -81,7 +81,7 @@ def describe_error(error: BaseException) -> str:
         message = f'KeyError: {said!r}' if type(error) is KeyError else said
     for explainer in _explainers:
         hint = explainer(error) or (explainer(error.__cause__) if error.__cause__ else '')
-        message += f': {hint}' if hint else ''
+        message = f'{message.rstrip()}: {hint}' if hint else message
     location = getattr(error, 'launch_location', None) or traceback_location(error.__traceback__)
     if location is None or f'{location[0]}:{location[1]}' in message:
         return message

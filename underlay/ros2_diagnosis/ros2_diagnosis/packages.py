@@ -155,19 +155,32 @@ def why_not_installed(package: str, name: str) -> str | None:
     """Say why a file of the sources of a package is not in its share; None where there is none."""
     source = source_of(package)
     found = sorted(path for path in source.rglob('*') if path.name == name) if source else []
-    if source is None or not found:
-        return None
-    folder = found[0].parent.relative_to(source)
+    return _how_to_install(package, source, found[0]) if source and found else None
+
+
+def why_not_in_share(path: Path) -> str | None:
+    """Say why a file is not in the share of a package whose sources have it; None for others."""
+    for prefix in prefixes():
+        with contextlib.suppress(ValueError):  # it is not below that
+            package, *below = path.relative_to(prefix / 'share').parts
+            source = source_of(package) if below else None
+            if source is not None and source.joinpath(*below).is_file():
+                return _how_to_install(package, source, source.joinpath(*below))
+    return None
+
+
+def _how_to_install(package: str, source: Path, found: Path) -> str:
+    folder = found.parent.relative_to(source)
     workspace = _workspace_of_built(package, source)
     build = f'run `colcon build --packages-select {package}` in {workspace}'
     if package_files.is_of_cmake(source) or not (source / 'setup.py').is_file():
         line = f'install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})'
-        return f'{found[0]} is not installed: write {line} in CMakeLists.txt, and {build}'
+        return f'{found} is not installed: write {line} in CMakeLists.txt, and {build}'
     if re.search(rf"""['"/]{re.escape(str(folder))}['"/]""", _setup_of(source)):
-        return f'{found[0]} is not installed yet: {build}'
+        return f'{found} is not installed yet: {build}'
     line = f"('share/{package}/{folder}', glob('{folder}/*'))"
     return (
-        f'{found[0]} is not installed: add {line} to data_files in {source / "setup.py"}, `from '
+        f'{found} is not installed: add {line} to data_files in {source / "setup.py"}, `from '
         f'glob import glob` at its top, and {build}'
     )
 

@@ -221,7 +221,11 @@ class Node(ExecuteProcess):
                 if isinstance(item, Path) and (why := parameter_files.why_refused(item)):
                     get_logger(_LOGGER).warning(f'{path}: {"; ".join(why)}')
             else:
-                get_logger(_LOGGER).warning(f'Parameter file path is not a file: {path}')
+                from ros2_diagnosis.packages import why_not_in_share
+
+                why_not = why_not_in_share(path)
+                hint = f'; {why_not}' if why_not else ''
+                get_logger(_LOGGER).warning(f'Parameter file path is not a file: {path}{hint}')
         return arguments
 
     def __write_parameters(self, parameters: dict[str, Any]) -> Path:

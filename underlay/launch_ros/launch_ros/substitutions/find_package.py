@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 import re
 import sys
 from typing import cast
@@ -13,7 +14,7 @@ from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.source_location import explain_errors_with
 from launch.substitution import MarkupArguments, Substitution
-from launch.substitutions import PathJoinSubstitution
+from launch.substitutions import PathJoinSubstitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
@@ -72,8 +73,20 @@ class FindPackageShare(FindPackage):
         return cast(str, get_package_share_directory(package_name))
 
 
+_BELOW_A_SHARE = re.compile(r"""/[^'"\s:]+/share/[^'"\s:]+""")
+
+
 def _explain(error: BaseException) -> str:
-    """Say why a package is missing that a launch file in Python asked for, or imports."""
+    """Say why a package is missing that a launch file in Python asked for, or a file of one."""
+    if isinstance(error, (OSError, SubstitutionFailure)):
+        path = getattr(error, 'filename', None)
+        if path is None and (named := _BELOW_A_SHARE.search(str(error))) is not None:
+            path = named[0]
+        if not isinstance(path, str) or '/share/' not in path:
+            return ''
+        from ros2_diagnosis.packages import why_not_in_share
+
+        return why_not_in_share(Path(path)) or ''
     if isinstance(error, ModuleNotFoundError):
         from ros2_diagnosis import stand_ins
 
