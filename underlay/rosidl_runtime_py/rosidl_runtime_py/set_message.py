@@ -53,6 +53,10 @@ def set_message_fields(
 
 def _as_meant(name: object, value: object, slots: Iterable[str]) -> str:
     """Say how YAML wants `data:hello` and `{x: 0,5}`, in which it finds a name without a value."""
+    if isinstance(name, bool):  # as turtlesim's SetPen has a field off
+        words = ('on', 'yes') if name else ('off', 'no')
+        meant = next((word for word in words if word in slots), None)
+        return f"; YAML takes {meant} for {name}: put it in quotes, '{meant}'" if meant else ''
     if isinstance(name, int) and value is None:
         return '; decimals have a point, as in 0.5'
     field_name, colon, text = str(name).partition(':')

@@ -34,6 +34,7 @@ from rosidl_runtime_py.utilities import (
 )
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Bool, Header, String, UInt8MultiArray
+from turtlesim.srv import SetPen
 import yaml
 
 
@@ -149,6 +150,15 @@ def test_a_value_that_does_not_fit_is_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         set_message_fields(Twist(), values)
+
+
+def test_a_field_that_yaml_takes_for_a_truth_value_is_told() -> None:
+    meant = "no attribute 'False'; .*; YAML takes off for False: put it in quotes, 'off'$"
+    with pytest.raises(AttributeError, match=meant):
+        set_message_fields(SetPen.Request(), yaml.safe_load('{r: 1, off: 0}'))
+    set_message_fields(SetPen.Request(), yaml.safe_load("{r: 1, 'off': 0}"))
+    with pytest.raises(AttributeError, match=r"no attribute 'True'; its fields are [a-z, ]*$"):
+        set_message_fields(SetPen.Request(), yaml.safe_load('{on: 0}'))
 
 
 def test_the_length_of_an_array_is_checked() -> None:
