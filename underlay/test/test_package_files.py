@@ -225,6 +225,29 @@ def test_a_program_that_cannot_start_is_told(
     assert reason in told
 
 
+@pytest.mark.parametrize(
+    ('line', 'remedy'),
+    [
+        ('import arm', 'from talk import arm'),
+        ('from arm import LENGTH', 'from talk.arm import LENGTH'),
+        ('from talk.arm import LENGTH', ''),
+        ('from .arm import LENGTH', ''),
+        ('import json', ''),
+        ('try:\n    import arm\nexcept ImportError:\n    pass', ''),
+    ],
+)
+def test_an_import_of_what_lies_beside_is_told(folder: Path, line: str, remedy: str) -> None:
+    for name in ('arm', 'json'):
+        (folder / 'talk' / f'{name}.py').write_text('LENGTH = 1\n')
+    hello = folder / 'talk' / 'hello.py'
+    hello.write_text(f'{line}\n\n\n{FILES["talk/hello.py"]}')
+    command = [sys.executable, '-c', 'import talk.hello']
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert (done.returncode != 0) == (remedy != ''), done.stderr
+    told = f'{hello}:1: arm is a module of this package: write `{remedy}`'
+    assert dict(setup_py.broken_programs(folder, 'talk')) == ({'hello': told} if remedy else {})
+
+
 def test_a_program_beside_the_folder_of_the_programs_is_told(folder: Path) -> None:
     (folder / 'src').mkdir()
     lost = (folder / 'talk' / 'hello.py').rename(folder / 'src' / 'hello.py')

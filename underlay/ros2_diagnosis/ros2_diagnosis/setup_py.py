@@ -132,6 +132,26 @@ def _why_broken(folder: Path, package: str, module: str, function: str | None) -
         return f'{path} is saved as UTF-16 (Windows: Unicode): save it as UTF-8'
     if function.partition('.')[0] not in text:
         return f'{path} has no {function}()'
+    return _why_not_imported(path, package) if path.is_file() else None
+
+
+def _why_not_imported(path: Path, package: str) -> str | None:
+    """Say which module beside it a module imports as one may that is run by itself."""
+    try:
+        tree = _parsed(path)
+    except (OSError, SyntaxError, ValueError):
+        return None
+    for node in tree.body:
+        if isinstance(node, ast.Import):
+            name, remedy = node.names[0].name, f'from {package} import {node.names[0].name}'
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            name = str(node.module)
+            remedy = f'from {package}.{name} import {", ".join(each.name for each in node.names)}'
+        else:
+            continue
+        beside = path.parent / f'{name}.py'
+        if path.parent.name == package and beside.is_file() and find_spec(name) is None:
+            return f'{path}:{node.lineno}: {name} is a module of this package: write `{remedy}`'
     return None
 
 
