@@ -27,6 +27,11 @@ NOT_FOUND = "publisher line 33: ModuleNotFoundError: No module named '%s'"
         (['topic_demo/__init__.py'], 'topic_demo.publishr', ''),
         (['topic_demo/__init__.py'], 'topic_demo', ''),
         (['topic_demo/publisher.py'], 'numpi', ''),
+        (
+            ['topic_demo/__init__.py', 'topic_demo/helper.py'],
+            'helper',
+            'it is a module of topic_demo: import topic_demo.helper',
+        ),
     ],
 )
 def test_why_a_module_is_not_found_is_told(

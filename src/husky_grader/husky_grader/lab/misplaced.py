@@ -1,6 +1,6 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A module of a student's package that its programs do not find: where it lies, or what lacks."""
+"""A module of a student's package that its programs do not find: where it is, or what lacks."""
 
 from pathlib import Path
 import re
@@ -19,11 +19,14 @@ def misplaced(error: str, workspace: Path) -> str:
     :param error: see `diagnosis.crash`.
     """
     missing = _MISSING.search(error)
-    package = missing and next(
-        (each for each in find_manifests(workspace) if each.name == missing[1]), None
-    )
-    if not (missing and package):
+    if missing is None:
         return ''
+    packages = find_manifests(workspace)
+    package = next((each for each in packages if each.name == missing[1]), None)
+    if package is None:
+        name = missing[1]
+        owner = next((p for p in packages if (p.folder / p.name / f'{name}.py').is_file()), None)
+        return f'it is a module of {owner.name}: import {owner.name}.{name}' if owner else ''
     modules = package.folder / package.name
     there = modules.relative_to(workspace).as_posix()
     if missing[2] and not (modules / (file := f'{missing[2]}.py')).exists():
