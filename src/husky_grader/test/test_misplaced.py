@@ -44,3 +44,15 @@ def test_why_a_module_is_not_found_is_told(
     told = misplaced(NOT_FOUND % name, tmp_path)
     assert told.startswith(why)
     assert bool(told) == bool(why)
+
+
+def test_a_module_in_utf_16_is_named(tmp_path: Path) -> None:
+    error = 'publisher line 33: SyntaxError: source code string cannot contain null bytes'
+    modules = tmp_path / 'src' / 'topic_demo' / 'topic_demo'
+    modules.mkdir(parents=True)
+    (modules.parent / 'package.xml').write_text(MANIFEST)
+    (modules / '__init__.py').write_text('')
+    assert misplaced(error, tmp_path) == ''
+    (modules / 'publisher.py').write_text('def main(): pass', encoding='utf-16')
+    told = 'src/topic_demo/topic_demo/publisher.py is saved as UTF-16 (Windows: Unicode), save it '
+    assert misplaced(error, tmp_path) == f'{told}as UTF-8'

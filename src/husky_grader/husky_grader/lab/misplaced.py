@@ -1,9 +1,12 @@
 # Copyright 2026 The Husky Playpen Lab authors
 # SPDX-License-Identifier: Apache-2.0
-"""A module of a student's package that its programs do not find: where it is, or what lacks."""
+"""A module of a student's package that its programs do not find, or that is no UTF-8: which."""
 
+import codecs
 from pathlib import Path
 import re
+
+from husky_course.files import first_bytes
 
 from husky_grader.lab.file_steps import find_manifests
 
@@ -11,17 +14,22 @@ _MISSING = re.compile(
     r"ModuleNotFoundError: No module named '([A-Za-z_]\w*)(?:\.([A-Za-z_]\w*))?'", re.ASCII
 )
 
+_NULL_BYTES = 'source code string cannot contain null bytes'
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
 
 def misplaced(error: str, workspace: Path) -> str:
     """
-    Return why a module that an error names was not installed; nothing where that is not known.
+    Return why a module that an error names was not loaded; nothing where that is not known.
 
     :param error: see `diagnosis.crash`.
     """
+    packages = find_manifests(workspace)
+    if _NULL_BYTES in error:  # Python does not say in which file
+        return next(filter(None, (_in_utf_16(each.folder, workspace) for each in packages)), '')
     missing = _MISSING.search(error)
     if missing is None:
         return ''
-    packages = find_manifests(workspace)
     package = next((each for each in packages if each.name == missing[1]), None)
     if package is None:
         name = missing[1]
@@ -34,4 +42,12 @@ def misplaced(error: str, workspace: Path) -> str:
         return f'{file} lies beside {there}, move it into that' if beside.is_file() else ''
     if modules.is_dir() and not (modules / '__init__.py').exists():
         return f'{there} has no __init__.py, so that its setup.py finds no package: make one'
+    return ''
+
+
+def _in_utf_16(folder: Path, workspace: Path) -> str:
+    for path in sorted(folder.rglob('*.py')):
+        if path.is_file() and first_bytes(path, 2) in _UTF_16:
+            name = path.relative_to(workspace).as_posix()
+            return f'{name} is saved as UTF-16 (Windows: Unicode), save it as UTF-8'
     return ''
