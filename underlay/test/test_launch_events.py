@@ -35,6 +35,7 @@ from launch.event_handlers import (
 from launch.events import matches_action
 from launch.events.process import matches_name, ShutdownProcess, SignalProcess
 from launch.substitutions import LaunchConfiguration
+import psutil
 import pytest
 
 LaunchFile = Callable[..., Path]
@@ -104,6 +105,21 @@ def test_cached_output_can_be_read_afterwards() -> None:
     assert (process.get_stdout(), process.get_stderr()) == ('out\n', 'err')
     with pytest.raises(RuntimeError, match='cached_output must be true to be able to get stdout'):
         ExecuteProcess(cmd=['true']).get_stdout()
+
+
+@pytest.mark.parametrize('emulate_tty', [False, True])
+def test_who_inherits_the_output_of_a_process_holds_nothing_up(emulate_tty: bool) -> None:
+    open_files: list[int] = []
+    for command in ('echo 0', 'sleep 30 & echo $!'):
+        process = ExecuteProcess(
+            cmd=['sh', '-c', command], cached_output=True, emulate_tty=emulate_tty
+        )
+        _run(process, ExecuteProcess(cmd=['/no/such/program'], emulate_tty=emulate_tty))
+        open_files.append(psutil.Process().num_fds())
+    grandchild = psutil.Process(int(process.get_stdout()))
+    assert grandchild.status() != psutil.STATUS_ZOMBIE
+    grandchild.kill()
+    assert open_files[0] == open_files[1]
 
 
 def test_on_shutdown_comes_with_the_reason() -> None:
@@ -305,6 +321,15 @@ def test_a_signal_for_a_process_that_has_not_started_is_an_error(
     assert _run(sleeper, EmitEvent(event=early)) == 1
     text = r"signal 'SIGUSR1' for process\[sleeper-\d+\] came before it was started"
     assert re.search(text, capsys.readouterr().out)
+
+
+def test_a_respawn_waits_for_its_delay() -> None:
+    begun_sec: list[float] = []
+    process = ExecuteProcess(cmd=['true'], respawn=True, respawn_delay=0.3, respawn_max_retries=1)
+    note = OpaqueFunction(function=lambda _: begun_sec.append(time.monotonic()))
+    _run(RegisterEventHandler(OnProcessStart(target_action=process, on_start=[note])), process)
+    first_sec, second_sec = begun_sec
+    assert second_sec - first_sec >= 0.3
 
 
 def test_functions_return_actions_and_coroutines_run_beside() -> None:

@@ -97,6 +97,7 @@ def test_what_is_printed_where_nobody_sees_it_is_told_of(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     _run(ExecuteProcess(cmd=['echo', 'hidden'], respawn=True, respawn_max_retries=1))
+    _run(ExecuteProcess(cmd=['sh', '-c', 'echo shown >&2'], name='echo'))
     shown = capsys.readouterr().out
     assert 'hidden' not in shown
     told = "what it prints goes to the log alone; output='screen' in the launch file shows it"
