@@ -268,7 +268,9 @@ def test_a_handler_that_handles_once_does() -> None:
     assert notes == ['the first of both']
 
 
-def test_shutdown_process_ends_the_matching_process_only() -> None:
+def test_shutdown_process_ends_the_matching_process_only(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     ended: list[str] = []
     sleepers = [ExecuteProcess(cmd=['sleep', '30'], name=name) for name in ('one', 'two')]
 
@@ -289,6 +291,11 @@ def test_shutdown_process_ends_the_matching_process_only() -> None:
     )
     assert ended == ['one', 'two']
     assert [sleeper.return_code for sleeper in sleepers] == [-signal.SIGINT] * 2
+    told = re.findall(
+        r'^\[\w+\] \[(\w+)-\d+\]: (sending|process has died)', capsys.readouterr().out, re.M
+    )
+    dies = 'process has died'
+    assert told == [(name, what) for name in ('one', 'two') for what in ('sending', dies)]
 
 
 def test_a_process_that_is_just_starting_is_ended_as_soon_as_it_runs() -> None:

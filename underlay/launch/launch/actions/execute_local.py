@@ -232,8 +232,8 @@ class ExecuteLocal(Action):
         run = self.__run
         if run is None or run.shutdown.done():
             return None
-        if run.child is None and not run.completed.done():
-            # It is just being started: end it as soon as it runs.
+        if run.child is None:
+            # It is just being started, or never will be: end it as soon as it runs.
             context.register_event_handler(
                 OnProcessStart(
                     target_action=self,
@@ -245,7 +245,7 @@ class ExecuteLocal(Action):
             )
             return None
         run.shutdown.set_result(None)
-        if run.child is None or run.child.complete.done():
+        if run.child.complete.done():
             return None
         run.timers = escalation_timers(
             self,
