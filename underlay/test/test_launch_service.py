@@ -47,6 +47,10 @@ def test_an_error_in_a_handler_ends_the_launch_with_status_1(
     assert f'{text}handler went wrong' in capsys.readouterr().out
 
 
+def _fail(_context: LaunchContext) -> None:
+    raise RuntimeError('no such robot')
+
+
 def _fail_at_the_end(event: Any, _context: LaunchContext | None = None) -> bool:
     if isinstance(event, ShutdownEvent):
         raise RuntimeError(f'cannot end: {event.reason}')
@@ -154,10 +158,7 @@ def test_a_second_interrupt_is_ignored(capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_an_error_starts_nothing_of_what_stands_before_it() -> None:
-    def fail(_: LaunchContext) -> None:
-        raise RuntimeError('no such robot')
-
-    assert _run(ExecuteProcess(cmd=['sleep', '31']), OpaqueFunction(function=fail)) == 1
+    assert _run(ExecuteProcess(cmd=['sleep', '31']), OpaqueFunction(function=_fail)) == 1
     children = psutil.Process().children()
     running = [each.cmdline() for each in children if each.status() != psutil.STATUS_ZOMBIE]
     assert ['sleep', '31'] not in running
@@ -191,12 +192,33 @@ def test_shutdown_event_emitted_before_running_is_processed() -> None:
 
 def test_a_service_can_run_again() -> None:
     service = LaunchService(noninteractive=True)
+    service.include_launch_description(LaunchDescription([OpaqueFunction(function=_fail)]))
+    assert service.run() == 1
     for code in (3, 4):
         process = ExecuteProcess(cmd=['sh', '-c', f'exit {code}'])
         service.include_launch_description(LaunchDescription([process]))
         assert service.run() == 0
         assert process.return_code == code
         assert service.context.is_shutdown
+        assert (service.event_loop, service.context.asyncio_loop) == (None, None)
+
+
+def test_an_idle_service_waits_for_what_another_thread_includes() -> None:
+    service = LaunchService(noninteractive=True)
+    process = ExecuteProcess(cmd=['sh', '-c', 'exit 5'])
+
+    async def run() -> int:
+        running = asyncio.create_task(service.run_async(shutdown_when_idle=False))
+        await asyncio.sleep(0.05)
+        included = LaunchDescription([process])
+        await asyncio.to_thread(service.include_launch_description, included)
+        while process.return_code is None and not running.done():
+            await asyncio.sleep(0.001)
+        service.shutdown(force_sync=True)
+        return await asyncio.wait_for(running, 10.0)
+
+    assert asyncio.run(run()) == 0
+    assert process.return_code == 5
 
 
 def test_a_service_that_debugs_also_debugs_its_loop() -> None:
