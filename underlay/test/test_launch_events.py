@@ -33,7 +33,13 @@ from launch.event_handlers import (
     OnShutdown,
 )
 from launch.events import matches_action
-from launch.events.process import matches_name, ShutdownProcess, SignalProcess
+from launch.events.process import (
+    matches_executable,
+    matches_name,
+    matches_pid,
+    ShutdownProcess,
+    SignalProcess,
+)
 from launch.substitutions import LaunchConfiguration
 import psutil
 import pytest
@@ -296,6 +302,23 @@ def test_shutdown_process_ends_the_matching_process_only(
     )
     dies = 'process has died'
     assert told == [(name, what) for name in ('one', 'two') for what in ('sending', dies)]
+
+
+def test_matchers_know_a_process_by_name_pid_and_executable() -> None:
+    process = ExecuteProcess(cmd=['/bin/true'], name='one')
+    matchers = [matches_name('one-1'), matches_pid(1), matches_executable('true')]
+    assert not any(matches(process) for matches in matchers)  # it has not been executed
+    _run(process)
+    details = process.process_details
+    assert details is not None
+    cases: list[tuple[Any, list[Any], list[Any]]] = [
+        (matches_name, [details['name']], ['one']),
+        (matches_pid, [details['pid']], [1]),
+        (matches_executable, ['true', 'in/true', '/bin/true'], ['tru', '/true/']),
+    ]
+    for matches, known, unknown in cases:
+        assert all(matches(each)(process) for each in known)
+        assert not any(matches(each)(process) for each in unknown)
 
 
 def test_a_process_that_is_just_starting_is_ended_as_soon_as_it_runs() -> None:

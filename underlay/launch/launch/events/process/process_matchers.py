@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -27,5 +26,5 @@ def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
 
 
 def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
-    """Return a predicate on the last part of the path of the executable."""
-    return _matcher(lambda details: Path(details['cmd'][0]).name == executable)
+    """Return a predicate on the end of the path of the executable, as ``ls`` or ``/bin/ls``."""
+    return _matcher(lambda details: bool(details['cmd'][0].endswith(executable)))
