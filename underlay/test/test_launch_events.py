@@ -75,8 +75,11 @@ def test_on_process_exit_follows_one_process_only() -> None:
                 target_action=second, on_exit=lambda event, _: codes.append(event.returncode)
             )
         ),
+        RegisterEventHandler(
+            OnProcessExit(target_action=second, on_exit=lambda *_: [None, _note(notes, 'last')])
+        ),
     )
-    assert notes == ['first is over']
+    assert notes == ['first is over', 'last']
     assert codes == [7]
     assert second.return_code == 7
 

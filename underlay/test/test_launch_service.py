@@ -113,7 +113,9 @@ def test_what_on_shutdown_starts_ends_with_sigterm() -> None:
     assert last.return_code == -signal.SIGINT
 
 
-def test_a_launch_waits_for_futures_that_it_is_given() -> None:
+def test_a_launch_waits_for_futures_that_it_is_given(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     notes: list[str] = []
 
     async def note(fails: bool) -> None:
@@ -128,6 +130,8 @@ def test_a_launch_waits_for_futures_that_it_is_given() -> None:
 
     assert [_run(OpaqueFunction(function=add, args=[fails])) for fails in (False, True)] == [0, 1]
     assert notes == ['over'] * 2
+    failed = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
+    assert f'{failed}the future went wrong' in capsys.readouterr().out
 
 
 def test_what_ends_after_the_shutdown_starts_nothing() -> None:
