@@ -40,7 +40,7 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
-from launch.substitutions import LaunchConfiguration
+from launch.substitutions import LaunchConfiguration, TextSubstitution
 import psutil
 import pytest
 
@@ -152,6 +152,18 @@ def test_on_execution_complete_follows_an_action() -> None:
         timer,
     )
     assert notes == ['complete']
+
+
+@pytest.mark.parametrize(
+    'period',
+    ['0.05', 0.05, LaunchConfiguration('p', default='0.05'), [TextSubstitution(text='0.05')]],
+)
+def test_a_timer_rings_after_its_period(period: Any) -> None:
+    rung_sec: list[float] = []
+    ring = OpaqueFunction(function=lambda _: rung_sec.append(time.monotonic()))
+    begin_sec = time.monotonic()
+    assert _run(TimerAction(period=period, actions=[ring])) == 0
+    assert [each - begin_sec >= 0.05 for each in rung_sec] == [True]
 
 
 def test_a_timer_can_be_cancelled() -> None:
