@@ -16,6 +16,7 @@ from typing import Any
 import warnings
 
 from .event import Event
+from .event_handler import BaseEventHandler
 from .event_handlers import OnIncludeLaunchDescription, OnShutdown
 from .events import IncludeLaunchDescription, Shutdown
 from .events.process import ShutdownProcess
@@ -226,16 +227,20 @@ class LaunchService:
         self.__logger.debug(f"processing event: '{event}'")
         first_error: Exception | None = None
         for handler in tuple(self.context._event_handlers):
-            self.context._push_locals()
             try:
                 if handler.matches(event):
-                    self.__visit(handler.handle(event, self.context))
+                    self.__handle(event, handler)
             except Exception as error:
                 first_error = first_error or error
-            finally:
-                self.context._pop_locals()
         if first_error is not None:
             raise first_error
+
+    def __handle(self, event: Event, handler: BaseEventHandler) -> None:
+        self.context._push_locals()
+        try:
+            self.__visit(handler.handle(event, self.context))
+        finally:
+            self.context._pop_locals()
 
     def __visit(self, entities: Any) -> None:
         if entities is None:
