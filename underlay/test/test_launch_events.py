@@ -177,6 +177,17 @@ def test_a_timer_can_be_cancelled() -> None:
     assert timer.is_canceled
 
 
+def test_a_timer_that_was_cancelled_or_has_rung_can_be_made_ready_again() -> None:
+    notes: list[str] = []
+    timer = TimerAction(period=0.01, actions=[_note(notes, 'rang')])
+    timer.cancel()
+    assert (_run(timer), notes) == (0, [])
+    for _ in range(2):
+        timer.reset()
+        assert _run(timer) == 0
+    assert notes == ['rang'] * 2
+
+
 def test_actions_of_a_timer_know_what_was_known_where_it_stands(
     launch_file: LaunchFile, python_launch_file: LaunchFile, run_launch: Run
 ) -> None:
