@@ -134,6 +134,19 @@ def test_a_launch_waits_for_futures_that_it_is_given(
     assert f'{failed}the future went wrong' in capsys.readouterr().out
 
 
+@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGQUIT])
+def test_a_signal_that_terminates_ends_what_runs_first(
+    number: signal.Signals, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sleeper = ExecuteProcess(cmd=['sleep', '30'])
+    terminate = OpaqueFunction(function=lambda _: signal.raise_signal(number))
+    on_start = OnProcessStart(target_action=sleeper, on_start=[terminate])
+    assert _run(RegisterEventHandler(on_start), sleeper) == 0
+    assert sleeper.return_code == -signal.SIGINT
+    told = f'[WARNING] [launch]: received {number.name}: shutting down launched system'
+    assert told in capsys.readouterr().out.splitlines()
+
+
 def test_what_ends_after_the_shutdown_starts_nothing() -> None:
     second = ExecuteProcess(cmd=['true'])
     first = ExecuteProcess(cmd=['sleep', '30'], on_exit=[second])
