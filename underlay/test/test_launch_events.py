@@ -188,6 +188,21 @@ def test_a_timer_that_was_cancelled_or_has_rung_can_be_made_ready_again() -> Non
     assert notes == ['rang'] * 2
 
 
+def test_a_timer_that_is_made_ready_while_it_runs_begins_anew() -> None:
+    times_sec: list[float] = []
+    note = OpaqueFunction(function=lambda _: times_sec.append(time.monotonic()))
+    timer = TimerAction(period=0.1, actions=[note])
+
+    def begin_anew(_: LaunchContext) -> list[Action]:
+        timer.reset()
+        return [note, timer]
+
+    late = OpaqueFunction(function=lambda _: time.sleep(0.15))  # so that both ring at once
+    _run(timer, TimerAction(period=0.05, actions=[OpaqueFunction(function=begin_anew)]), late)
+    begun_sec, rung_sec = times_sec
+    assert rung_sec - begun_sec >= 0.1
+
+
 def test_actions_of_a_timer_know_what_was_known_where_it_stands(
     launch_file: LaunchFile, python_launch_file: LaunchFile, run_launch: Run
 ) -> None:

@@ -50,6 +50,7 @@ class TimerAction(Action):
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self.__completed: asyncio.Future[None] | None = None
         self.__alarm: Alarm | None = None
+        self.__awaited: TimerEvent | None = None
         self.is_canceled = False
 
     @classmethod
@@ -106,7 +107,7 @@ class TimerAction(Action):
             return
         assert context.asyncio_loop is not None
         period = perform_typed_substitution(context, self.period, float)
-        event = TimerEvent(timer_action=self)
+        event = self.__awaited = TimerEvent(timer_action=self)
         self.__completed = context.asyncio_loop.create_future()
         self.__alarm = self._start_alarm(context, period, event)
         # Its actions see what they would see now: the launch file, the event that led here, the
@@ -116,7 +117,7 @@ class TimerAction(Action):
         restore = OpaqueFunction(function=lambda context: context.extend_locals(kept))
         context.register_event_handler(
             EventHandler(
-                matcher=lambda other: other is event,
+                matcher=lambda other: other is event is self.__awaited,  # not before a reset()
                 entities=[restore, OpaqueFunction(function=self.handle)],
                 handle_once=True,
             )
