@@ -76,7 +76,10 @@ def test_on_process_exit_follows_one_process_only() -> None:
             )
         ),
         RegisterEventHandler(
-            OnProcessExit(target_action=second, on_exit=lambda *_: [None, _note(notes, 'last')])
+            OnProcessExit(
+                target_action=lambda action: action is second,
+                on_exit=lambda *_: [None, _note(notes, 'last')],
+            )
         ),
     )
     assert notes == ['first is over', 'last']
@@ -88,6 +91,8 @@ def test_handlers_refuse_what_is_no_action_of_theirs() -> None:
     refused: Any = 'first'
     with pytest.raises(TypeError, match=r"requires an ExecuteLocal action .* got 'first'"):
         OnProcessExit(target_action=refused, on_exit=[])
+    with pytest.raises(TypeError, match='OnProcessExit: 5 is neither an action, a list of'):
+        OnProcessExit(on_exit=5)
     with pytest.raises(TypeError, match=r"requires an Action action .* got 'first'"):
         OnExecutionComplete(target_action=refused, on_completion=[])
 
