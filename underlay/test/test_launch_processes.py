@@ -81,6 +81,11 @@ def test_a_program_that_does_not_exist_is_one_line(
     assert 'Traceback' not in launched.output
 
 
+def test_a_command_that_is_a_text_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"it is a list of words, as \['echo', 'hi'\]"):
+        ExecuteProcess(cmd='echo hi')
+
+
 def test_output_log_shows_only_stderr_and_the_log_file_has_both(
     python_launch_file: LaunchFile, launch_here: Run, tmp_path: Path
 ) -> None:

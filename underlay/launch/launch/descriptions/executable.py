@@ -63,6 +63,8 @@ class Executable:
         additional_env: _Env | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
+        if isinstance(cmd, str):  # upstream takes each letter for a word
+            raise TypeError(f'cmd={cmd!r}: it is a list of words, as {cmd.split()}')
         self.cmd = [normalize_to_list_of_substitutions(part) for part in cmd]
         self.arguments = [normalize_to_list_of_substitutions(part) for part in arguments or ()]
         self.__prefix_filter: list[Substitution] = []
