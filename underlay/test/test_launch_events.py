@@ -99,18 +99,17 @@ def test_handlers_refuse_what_is_no_action_of_theirs() -> None:
 
 def test_on_process_io_sees_what_is_written() -> None:
     seen: list[tuple[str, bytes]] = []
+
+    def note(kind: str) -> Callable[[Any], None]:
+        return lambda event: seen.append((kind, event.text))
+
     process = ExecuteProcess(cmd=['sh', '-c', 'echo out; echo err >&2'])
-    _run(
-        process,
-        RegisterEventHandler(
-            OnProcessIO(
-                target_action=process,
-                on_stdout=lambda event: seen.append(('out', event.text)),
-                on_stderr=lambda event: seen.append(('err', event.text)),
-            )
-        ),
-    )
-    assert sorted(seen) == [('err', b'err\n'), ('out', b'out\n')]
+    handlers = [
+        OnProcessIO(target_action=process, on_stdout=note('out'), on_stderr=note('err')),
+        OnProcessIO(on_stderr=note('any')),
+    ]
+    assert _run(process, *(RegisterEventHandler(handler) for handler in handlers)) == 0
+    assert sorted(seen) == [('any', b'err\n'), ('err', b'err\n'), ('out', b'out\n')]
 
 
 def test_cached_output_can_be_read_afterwards() -> None:
