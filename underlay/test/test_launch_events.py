@@ -132,7 +132,7 @@ def test_who_inherits_the_output_of_a_process_holds_nothing_up(emulate_tty: bool
     grandchild = psutil.Process(int(process.get_stdout()))
     assert grandchild.status() != psutil.STATUS_ZOMBIE
     grandchild.kill()
-    assert open_files[0] == open_files[1]
+    assert open_files[1] <= open_files[0]
 
 
 def test_on_shutdown_comes_with_the_reason() -> None:
