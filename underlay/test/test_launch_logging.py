@@ -97,11 +97,11 @@ def test_what_is_printed_where_nobody_sees_it_is_told_of(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     _run(ExecuteProcess(cmd=['echo', 'hidden'], respawn=True, respawn_max_retries=1))
-    _run(ExecuteProcess(cmd=['sh', '-c', 'echo shown >&2'], name='echo'))
+    _run(ExecuteProcess(cmd=['sh', '-c', 'echo shown >&2']))
     shown = capsys.readouterr().out
     assert 'hidden' not in shown
     told = "what it prints goes to the log alone; output='screen' in the launch file shows it"
-    assert re.findall(r'^\[INFO\] \[echo-\d+\]: (.* shows it)$', shown, re.M) == [told]
+    assert re.findall(r'^\[INFO\] \[(\w+)-\d+\]: (.* shows it)$', shown, re.M) == [('echo', told)]
 
 
 def test_a_last_line_without_an_end_is_shown_by_itself(
