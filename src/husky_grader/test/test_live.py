@@ -60,6 +60,13 @@ while not publisher.get_subscription_count():
 for _ in range(22):
     publisher.publish(message)
     time.sleep(0.093)  # no whole number of control periods: at any moment of one
+def on_diagnostics(told):
+    (lost,) = [each.value for each in told.status[0].values if each.key == 'wall_time_lost_sec']
+    print('lost', lost, flush=True)
+    sys.exit()
+from diagnostic_msgs.msg import DiagnosticArray
+node.create_subscription(DiagnosticArray, '/diagnostics', on_diagnostics, 10)
+rclpy.spin(node)
 """
 )
 ANSWERS_LATE = (
@@ -169,7 +176,11 @@ def test_one_with_another_clock_drives_at_the_pace_of_the_clock(
     run = drive_in_jail(BY_SLEEPING, course, tmp_path / 'run')
     assert run.pace == Mode.OTHER_CLOCK.value.format(factor=1)
     x = run.record.column(0, 'x')
-    assert 0.8 < abs(x[-1] - x[0]) < 1.3, 'it should be half a metre a second for two seconds'
+    # What a busy machine holds the simulator up for is left out, and told; on a free one nothing.
+    log = (tmp_path / 'run' / 'controller.log').read_text()
+    lost_m = 0.5 * float(log.partition('lost ')[2].split()[0])
+    went_m = abs(x[-1] - x[0])
+    assert 0.8 - lost_m < went_m < 1.3, 'it should be half a metre a second for two seconds'
 
 
 def test_a_graded_controller_finds_what_a_robot_offers(course: str, tmp_path: Path) -> None:
