@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
+from ros2cli import discovery
 from ros2cli.errors import CommandError, UsageError
 from ros2cli.node.direct import command_node
 import rosbag2_py
@@ -41,6 +42,8 @@ def play(args: argparse.Namespace, *, burst: int | None = None) -> None:
     overrides = qos_overrides.read(args.qos_profile_overrides_path)
     with command_node(args, name='rosbag2_player') as node:
         node_options.set_log_level(node, args.log_level)
+        for line in _renaming_nothing(remaps, chosen):
+            node.node.get_logger().warning(line)
         requests = service_requests.players_of(node, args, chosen, remaps)
         topics = [topic for topic in chosen if topic.name not in requests]
         publishers = player.publishers_of(node, topics, remaps, overrides, are_all=not requests)
@@ -55,7 +58,8 @@ def play(args: argparse.Namespace, *, burst: int | None = None) -> None:
             node.node.get_logger().info(
                 f'Playing {len(players)} of {len(bag.topics_with_message_count)} topics in '
                 f"'{args.bag_path}', {bag.duration.nanoseconds * 1e-9:.1f} s long, at rate "
-                f'{args.rate:g}; Ctrl-C ends it{_KEYS if keyboard.is_there else ""}'
+                f'{args.rate:g}{_left_out(args, bag)}; Ctrl-C ends it'
+                f'{_KEYS if keyboard.is_there else ""}'
             )
             while True:
                 playback.wait(args.delay, keyboard.serve)
@@ -103,6 +107,24 @@ def _chosen(
     if known and not chosen:
         raise CommandError(f'No topic of the bag is chosen; it has {", ".join(known)}')
     return chosen
+
+
+def _left_out(args: argparse.Namespace, bag: rosbag2_py.BagMetadata) -> str:
+    """Return a clause where the start is behind all that the bag has."""
+    if not bag.message_count or args.start_offset * 1e9 <= bag.duration.nanoseconds:
+        return ''
+    return f', of which --start-offset {args.start_offset:g} leaves nothing'
+
+
+def _renaming_nothing(
+    remaps: dict[str, str], chosen: list[rosbag2_py.TopicMetadata]
+) -> Iterator[str]:
+    played = {names.expand(topic.name) for topic in chosen}
+    played |= {name.removesuffix(EVENTS) for name in played}
+    for old, new in remaps.items():
+        if old not in played:
+            hint = discovery.near(old, played)
+            yield f'--remap {old}:={new} renames nothing: no such topic is played{hint}'
 
 
 def _remaps(rules: list[str]) -> dict[str, str]:

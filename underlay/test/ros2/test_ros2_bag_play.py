@@ -111,6 +111,23 @@ def test_what_has_nothing_to_play_is_not_played_again_and_again(
     bag = write_bag({'/chatter': STRING}, count)
     played = ros2_here('bag', 'play', str(bag), '--loop', *words)
     assert (played.status, played.err.count('\n')) == (0, 1), played.err
+    told = (
+        f', at rate 1, of which --start-offset {float(words[1]):g} leaves nothing; '
+        if words
+        else ''
+    )
+    assert told in played.err
+
+
+def test_a_remapping_that_renames_nothing_is_told(
+    write_bag: Callable[..., Path], domain: int, ros2_here: Callable[..., Any]
+) -> None:
+    bag = write_bag({'/chatter': STRING, '/flip/_service_event': EVENT})
+    rules = ('chatter:=said', '/flip:=/flop', '/chater:=/said')
+    played = ros2_here('bag', 'play', str(bag), '--remap', *rules)
+    assert (played.status, played.err.count(' renames nothing')) == (0, 1), played
+    told = '--remap /chater:=/said renames nothing: no such topic is played; did you mean '
+    assert f"{told}'/chatter'?" in played.err
 
 
 def test_a_file_sets_the_quality_of_service(
