@@ -84,6 +84,10 @@ class Recorder:
         """Return the topics that were named, those of services as well, and are not there."""
         return sorted({*self._selection.topics, *self._selection.services} - self._seen)
 
+    @property
+    def has_subscribed(self) -> bool:
+        return bool(self._seen)
+
     def knows_new_topics(self) -> bool:
         """Return whether its node has come to know of topics that are wanted: a look for itself.
 

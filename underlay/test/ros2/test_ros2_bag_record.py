@@ -300,6 +300,11 @@ def test_a_topic_that_is_misspelt_is_told_from_one_to_come(processes: Any, tmp_p
     processes.ros2(*words, ready="Waiting for /chater, /later; did you mean '/chatter'?")
 
 
+def test_recording_says_that_nothing_is_chosen(processes: Any, tmp_path: Path) -> None:
+    words = ('bag', 'record', '-e', 'sensors/.*', '-o', str(tmp_path / 'bag'))
+    processes.ros2(*words, ready='Waiting: nothing that is there is chosen; `ros2 topic list`')
+
+
 def test_a_topic_that_has_only_subscriptions_is_told(processes: Any, tmp_path: Path) -> None:
     processes.node('listener', 'listener')
     words = ('bag', 'record', '-o', str(tmp_path / 'bag'), '--topics', CHATTER)

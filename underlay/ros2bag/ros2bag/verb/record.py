@@ -152,6 +152,8 @@ def _record(
         log.info(f'Nothing is written before a snapshot is asked for: {how}')
     if missing := recorder.missing():
         log.info(f'Waiting for {", ".join(missing)}{_hint(missing, graph)}')
+    elif not recorder.has_subscribed:
+        log.info('Waiting: nothing that is there is chosen; `ros2 topic list` shows what is')
     while True:
         node.spin_until(never, args.polling_interval * 1e-3)
         writer.flush()
