@@ -17,6 +17,7 @@ from ros2_diagnosis.finding import Finding
 
 _CLOCK = '/clock'
 _TRANSFORMS = '/tf'
+_PLAYER = 'rosbag2_player'
 COMMAND = 'a `ros2` command'
 SEND_GOAL = '/_action/send_goal'  # the service by which an action is known here
 # Topics of which one robot has one publisher: two would contradict each other.
@@ -129,7 +130,7 @@ def check_clock(graph: Graph) -> Iterator[Finding]:
             ', '.join(waiting),
             f'use_sim_time is true, but nobody publishes {_CLOCK}, so that its time stands still '
             'at 0 and its timers never fire',
-            f'start the simulator, or {_without_clock(waiting[0])}',
+            f'{_start_clock(graph)}, or {_without_clock(waiting[0])}',
         )
 
 
@@ -147,6 +148,12 @@ def check_wall_clock(graph: Graph) -> Iterator[Finding]:
             'start it with `--ros-args -p use_sim_time:=true`, or look up at `Time()`, the newest',
             serious=False,
         )
+
+
+def _start_clock(graph: Graph) -> str:
+    if any(node.name == _PLAYER for node in graph.nodes):
+        return 'play the bag with --clock'
+    return 'start the simulator'
 
 
 def _without_clock(name: str) -> str:

@@ -196,6 +196,8 @@ def test_a_command_that_waits_for_the_clock_is_told_its_option() -> None:
     (finding,) = nodes.check_clock(Graph([command], [clock]))
     assert str(finding).startswith('a `ros2` command: use_sim_time is true, but')
     assert str(finding).endswith('start the simulator, or leave out --use-sim-time')
+    (finding,) = nodes.check_clock(Graph([command, Node('rosbag2_player', '/', [])], [clock]))
+    assert str(finding).endswith('; play the bag with --clock, or leave out --use-sim-time')
 
 
 def test_transforms_without_the_time_of_the_simulation(
