@@ -28,6 +28,7 @@ from robot_state_publisher.urdf import Joint, read_joints, UrdfError
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _MOST_HZ = 1000.0
+_ALL_NAMED_WITHIN_NS = 5_000_000_000
 _FREQUENCY = f'publish_frequency must be between 0 and {_MOST_HZ:g}'
 
 
@@ -56,6 +57,7 @@ class RobotStatePublisher(Node):
         self._fixed: dict[str, TransformStamped] = {}
         self._published_ns: dict[str, int] = {}
         self._heard_ns = 0
+        self._begin_ns: int | None = None  # of the joint states of this robot
         self._told: set[str] = set()
         self._broadcaster = TransformBroadcaster(self)
         self._tf_static = self.create_publisher(TFMessage, '/tf_static', _LATCHED)
@@ -110,6 +112,7 @@ class RobotStatePublisher(Node):
         self._moving = {joint.name: joint for joint in joints if joint.moves}
         self._mimics = [joint for joint in joints if joint.mimic]
         self._told.clear()
+        self._begin_ns = None
         self._descriptions.publish(String(data=text))
         now = self.get_clock().now().to_msg()
         for joint in joints:
@@ -154,6 +157,7 @@ class RobotStatePublisher(Node):
         )
         stamp_ns = Time.from_msg(message.header.stamp).nanoseconds
         self._published_ns.update(dict.fromkeys(message.name, stamp_ns))
+        self._tell_of_missing(message.name)
 
     def _is_due(self, message: JointState) -> bool:
         """Tell whether the joint that was published longest ago was so a period before."""
@@ -161,6 +165,7 @@ class RobotStatePublisher(Node):
         if now_ns < self._heard_ns:
             self.get_logger().warning('time went back: all joints are published anew')
             self._published_ns.clear()
+            self._begin_ns = None
         self._heard_ns = now_ns
         if self.get_parameter('ignore_timestamp').value:
             return True
@@ -181,6 +186,25 @@ class RobotStatePublisher(Node):
             self._tell(
                 f"joint_states names '{names[0]}', which moves nothing here; the joints in "
                 f'robot_description that move: {known}'
+            )
+
+    def _tell_of_missing(self, names: Sequence[str]) -> None:
+        """Tell of joints that no message has named, for their links have no transform."""
+        if self._begin_ns is None:
+            self._begin_ns = self._heard_ns
+        if self._heard_ns - self._begin_ns < _ALL_NAMED_WITHIN_NS:
+            return  # each message may name some of them
+        links = {
+            name: joint.child
+            for name, joint in self._moving.items()
+            if name not in self._published_ns and not joint.mimic
+        }
+        if links:
+            unknown = [name for name in names if name not in self._moving]
+            odd = f'; {", ".join(unknown)}, which it names, moves nothing here' if unknown else ''
+            self._tell(
+                f'joint_states has not named {", ".join(links)}, so that there is no transform '
+                f'to {", ".join(links.values())}{odd}'
             )
 
     def _tell(self, what: str) -> None:

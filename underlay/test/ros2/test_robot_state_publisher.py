@@ -20,6 +20,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
+from robot_state_publisher import node
 from robot_state_publisher.node import RobotStatePublisher
 from robot_state_publisher.urdf import read_joints, UrdfError
 from rosgraph_msgs.msg import Clock
@@ -130,7 +131,7 @@ def test_links_are_where_the_joints_have_them(domain: int) -> None:
 def test_what_moves_no_link_is_told_once(domain: int) -> None:
     def heard(*texts: str) -> bool:
         arm.publish(elbow=1.0)
-        arm.publish(stamp_sec=0.0, turns=0.3)
+        arm.publish(stamp_sec=0.0, turns=0.3, slides=0.1)
         return all(text in logged() for text in texts)
 
     with standard_error() as logged, SpunNodes(domain) as nodes:
@@ -152,6 +153,29 @@ def test_what_moves_no_link_is_told_once(domain: int) -> None:
             what=lambda: f'the boom; it is at {arm.place("mast", "boom")}',
         )
         assert logged().count('[WARN]') == 2, logged()
+
+
+def test_a_joint_that_is_never_named_is_told_once(
+    domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def told() -> bool:
+        arm.publish(turns=0.3, slids=0.1)
+        return '[WARN]' in logged()
+
+    monkeypatch.setattr(node, '_ALL_NAMED_WITHIN_NS', 10**18)
+    with standard_error() as logged, SpunNodes(domain) as nodes:
+        arm = Arm(nodes, robot_description=ARM.replace('HEIGHT', '1'), ignore_timestamp=True)
+        at = [1.0, 0.0, 0.0, *turned(2, 0.5 * math.pi + 0.3)]
+        arm.until(at, 'mast', 'boom', turns=0.3, slids=0.1)
+        assert not told()
+        monkeypatch.setattr(node, '_ALL_NAMED_WITHIN_NS', 0)
+        wait_until(told, timeout_sec=10.0, what='words about the joint that slides')
+        arm.until(at, 'mast', 'boom', turns=0.3, slids=0.1)
+        assert logged().count('[WARN]') == 1, logged()
+        assert (
+            'joint_states has not named slides, so that there is no transform to hand; slids, '
+            'which it names, moves nothing here\n'
+        ) in logged()
 
 
 def test_what_no_joint_can_have_ends_nothing(domain: int) -> None:
