@@ -15,7 +15,14 @@ from ros2cli.node.direct import command_node, CommandNode
 from rtps_graph.graph import Graph, Role
 
 from ros2_doctor_checks.headers import check_frame_names, Headers, publishers_of
-from ros2_doctor_checks.transforms import check_senders, FIXED, Heard, seconds, TRANSFORMS
+from ros2_doctor_checks.transforms import (
+    check_roots,
+    check_senders,
+    FIXED,
+    Heard,
+    seconds,
+    TRANSFORMS,
+)
 
 _CLOCK = '/clock'
 _KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -43,6 +50,7 @@ def check_frames(graph: Graph) -> Iterator[Finding]:
     yield from check_senders(
         heard, moving=publishers_of(graph, TRANSFORMS), fixed=publishers_of(graph, FIXED)
     )
+    yield from check_roots(heard)
     yield from check_frame_names(graph, headers, heard.frames())
     # Where nodes wait for a clock, that is told, and all follows from it.
     waits = not has_clock and bool(graph.with_role(Role.SUBSCRIPTION, _CLOCK))

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+import difflib
 import itertools
 from typing import Any
 
 from ros2_diagnosis.finding import Finding
 
 TRANSFORMS, FIXED = '/tf', '/tf_static'
+_ALIKE = 0.8  # of difflib: base_lnk and base_link are, base_footprint and base_link are not
 _APART_SEC = 60.0  # no transform is sent so late, or so far ahead
 _BEGINNING_SEC = 1.0  # of a simulation, in which a stamp of 0 may be right
 
@@ -92,6 +94,37 @@ def check_senders(heard: Heard, moving: str, fixed: str) -> Iterator[Finding]:
                 'is taken',
                 f'let one node alone publish it, below one parent; on {FIXED} publish {fixed}',
             )
+
+
+def check_roots(heard: Heard) -> Iterator[Finding]:
+    """Find trees whose root is named nearly as a frame of another tree: it was to hang there."""
+    parents = {child: set(above) for child, above in heard.fixed.items()}
+    for child, links in heard.links.items():
+        parents.setdefault(child, set()).update(parent for parent, _ in links)
+    for root in sorted(set().union(*parents.values()) - parents.keys()):
+        own = _below(root, parents)
+        others = [each for each in parents if each not in own and _is_beside(each, root)]
+        if near := difflib.get_close_matches(root, others, n=1, cutoff=_ALIKE):
+            children = [child for child, above in parents.items() if root in above]
+            yield Finding(
+                f'frame {root}',
+                f'is a tree of its own, with {_shown(children)} below it, while another tree has '
+                f'{near[0]}, so that lookups between the two fail',
+                f'name the parent {near[0]}, or publish where {root} is',
+                serious=False,
+            )
+
+
+def _below(root: str, parents: dict[str, set[str]]) -> set[str]:
+    found = {root}
+    while new := {child for child, above in parents.items() if above & found} - found:
+        found |= new
+    return found
+
+
+def _is_beside(frame: str, root: str) -> bool:
+    """Tell whether two frames have one prefix: robots that differ by it have alike trees."""
+    return frame.rpartition('/')[0] == root.rpartition('/')[0]
 
 
 def _why_it_jumps(heard: Heard, child: str, parents: list[str]) -> str:

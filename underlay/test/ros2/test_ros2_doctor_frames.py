@@ -80,6 +80,14 @@ def test_a_frame_that_several_nodes_send(processes: Any, ros2_here: Callable[...
         'node alone publish it, below one parent; on /tf publish /first, /second'
     )
     assert told() == [jumps, f'{both}/first, /second', below]
+    frames = ('--frame-id', 'base_lnk', '--child-frame-id', 'camera')
+    processes.start(
+        *(sys.executable, '-m', 'tf2_ros.static_transform_publisher', *frames), ready='Spinning'
+    )
+    assert told()[-1].startswith(
+        'note (frames): frame base_lnk: is a tree of its own, with camera below it, while another '
+        'tree has base_link, so that lookups between the two fail'
+    )
 
 
 @pytest.mark.parametrize(
@@ -101,3 +109,21 @@ def test_numbers_of_messages_tell_of_several_publishers(numbers: list[int], seve
     assert bool([*transforms.check_senders(heard, '/a, /b', '')]) == several
     heard.places['base_link'] = {'here'}  # two say the same of a robot that stands
     assert not [*transforms.check_senders(heard, '/a, /b', '')]
+
+
+def test_a_tree_that_was_to_hang_in_another_is_told() -> None:
+    robots = {
+        f'{robot}/{child}': [(f'{robot}/{parent}', 1.0)]
+        for robot in ('a', 'b')
+        for child, parent in (('base_link', 'odom'), ('base_link2', 'base_link'))
+    }
+    heard = transforms.Heard(links=robots, fixed={'a/lamp': {'a/base_link'}})
+    assert not [*transforms.check_roots(heard)]
+    heard.fixed |= {'a/camera': {'a/base_lnk'}, 'a/lens': {'a/camera'}, 'a/plan': {'a/map'}}
+    (found,) = transforms.check_roots(heard)
+    assert not found.serious
+    assert str(found) == (
+        'frame a/base_lnk: is a tree of its own, with a/camera below it, while another tree has '
+        'a/base_link, so that lookups between the two fail; name the parent a/base_link, or '
+        'publish where a/base_lnk is'
+    )
