@@ -16,6 +16,7 @@ from rtps_graph.graph import Graph, Role
 
 from ros2_doctor_checks.headers import check_frame_names, Headers, publishers_of
 from ros2_doctor_checks.transforms import (
+    check_refused,
     check_roots,
     check_senders,
     FIXED,
@@ -47,9 +48,9 @@ def check_frames(graph: Graph) -> Iterator[Finding]:
             has_clock=has_clock,
             awaited=TRANSFORMS if publishers else FIXED if of_fixed else None,
         )
-    yield from check_senders(
-        heard, moving=publishers_of(graph, TRANSFORMS), fixed=publishers_of(graph, FIXED)
-    )
+    moving, fixed = (publishers_of(graph, topic) for topic in (TRANSFORMS, FIXED))
+    yield from check_refused(heard, ', '.join(filter(None, (moving, fixed))))
+    yield from check_senders(heard, moving, fixed)
     yield from check_roots(heard)
     yield from check_frame_names(graph, headers, heard.frames())
     # Where nodes wait for a clock, that is told, and all follows from it.

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 import difflib
 import itertools
+import math
 from typing import Any
 
 from ros2_diagnosis.finding import Finding
@@ -26,6 +27,7 @@ class Heard:
     :param links: the parent and the stamp of each transform on /tf, by its child.
     :param numbers: those that the publishers of these messages have given them, by the child.
     :param places: where each child was.
+    :param refused: why listeners ignore a child, as far as they do.
     :param fixed: the parents of each frame of /tf_static.
     """
 
@@ -33,23 +35,36 @@ class Heard:
     links: dict[str, list[tuple[str, float]]] = field(default_factory=dict)
     numbers: dict[str, list[int]] = field(default_factory=dict)
     places: dict[str, set[str]] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
     fixed: dict[str, set[str]] = field(default_factory=dict)
 
     def on_clock(self, msg: Any) -> None:
         self.times.append(seconds(msg.clock))
 
     def on_transforms(self, msg: Any, info: Any) -> None:
-        for each in msg.transforms:
-            child = each.child_frame_id
-            link = each.header.frame_id, seconds(each.header.stamp)
-            self.links.setdefault(child, []).append(link)
+        accepted = self._accepted(msg)
+        for child, parent, each in accepted:
+            self.links.setdefault(child, []).append((parent, seconds(each.header.stamp)))
             self.places.setdefault(child, set()).add(str(each.transform))
-        for child in {each.child_frame_id for each in msg.transforms}:
+        for child in {child for child, _, _ in accepted}:
             self.numbers.setdefault(child, []).append(info['publication_sequence_number'])
 
     def on_fixed(self, msg: Any) -> None:
+        for child, parent, _ in self._accepted(msg):
+            self.fixed.setdefault(child, set()).add(parent)
+
+    def _accepted(self, msg: Any) -> list[tuple[str, str, Any]]:
+        """Return child, parent and all of each transform that tf2 takes; a first / counts not."""
+        found = []
         for each in msg.transforms:
-            self.fixed.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
+            child, parent = (
+                name.removeprefix('/') for name in (each.child_frame_id, each.header.frame_id)
+            )
+            if why := _why_refused(child, parent, each.transform):
+                self.refused[child] = why
+            else:
+                found.append((child, parent, each))
+        return found
 
     def is_timely(self, stamp: float) -> bool:
         first, last = min(self.times), max(self.times)
@@ -94,6 +109,29 @@ def check_senders(heard: Heard, moving: str, fixed: str) -> Iterator[Finding]:
                 'is taken',
                 f'let one node alone publish it, below one parent; on {FIXED} publish {fixed}',
             )
+
+
+def check_refused(heard: Heard, publishing: str) -> Iterator[Finding]:
+    """Find transforms that tf2 takes from nobody: only the listeners' terminals tell."""
+    for child, why in sorted(heard.refused.items()):
+        yield Finding(
+            f'frame {child}' if child else TRANSFORMS,
+            f'every listener ignores it, because {why}',
+            f'mend what its node fills in; publishing are {publishing}',
+        )
+
+
+def _why_refused(child: str, parent: str, transform: Any) -> str:
+    """Say why `tf2::BufferCore::setTransform` refuses a transform, '' where it does not."""
+    if not child or not parent:
+        return f'its {"header.frame_id" if child else "child_frame_id"} is empty'
+    if child == parent:
+        return 'it is below itself'
+    to, turn = transform.translation, transform.rotation
+    length = math.hypot(turn.x, turn.y, turn.z, turn.w)
+    if math.isnan(to.x + to.y + to.z + length):
+        return 'it has a NaN'
+    return '' if length else 'its rotation is all 0, and w of no rotation 1'
 
 
 def check_roots(heard: Heard) -> Iterator[Finding]:

@@ -256,6 +256,15 @@ def mover(node: Node) -> None:
     node.create_timer(0.05, publish)
 
 
+def torn(node: Node) -> None:
+    """Send a frame that no listener takes."""
+    arm = TransformStamped(child_frame_id='arm')
+    arm.header.frame_id = 'base_link'
+    arm.transform.translation.z = float('nan')
+    publisher = node.create_publisher(TFMessage, '/tf', 10)
+    node.create_timer(0.05, lambda: publisher.publish(TFMessage(transforms=[arm])))
+
+
 def fixer(node: Node) -> None:
     """Send base_link on /tf_static, below a frame that is named as the node."""
     base = TransformStamped(child_frame_id='base_link')

@@ -5,12 +5,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import math
 import re
 import sys
 from typing import Any
 
+from geometry_msgs.msg import TransformStamped
 import pytest
 from ros2_doctor_checks import transforms
+from tf2_msgs.msg import TFMessage
+from tf2_py import BufferCore
 
 
 def test_frames_of_another_time_and_a_simulator_that_is_paused(
@@ -84,7 +88,13 @@ def test_a_frame_that_several_nodes_send(processes: Any, ros2_here: Callable[...
     processes.start(
         *(sys.executable, '-m', 'tf2_ros.static_transform_publisher', *frames), ready='Spinning'
     )
-    assert told()[-1].startswith(
+    processes.node('torn', 'arm')
+    first, *_, last = told()
+    assert first.startswith(
+        'problem (frames): frame arm: every listener ignores it, because it has a NaN; mend what '
+        'its node fills in; publishing are /arm, /first, /second, /map, '
+    )
+    assert last.startswith(
         'note (frames): frame base_lnk: is a tree of its own, with camera below it, while another '
         'tree has base_link, so that lookups between the two fail'
     )
@@ -109,6 +119,39 @@ def test_numbers_of_messages_tell_of_several_publishers(numbers: list[int], seve
     assert bool([*transforms.check_senders(heard, '/a, /b', '')]) == several
     heard.places['base_link'] = {'here'}  # two say the same of a robot that stands
     assert not [*transforms.check_senders(heard, '/a, /b', '')]
+
+
+@pytest.mark.parametrize(
+    ('child', 'parent', 'values', 'why'),
+    [
+        ('', 'odom', {}, 'its child_frame_id is empty'),
+        ('base_link', '', {}, 'its header.frame_id is empty'),
+        ('/odom', 'odom', {}, 'it is below itself'),
+        ('base_link', 'odom', {'x': math.nan}, 'it has a NaN'),
+        ('base_link', 'odom', {'w': math.nan}, 'it has a NaN'),
+        ('base_link', 'odom', {'w': 0.0}, 'its rotation is all 0, and w of no rotation 1'),
+        ('base_link', 'odom', {'w': 0.5}, ''),  # of another length it is the same rotation
+        ('/base_link', '/odom', {}, ''),
+    ],
+)
+def test_what_no_listener_takes_is_told(
+    child: str, parent: str, values: dict[str, float], why: str
+) -> None:
+    sent = TransformStamped(child_frame_id=child)
+    sent.header.frame_id = parent
+    sent.transform.translation.x = values.get('x', 0.0)
+    sent.transform.rotation.w = values.get('w', 1.0)
+    heard = transforms.Heard()
+    heard.on_transforms(TFMessage(transforms=[sent]), {'publication_sequence_number': 1})
+    heard.on_fixed(TFMessage(transforms=[sent]))
+    told = [str(each) for each in transforms.check_refused(heard, '/a')]
+    assert len(told) == bool(why)
+    assert heard.frames() == (set() if why else {'base_link', 'odom'})
+    buffer = BufferCore()
+    buffer.set_transform(sent, '/a')
+    assert (buffer.all_frames_as_yaml() == '[]') == bool(why), 'tf2 says so, too'
+    if why:
+        assert f': every listener ignores it, because {why}' in told[0]
 
 
 def test_a_tree_that_was_to_hang_in_another_is_told() -> None:
