@@ -198,6 +198,19 @@ def test_a_module_that_hides_one_of_python_is_told(folder: Path, module: str) ->
     assert subprocess.run(command, cwd=folder, capture_output=True).returncode != 0  # it is true
 
 
+@pytest.mark.filterwarnings('ignore::DeprecationWarning')  # of pyparsing 3.3, by catkin_pkg
+def test_a_package_of_both_ros_is_of_the_one_that_is_here(folder: Path) -> None:
+    one, two = (
+        f'<build_type condition="$ROS_VERSION == {version}">{kind}</build_type>'
+        for version, kind in ((1, 'catkin'), (2, 'ament_python'))
+    )
+    replace(folder / 'package.xml', BUILD_TYPE, f'<export>{one}{two}</export>')
+    assert package_files.why_refused(folder) == []
+    replace(folder / 'package.xml', two, two.replace('ament_python', 'ament_cmake'))
+    (folder / 'setup.py').unlink()  # of which a build by CMake knows nothing
+    assert package_files.why_refused(folder) == []
+
+
 def test_a_missing_setup_file_is_told(folder: Path) -> None:
     (folder / 'setup.py').unlink()
     assert package_files.why_refused(folder) == [

@@ -171,7 +171,7 @@ def _check_text(path: Path, absent: str) -> str:
         data = path.read_bytes()
     except OSError as error:
         raise _RefusedError(f'{path.name}: {absent or error.strerror}') from None
-    if data.startswith((b'\xff\xfe', b'\xfe\xff')) or b'\0' in data:
+    if b'\0' in data:
         raise _RefusedError(f'{path.name} is saved as UTF-16 (Windows: Unicode): save it as UTF-8')
     conflict = re.search(rb'^<{7} ', data, re.MULTILINE)
     if conflict is not None:
