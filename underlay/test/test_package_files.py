@@ -109,6 +109,26 @@ def test_what_is_not_certain_colcon_shall_try(folder: Path, old: str, new: str) 
     assert package_files.why_refused(folder) == []
 
 
+def test_programs_elsewhere_and_folders_that_are_packages_are_not_complained_of(
+    folder: Path,
+) -> None:
+    below = folder / 'talk' / 'below'
+    below.mkdir()
+    (below / '__init__.py').write_text('def main():\n    pass\n')
+    names = "'hello = talk.hello:main', 'tool = json.tool:main', 'below = talk.below:main'"
+    replace(folder / 'setup.py', "'hello = talk.hello:main'", names)
+    assert [*setup_py.broken_programs(folder, 'talk')] == []
+    assert setup_py.left_out(folder, 'talk') == {}
+    # Which asks for no __init__.py.
+    text = (folder / 'setup.py').read_text()
+    (folder / 'setup.py').write_text(text.replace('find_packages', 'find_namespace_packages'))
+    (folder / 'talk' / '__init__.py').unlink()
+    (below / '__init__.py').rename(below / 'program.py')
+    replace(folder / 'setup.py', 'talk.below:', 'talk.below.program:')
+    assert [*setup_py.broken_programs(folder, 'talk')] == []
+    assert setup_py.left_out(folder, 'talk') == {}
+
+
 @pytest.mark.parametrize('name', ['package.xml', 'setup.cfg', 'setup.py'])
 @pytest.mark.parametrize(
     ('encoding', 'reason'),
