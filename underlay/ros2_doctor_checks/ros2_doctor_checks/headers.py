@@ -16,6 +16,13 @@ from ros2cli.node.direct import CommandNode
 from rtps_graph.graph import Graph, Role
 
 _HEADER = 'std_msgs/Header'
+# What says where something is: without a frame it says nothing.
+_OF_PLACES = {
+    *(f'sensor_msgs/msg/{name}' for name in ('LaserScan', 'PointCloud2', 'Range')),
+    *(f'nav_msgs/msg/{name}' for name in ('Odometry', 'OccupancyGrid', 'Path')),
+    *(f'geometry_msgs/msg/{name}Stamped' for name in ('Point', 'Pose', 'PoseWithCovariance')),
+    'visualization_msgs/msg/Marker',
+}
 
 
 class Headers:
@@ -49,10 +56,18 @@ class Headers:
 
 
 def check_frame_names(graph: Graph, headers: Headers, known: set[str]) -> Iterator[Finding]:
-    """Find frames of messages that no transform has, where one that has is named alike."""
+    """Find messages of no frame, or of one without a transform, where another is named alike."""
     for topic, header in sorted(headers.first.items()):
         frame = header.frame_id
-        if frame and frame not in known and (near := nearest.names(frame, known)):
+        if not frame and _OF_PLACES.intersection(graph.topics()[topic]):
+            yield Finding(
+                topic,
+                f'{publishers_of(graph, topic)} leaves header.frame_id empty, so that nobody can '
+                'say where that is',
+                'set it to the frame that it is told in',
+                serious=False,
+            )
+        elif frame and frame not in known and (near := nearest.names(frame, known)):
             yield Finding(
                 topic,
                 f"{publishers_of(graph, topic)} names the frame '{frame}', of which there is no "

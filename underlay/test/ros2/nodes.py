@@ -256,6 +256,19 @@ def mover(node: Node) -> None:
     node.create_timer(0.05, publish)
 
 
+def lost_laser(node: Node) -> None:
+    """Send scans of no frame, and read them."""
+    publisher = node.create_publisher(LaserScan, 'scan', 10)
+    node.create_subscription(LaserScan, 'scan', lambda _: None, 10)
+
+    def publish() -> None:
+        scan = LaserScan()
+        scan.header.stamp = node.get_clock().now().to_msg()
+        publisher.publish(scan)
+
+    node.create_timer(0.05, publish)
+
+
 def torn(node: Node) -> None:
     """Send a frame that no listener takes."""
     arm = TransformStamped(child_frame_id='arm')
