@@ -15,7 +15,9 @@ from typing import Any
 from playpen_testing.processes import find_line
 from playpen_testing.waiting import wait_until
 import pytest
-from ros2_diagnosis import nodes
+from ros2_diagnosis import command_lines, nodes, ros_arguments
+from ros2_diagnosis.command_lines import CommandLine
+from ros2_doctor_checks import parameters
 from ros2doctor import api
 from rtps_graph.graph import Endpoint, Graph, Node, Qos, Role
 
@@ -129,6 +131,27 @@ def test_words_that_stand_behind_no_ros_args(
         f'problem (parameters): nodes.py rate:=5.0: {why}; write `--ros-args -p rate:=5.0` for a '
         f'parameter, `--ros-args -r rate:=5.0` for another name; {in_launch}',
     ], answer
+
+
+def test_words_behind_no_ros_args_are_told_of_students_programs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    node = Node('hello', '/', [])
+
+    def told(file: str, *, students: bool) -> list[str]:
+        line = CommandLine(
+            file=Path(file), folder=Path(), words=('-p', 'rate:=5.0'), nodes=(node,)
+        )
+        monkeypatch.setattr(ros_arguments, 'is_of_a_student', lambda _: students)
+        monkeypatch.setattr(command_lines, 'with_nodes_in', lambda _: [line])
+        return [str(each) for each in parameters.check_parameters(Graph([node], []))]
+
+    (of_package,) = told('/install/mine/lib/mine/hello', students=True)
+    assert 'write `ros2 run mine hello --ros-args -p rate:=5.0`' in of_package
+    (of_file,) = told('/home/me/hello.py', students=False)
+    assert 'write `hello.py --ros-args -p rate:=5.0`' in of_file
+    assert not told('/install/husky_sim/lib/husky_sim/husky_sim', students=False)
+    assert not told('/usr/bin/hello', students=True)
 
 
 def test_options_that_set_and_rename_nothing(
@@ -361,10 +384,12 @@ def test_a_node_that_waits_in_a_callback_is_named(
     processes: Any, ros2_here: Callable[..., Any]
 ) -> None:
     processes.node('talker', 'talker')
-    processes.node('waiting', 'waiter')
+    processes.node('waiting', 'waiter', '--ros-args', '-p', 'speed:=1.0')
     words = ('service', 'call', '/flip', 'std_srvs/srv/SetBool')
     call = processes.ros2(*words)
-    line = ros2_here('doctor').of_check('answers')
+    answer = ros2_here('doctor')
+    assert ' (parameters): ' not in answer.out, 'it may have that parameter'
+    line = answer.of_check('answers')
     assert '/waiter: answers nothing: it does not spin, or one of its callbacks' in line
     assert 'talker' not in line
     find_line(call.stdout, "hint: '/flip' gave no answer within 5 s; its node is busy or stopped")
