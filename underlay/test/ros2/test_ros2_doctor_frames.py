@@ -165,7 +165,7 @@ def test_a_tree_that_was_to_hang_in_another_is_told() -> None:
     robots = {
         f'{robot}/{child}': [(f'{robot}/{parent}', 1.0)]
         for robot in ('a', 'b')
-        for child, parent in (('base_link', 'odom'), ('base_link2', 'base_link'))
+        for child, parent in (('base_link', 'odom'), ('odom2', 'base_link'))
     }
     heard = transforms.Heard(links=robots, fixed={'a/lamp': {'a/base_link'}})
     assert not [*transforms.check_roots(heard)]
