@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-import functools
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, ExitStack
+from functools import partial
 import math
 import sys
 import time
@@ -13,7 +14,6 @@ from typing import Any
 
 from rcl_interfaces.srv import ListParameters
 import rclpy
-from rclpy.client import Client
 from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.task import Future
 from rtps_graph.names import full_node_name
@@ -66,22 +66,23 @@ def call_all(
 ) -> dict[str, Any]:
     """Call services side by side; return for each name its response, or what `call` raises.
 
-    Where an answer may be lost, see `be_found`, what only asks is sent once more; what does more
-    is sent once, when its server has found the client.
+    Where an answer may be lost, see `found`, what only asks is sent once more; what does more is
+    sent once, when its server has found the client.
 
     :param took_sec: is given how long each answer took that came.
     """
     node = getattr(node, 'node', node)
     clients = {name: node.create_client(service_class, name) for name in requests}
-    asked: list[Client] = []
-    try:
+    with ExitStack() as closing:
+        for client in clients.values():
+            closing.callback(node.destroy_client, client)
         _spin_until(
             node, lambda: all(each.service_is_ready() for each in clients.values()), TIMEOUT_SEC
         )
         ready = {name: each for name, each in clients.items() if each.service_is_ready()}
         if not only_asks:
             services = [client.service_name for client in ready.values()]
-            asked += be_found(node, services, functools.partial(_spin_until, node))
+            closing.enter_context(found(node, services, partial(_spin_until, node)))
         futures = {name: each.call_async(requests[name]) for name, each in ready.items()}
         begin = time.monotonic()
         took_sec = {} if took_sec is None else took_sec
@@ -105,14 +106,12 @@ def call_all(
         gone = {name for name in waiting if not clients[name].service_is_ready()}
         in_vain |= {name: no_server(name) for name in gone}
         return {name: _outcome(name, futures.get(name), in_vain.get(name)) for name in requests}
-    finally:
-        for client in (*clients.values(), *asked):
-            node.destroy_client(client)
 
 
-def be_found(
+@contextmanager
+def found(
     node: Node, services: Iterable[str], spin_until: Callable[[Callable[[], bool], float], Any]
-) -> Iterable[Client]:
+) -> Iterator[None]:
     """Wait until the servers of services have found the clients that `node` has made.
 
     On a busy machine a client may have found a server that has not found it. rmw_fastrtps gives
@@ -120,10 +119,10 @@ def be_found(
     what was called is done. DDS announces endpoints in the order in which they were made, so that
     a node which answers a client of now has found the older ones, too. Its parameters are asked
     for: that changes nothing. Who answers nothing, or has no parameters, is not waited for longer
-    than 1 s.
+    than 1 s; what is still asked then is taken at the end, for a server that finds a client gone
+    waits 100 ms, too, and warns.
 
     :param spin_until: spins `node` until a condition holds or a time in s is over.
-    :returns: clients that a busy server may answer still: one that finds them gone would warn.
     """
     end = time.monotonic() + SOON_SEC
     known: dict[str, set[str]] = {}
@@ -139,12 +138,26 @@ def be_found(
     def have_answered() -> bool:
         return all(any(each.done() for each in futures) for futures in asked.values())
 
-    spin_until(lambda: all(each.service_is_ready() for each in clients), end - time.monotonic())
-    while not have_answered() and time.monotonic() < end:
-        for client, futures in asked.items():
-            futures.append(client.call_async(ListParameters.Request()))
-        spin_until(have_answered, _ASK_AGAIN_SEC)
-    return clients
+    def is_nothing_left() -> bool:
+        """Tell whether the last request is answered, which is when the others are, or lost."""
+        return all(
+            not futures or futures[-1].done() or not client.service_is_ready()
+            for client, futures in asked.items()
+        )
+
+    try:
+        spin_until(
+            lambda: all(each.service_is_ready() for each in clients), end - time.monotonic()
+        )
+        while not have_answered() and time.monotonic() < end:
+            for client, futures in asked.items():
+                futures.append(client.call_async(ListParameters.Request()))
+            spin_until(have_answered, _ASK_AGAIN_SEC)
+        yield
+        spin_until(is_nothing_left, SOON_SEC)
+    finally:
+        for client in clients:
+            node.destroy_client(client)
 
 
 def _parameter_services(node: Node, services: Iterable[str]) -> dict[str, set[str]]:

@@ -76,17 +76,17 @@ def _send(node: CommandNode, client: ActionClient, goal: Any, args: argparse.Nam
     action = topics.checked_name(args.action_name)
     if not _is_offered(node, client, f'{action}{SEND_GOAL}', args.timeout):
         raise CommandError(f"No action server for '{args.action_name}' within {args.timeout:g} s")
-    node.be_found(f'{action}{SEND_GOAL}')
-    print(f'Sending goal:\n     {message_to_yaml(goal)}')
-    sending = client.send_goal_async(goal, _print_feedback if args.feedback else None)
-    try:
-        done = _follow(node, client, sending, args)
-    except KeyboardInterrupt:
-        _cancel(node, sending)
-        raise
-    if not done:
-        _cancel(node, sending)
-        raise CommandError(f'No result within {args.timeout:g} s: the goal was canceled')
+    with node.found(f'{action}{SEND_GOAL}'):
+        print(f'Sending goal:\n     {message_to_yaml(goal)}')
+        sending = client.send_goal_async(goal, _print_feedback if args.feedback else None)
+        try:
+            done = _follow(node, client, sending, args)
+        except KeyboardInterrupt:
+            _cancel(node, sending)
+            raise
+        if not done:
+            _cancel(node, sending)
+            raise CommandError(f'No result within {args.timeout:g} s: the goal was canceled')
 
 
 def _is_offered(

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 import math
 import os
 import signal
@@ -98,9 +98,9 @@ class CommandNode:
             self.spin_once(min(0.02, left_sec))
         return True
 
-    def be_found(self, service: str) -> None:
-        """Wait until the server of a service has found its client here: see `calls.be_found`."""
-        calls.be_found(self.node, [service], self.spin_until)
+    def found(self, service: str) -> AbstractContextManager[None]:
+        """Call a service in the context of this, when its server has found the client here."""
+        return calls.found(self.node, [service], self.spin_until)
 
     def spin_until_answered(
         self,

@@ -60,16 +60,18 @@ class CallVerb(VerbExtension):
                 print('waiting for service to become available...')
                 discovery.hint_when_not_offered(client.service_name)
                 node.spin_until(client.service_is_ready)
-            node.be_found(client.service_name)
-            while True:
-                print(f'requester: making request: {request!r}\n')
-                start = time.monotonic()
-                future = client.call_async(request)
-                node.spin_until_answered(future, client.service_name, client.service_is_ready)
-                if future.exception() is not None:
-                    raise CommandError(f'Exception while calling service: {future.exception()!r}')
-                print(f'response:\n{future.result()!r}\n')
-                if args.rate is None:
-                    return
-                left = start + 1.0 / args.rate - time.monotonic()
-                node.spin_until(lambda: False, max(left, 0.0))
+            with node.found(client.service_name):
+                while True:
+                    print(f'requester: making request: {request!r}\n')
+                    start = time.monotonic()
+                    future = client.call_async(request)
+                    node.spin_until_answered(future, client.service_name, client.service_is_ready)
+                    if future.exception() is not None:
+                        raise CommandError(
+                            f'Exception while calling service: {future.exception()!r}'
+                        )
+                    print(f'response:\n{future.result()!r}\n')
+                    if args.rate is None:
+                        return
+                    left = start + 1.0 / args.rate - time.monotonic()
+                    node.spin_until(lambda: False, max(left, 0.0))
