@@ -27,7 +27,7 @@ from ros2_doctor_checks.transforms import (
 
 _CLOCK = '/clock'
 _KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_FIRST_SEC, _LISTEN_SEC = 2.0, 1.0
+_FIRST_SEC, _LISTEN_SEC = 5.0, 1.0  # DDS repeats after 3 s what got lost of a new subscription
 _SHOWN = 3
 
 
@@ -46,7 +46,8 @@ def check_frames(graph: Graph) -> Iterator[Finding]:
             node,
             headers,
             has_clock=has_clock,
-            awaited=TRANSFORMS if publishers else FIXED if of_fixed else None,
+            has_moving=bool(publishers),
+            has_fixed=bool(of_fixed),
         )
     moving, fixed = (publishers_of(graph, topic) for topic in (TRANSFORMS, FIXED))
     yield from check_refused(heard, ', '.join(filter(None, (moving, fixed))))
@@ -61,8 +62,10 @@ def check_frames(graph: Graph) -> Iterator[Finding]:
         yield from _headers_of_another_time(graph, headers, heard, clock)
 
 
-def _listen(node: CommandNode, headers: Headers, *, has_clock: bool, awaited: str | None) -> Heard:
-    """Listen for a while, which begins with what is awaited."""
+def _listen(
+    node: CommandNode, headers: Headers, *, has_clock: bool, has_moving: bool, has_fixed: bool
+) -> Heard:
+    """Listen for a while, which begins when something has come of all that somebody publishes."""
     heard = Heard()
     kind = interfaces.message('tf2_msgs/msg/TFMessage')
     if has_clock:
@@ -73,11 +76,13 @@ def _listen(node: CommandNode, headers: Headers, *, has_clock: bool, awaited: st
         heard.times.append(time.time())
     node.node.create_subscription(kind, TRANSFORMS, heard.on_transforms, qos_profile_sensor_data)
     node.node.create_subscription(kind, FIXED, heard.on_fixed, _KEPT)
-    if awaited is None:
+
+    def has_come() -> bool:
+        return bool(heard.links or not has_moving) and bool(heard.fixed or not has_fixed)
+
+    if not has_moving and not has_fixed:
         node.spin_until(lambda: headers.are_here, _LISTEN_SEC)
-    elif node.spin_until(
-        lambda: bool(heard.links if awaited == TRANSFORMS else heard.fixed), _FIRST_SEC
-    ):
+    elif node.spin_until(has_come, _FIRST_SEC):
         node.spin_until(lambda: False, _LISTEN_SEC)
     return heard
 

@@ -20,7 +20,7 @@ from rtps_graph import host, names
 from rtps_graph.graph import Graph, Node, Role
 
 _KEPT = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_LISTEN_SEC = 1.0
+_FIRST_SEC, _LISTEN_SEC = 5.0, 1.0  # DDS repeats after 3 s what got lost of a new subscription
 _LOG = '/rosout'  # of which nobody misses what was said before
 _BEGIN = 19  # in ticks since the machine started: `starttime` of proc(5), counted from the state
 
@@ -69,6 +69,7 @@ def _volatile(graph: Graph, topic: str) -> list[Node]:
 def _newest(node: CommandNode, types: dict[str, str]) -> dict[str, float]:
     """Map topics to when the newest of their messages was sent, as far as there is one."""
     sent: dict[str, float] = {}
+    awaited: set[str] = set()
 
     def listen(topic: str, kind: Any) -> None:
         def on_message(_: Any, info: Any) -> None:
@@ -81,7 +82,9 @@ def _newest(node: CommandNode, types: dict[str, str]) -> dict[str, float]:
             listen(topic, interfaces.message(type_name))
         except CommandError:
             continue  # of a workspace that is not sourced here
-    node.spin_until(lambda: False, _LISTEN_SEC)
+        awaited.add(topic)
+    if node.spin_until(lambda: awaited <= sent.keys(), _FIRST_SEC):
+        node.spin_until(lambda: False, _LISTEN_SEC)  # there may be newer ones
     return sent
 
 
