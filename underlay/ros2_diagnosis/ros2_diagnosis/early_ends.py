@@ -12,10 +12,10 @@ from ros2_diagnosis import packages, setup_py
 
 _COMMENT = re.compile(r'#.*')
 _WAITS = re.compile(r'\.create_(subscription|timer|service)\(|\bActionServer\(')
-# What serves callbacks, and what may go on without. Each program of the lab sheet has
-# `rclpy.executors` among its imports.
 _PUBLISHES, _CALLS = re.compile(r'\.publish\('), re.compile(r'\.call_async\(')
 _LETS_OTHERS_FIND_IT = re.compile(r'sleep|wait|get_subscription_count|count_subscribers|input\(')
+# What serves callbacks, and what may go on without. Each program of the lab sheet has
+# `rclpy.executors` among its imports.
 _GOES_ON = re.compile(r'spin|Executor\b|\bexecutor\b|\bwhile\b|wait_for_message')
 
 
